@@ -60,6 +60,8 @@ def check_bytes(mpi, one_process):
             ((8, 7, 6), ["--periodic", "all", "--max-dim", "3"]),
             ((24, 20, 16), ["--max-dim", "0", "--construction", "cells", "--superlevel"]),
             ((40, 30), ["--periodic", "0"]), ((40, 30), ["--construction", "cells", "--periodic", "all"]),
+            ((8, 7, 6, 5), ["--max-dim", "0", "--periodic", "1"]),
+            ((8, 7, 6, 5), ["--min-dim", "3", "--construction", "cells"]),
             ((5, 60), ["--threshold", "30"])):
         volume(mpi.folder / "image.npy", extents)
         expected = one_process("image.npy", *options)

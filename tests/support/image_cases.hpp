@@ -2,6 +2,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "ph/parts/image_part.hpp"
@@ -15,6 +18,29 @@ struct ImageCase {
   ImagePartOptions options;
   int layers;  ///< so many parts there may be
 };
+
+/// The axes of an image that parts know: an axis of one voxel is one of the T-construction's, if it
+/// has ends.
+struct KeptAxes {
+  int count = 0, layers = 0;
+  int copies = 0;       ///< axes of one voxel that close up: each has a copy of every bar
+  bool closes = false;  ///< whether one of those that are kept closes up
+};
+inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOptions& options) {
+  KeptAxes kept;
+  for (std::size_t k = 0; k < extents.size(); ++k) {
+    const bool closes = k < options.periodic.size() && options.periodic[k];
+    if (extents[k] == 1 &&
+        (closes || options.construction == CubicalOptions::Construction::vertices)) {
+      kept.copies += closes ? 1 : 0;
+      continue;
+    }
+    if (kept.count++ == 0) kept.layers = static_cast<int>(extents[k]);
+    kept.closes = kept.closes || closes;
+  }
+  return kept;
+}
+
 /// Ties, holes, infinities, axes of one voxel or that close up, thresholds; both constructions.
 inline ImageCase random_image_case(Generator& random) {
   const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
@@ -28,21 +54,85 @@ inline ImageCase random_image_case(Generator& random) {
   if (random.coin()) cubical.periodic[extents[0] == 1 ? 1 : 0] = true;
   result.image = random.image(extents, random.coin());
   if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
-  // An axis of one voxel is one of the T-construction's, if it has ends.
-  int kept = 0;
-  for (std::size_t k = 0; k < extents.size(); ++k) {
-    const bool is_kept =
-        extents[k] > 1 ||
-        (cubical.construction == CubicalOptions::Construction::cells && !cubical.periodic[k]);
-    if (is_kept && kept++ == 0) result.layers = static_cast<int>(extents[k]);
-  }
-  if (kept == 3) {
+  const KeptAxes kept = kept_axes(extents, cubical);
+  if (kept.count > 0) result.layers = kept.layers;
+  if (kept.count == 3) {
     if (random.coin())
       result.options.max_dim = 0;
     else
       result.options.min_dim = 2;
   }
   return result;
+}
+
+/// The same of four axes or five, also with voxels that are absent. Bars are the pieces, or those
+/// of the highest dimension but one: high voxels among low ones have these.
+inline ImageCase random_case_of_many_axes(Generator& random) {
+  const int axes = random.integer(0, 3) == 0 ? 5 : 4, most = axes == 4 ? 4 : 3;
+  const bool has_hollows = random.coin();
+  ImageCase result{{}, {}, 0};
+  std::vector<Index> extents;
+  for (int k = 0; k < axes; ++k) extents.push_back(random.integer(has_hollows ? 3 : 1, most));
+  if (random.coin()) extents[0] = random.integer(has_hollows ? 3 : 2, 6);
+  CubicalOptions& cubical = result.options.cubical;
+  cubical = random.cubical_options(axes);
+  if (has_hollows || random.coin()) cubical.periodic.assign(extents.size(), false);
+  if (random.integer(0, 3) == 0) cubical.periodic[0] = true;
+  if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
+  result.image = random.image(extents, random.integer(0, 3) > 0);
+  if (has_hollows) {
+    std::vector<double> values;
+    while (values.size() < result.image.values.size()) values.push_back(random.integer(0, 1));
+    for (int spikes = random.integer(1, 4); spikes > 0; --spikes) {
+      std::size_t inside = 0;
+      for (const Index n : extents)
+        inside = inside * static_cast<std::size_t>(n) +
+                 static_cast<std::size_t>(n < 3 ? 0 : random.integer(1, static_cast<int>(n) - 2));
+      values[inside] = random.integer(2, 5);
+    }
+    if (cubical.superlevel)
+      for (double& v : values) v = -v;
+    result.image.values = std::move(values);
+  }
+  if (random.integer(0, 3) == 0) {
+    result.image.masked = true;
+    std::vector<double> values = result.image.values.doubles();
+    for (double& v : values)
+      if (random.integer(0, 19) == 0) v = std::numeric_limits<double>::quiet_NaN();
+    result.image.values = std::move(values);
+  }
+  const KeptAxes kept = kept_axes(extents, cubical);
+  result.layers = kept.layers;
+  if (kept.count < 3) return result;
+  if (kept.closes || !has_hollows)
+    result.options.max_dim = 0;
+  else
+    result.options.min_dim = kept.count - 1 + kept.copies;
+  return result;
+}
+
+inline std::vector<ImagePart> parts_of(const Image& image, int count,
+                                       const ImagePartOptions& options,
+                                       const RunContext& context = default_context()) {
+  std::vector<ImagePart> parts;
+  for (int i = 0; i < count; ++i) parts.emplace_back(image, i, count, options, context);
+  return parts;
+}
+
+/// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
+/// comes back.
+inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
+  while (parts.size() > 1) {
+    const auto i = static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 2));
+    if (random.integer(0, 2) == 0) {
+      const auto bytes = parts[i].bytes();
+      parts[i] = ImagePart::of_bytes(bytes);
+      EXPECT_EQ(parts[i].bytes(), bytes);
+    }
+    parts[i].join(std::move(parts[i + 1]));
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+  return std::move(parts[0]);
 }
 
 /// Whether a volume has bars of dimension 1, or what needs them, among all that are wanted.

@@ -15,7 +15,7 @@
 namespace ph::cubical {
 
 bool can_pair_voxels(const CubicalImage& grid) {
-  return GridFrame::can_hold(grid) || can_pair_cells(grid);
+  return StarGrid::can_hold(grid) || can_pair_cells(grid);
 }
 
 namespace {
@@ -32,17 +32,17 @@ bool may_be_cut(const GridFrame& frame) {
 
 double bytes_to_pair_voxels(const CubicalImage& grid) {
   const double of_voxels = kBytesOfVoxel * static_cast<double>(grid.size());
-  return GridFrame::can_hold(grid) ? of_voxels : of_voxels + bytes_of_cells(grid);
+  return StarGrid::can_hold(grid) ? of_voxels : of_voxels + bytes_of_cells(grid);
 }
 
 double least_bytes_to_pair_voxels(const CubicalImage& grid) {
-  if (!GridFrame::can_hold(grid)) return bytes_to_pair_voxels(grid);
+  if (!StarGrid::can_hold(grid)) return bytes_to_pair_voxels(grid);
   const GridFrame frame(grid);
   return may_be_cut(frame) ? kBytesOfVoxel * frame.layer_size() : bytes_to_pair_voxels(grid);
 }
 
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted) {
-  if (!GridFrame::can_hold(grid)) return false;
+  if (!StarGrid::can_hold(grid)) return false;
   const GridFrame frame(grid);
   return may_be_cut(frame) && !wants_loops(frame.shape(), wanted);
 }
@@ -138,7 +138,7 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& w
         const std::lock_guard lock(mutex);
         bars.expect(count);
       }};
-  if (!GridFrame::can_hold(voxels)) {
+  if (!StarGrid::can_hold(voxels)) {
     pair_cells(voxels, field, wanted.max_dim, wanted.cells, context, bars);
     return;
   }

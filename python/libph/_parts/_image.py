@@ -136,7 +136,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     Parameters
     ----------
     image : array_like
-        As of `cubical`, of 2 or 3 axes.
+        As of `cubical`, of 2 axes or more.
     part : int
         Which one, from 0 on.
     parts : int
@@ -145,7 +145,8 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
         As of `cubical`. All parts need the same.
     max_dim, min_dim : int, optional
         As of `cubical`. Volumes have ``max_dim=0``, or, if no axis closes up, ``min_dim=2``, unless
-        `loops` is true: loops need all layers at once.
+        `loops` is true: loops need all layers at once. Images of more axes have ``max_dim=0`` or
+        ``min_dim=d - 1``, where d is the number of their axes.
     cells : bool
         Whether bars know the cells of their birth and death.
     loops : bool

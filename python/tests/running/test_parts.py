@@ -45,8 +45,20 @@ def test_volumes_and_other_arrays():
     assert ph.join_parts(parts_of(holes, 4, **drop)).barcode() == ph.cubical(holes, **drop)
     with pytest.raises(ph.UsageError, match="dimension 0 alone, or 2 alone"):
         ph.image_part(VOLUME, 0, 2)
-    with pytest.raises(ph.UsageError, match="two or three"):
-        ph.image_part(np.zeros((2, 2, 2, 2)), 0, 2)
+    with pytest.raises(ph.UsageError, match="two or more"):
+        ph.image_part(np.zeros(2), 0, 1)
+
+
+def test_more_axes():
+    image = np.random.default_rng(4).integers(0, 4, (5, 3, 4, 3))
+    for construction in ("vertices", "cells"):
+        for options in ({"max_dim": 0}, {"min_dim": 3}, {"max_dim": 0, "periodic": (0, 2)}):
+            options = {**options, "construction": construction}
+            whole = ph.cubical(image, **options)
+            for count in (1, 3, 5):
+                assert ph.join_parts(parts_of(image, count, **options)).barcode() == whole
+    with pytest.raises(ph.UsageError, match="dimension 0 alone, or 3 alone"):
+        ph.image_part(image, 0, 2)
 
 
 def test_any_grouping():

@@ -55,9 +55,9 @@ class Parts(ProgramTest):
     def test_the_same_bytes_as_one_process(self):
         rng = random.Random(1)
         bars = 0
-        for trial in range(25):
-            dim = rng.choice((2, 2, 3))
-            shape = tuple(rng.randint(2, 7) for _ in range(dim))
+        for trial in range(36):
+            dim = rng.choice((2, 2, 3, 4))
+            shape = tuple(rng.randint(2, 7 if dim < 4 else 4) for _ in range(dim))
             image = self.image(rng, "image.npy", shape)
             options = ["--construction", rng.choice(("vertices", "cells"))]
             if rng.random() < 0.3:
@@ -66,9 +66,10 @@ class Parts(ProgramTest):
                 options += ["--periodic", rng.choice(("0", "all", str(dim - 1)))]
             if rng.random() < 0.3:
                 options += ["--threshold", "2"]
-            if dim == 3:
+            if dim > 2:
                 is_closed = "--periodic" in options
-                options += ["--max-dim", "0"] if is_closed or rng.random() < 0.5 else ["--min-dim", "2"]
+                pieces = is_closed or rng.random() < 0.5
+                options += ["--max-dim", "0"] if pieces else ["--min-dim", str(dim - 1)]
             whole = self.expect(0, image, "--quiet", *options).stdout
             bars += whole.count("\n") - 1
             joined = self.join(rng, self.parts(image, rng.randint(1, shape[0]), *options))
@@ -179,11 +180,13 @@ class Parts(ProgramTest):
         rng = random.Random(7)
         image = self.image(rng, "image.npy", (6, 5))
         volume = self.image(rng, "volume.npy", (6, 5, 4))
+        series = self.image(rng, "series.npy", (3, 3, 2, 2))
         p = self.parts(image, 2)
         for arguments, word in (
                 ((image, "--part", "0/2"), "from 1 to 2"), ((image, "--part", "3/2"), "from 1 to 2"),
                 ((image, "--part", "2"), "1/8"), ((image, "--part", "1/7"), "expected 1 to 6"),
-                ((volume, "--part", "1/2"), "dimension 0 alone, or 2 alone"), ((image, "--resume"), "--part"),
+                ((volume, "--part", "1/2"), "dimension 0 alone, or 2 alone"),
+                ((series, "--part", "1/2"), "dimension 0 alone, or 3 alone"), ((image, "--resume"), "--part"),
                 ((image, "--keep-cells"), "--part"), ((image, "--part", "1/2", "--join"), "beside"),
                 (("square.txt", "--part", "1/2"), "expected an image"),
                 ((image, "--part", "1/2", "--field", "3"), "--field"),

@@ -19,29 +19,6 @@
 namespace ph::test {
 namespace {
 
-/// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
-/// comes back.
-ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
-  while (parts.size() > 1) {
-    const auto i = static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 2));
-    if (random.integer(0, 2) == 0) {
-      const auto bytes = parts[i].bytes();
-      parts[i] = ImagePart::of_bytes(bytes);
-      EXPECT_EQ(parts[i].bytes(), bytes);
-    }
-    parts[i].join(std::move(parts[i + 1]));
-    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-  }
-  return std::move(parts[0]);
-}
-
-std::vector<ImagePart> parts_of(const Image& image, int count, const ImagePartOptions& options,
-                                const RunContext& context = default_context()) {
-  std::vector<ImagePart> parts;
-  for (int i = 0; i < count; ++i) parts.emplace_back(image, i, count, options, context);
-  return parts;
-}
-
 TEST(ImagePart, AgreesWithTheOracleCellByCell) {
   std::size_t bars = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2000)); ++seed) {
@@ -149,9 +126,10 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   refused(image, 0, 0, "found 0, expected 1 to 4");
   refused(image, 3, 3, "found number 4 of 3");
   refused(image, -1, 3, "found number 0 of 3");
-  refused(random.image({7}, false), 0, 1, "expected two or three");
-  refused(random.image({2, 2, 2, 2}, false), 0, 1, "expected two or three");
+  refused(random.image({7}, false), 0, 1, "expected two or more");
+  refused(random.image({2, 2, 2, 2, 2, 2, 2, 2, 2}, false), 0, 1, "found 9 axes");
   refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");
+  refused(random.image({2, 2, 2, 2}, false), 0, 1, "from 1 to 2 wanted");
 }
 
 TEST(ImagePart, RefusesDamagedBytes) {

@@ -19,7 +19,8 @@ struct ImagePartOptions {
   int min_dim = 0;
   std::optional<int> max_dim = std::nullopt;  ///< default: all
   bool cells = true;                          ///< else bars have none
-  /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them.
+  /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them. Of more
+  /// than three axes it does not.
   bool loops = false;
   /// The first layer of each part, ascending from 0 on; default: parts of about equal size.
   std::vector<Index> first_layers = {};
@@ -46,9 +47,10 @@ struct ImagePartForecast {
 /// any processes on any machines, and joined in any grouping: the bars are those of the whole
 /// image. See docs/explanation/engines/slabs.md.
 ///
-/// Images of two and three axes that have more than one voxel, of any size; a part has fewer than
-/// about 2^31 voxels. Of three axes bars of dimension 1 need all layers: they are refused unless
-/// option `loops` says that ImageLoops will find them.
+/// Images of two to eight axes that have more than one voxel, of any size; a part has fewer than
+/// about 2^31 voxels. Of d axes, three or more, bars of dimensions 1 to d - 2 need all layers, and
+/// where an axis closes up also those above: they are refused, unless it is a volume and option
+/// `loops` says that ImageLoops will find them. Max_dim 0 and min_dim d - 1 can be had.
 class ImagePart {
  public:
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis, or those

@@ -30,6 +30,15 @@ void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<G
                  });
 }
 
+/// Calls `use(voxel, node, number)` for the roots in stars, in the order of the grid.
+template <class Graph, class Use>
+void for_each_root(const StarGrid& grid, const Graph& graph, Ticker& ticker, Use&& use) {
+  for (const std::uint32_t v : grid.critical()) {
+    ticker.work();
+    graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) { use(v, node, number); });
+  }
+}
+
 /// The trees that the arrows of a graph make, by the numbers of their roots: first what has always
 /// been there, which has no cell, then critical cells in the order of the grid.
 template <class Graph>
@@ -45,13 +54,11 @@ class Basins {
     for (const int part : {0, 1}) forest_.set_root(graph.outside(part), outer_count_++);
     if (graph.has_outer_nodes()) join_outer_nodes();
     Ticker ticker(context, "roots");
-    for (const std::uint32_t v : grid.critical()) {
-      ticker.work();
-      graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
-        forest_.set_root(node, outer_count_ + static_cast<std::uint32_t>(roots_.size()));
-        roots_.push_back({v, number});
-      });
-    }
+    for_each_root(
+        grid, graph, ticker, [&](std::uint32_t v, std::uint32_t node, std::uint32_t number) {
+          forest_.set_root(node, outer_count_ + static_cast<std::uint32_t>(roots_.size()));
+          roots_.push_back({v, number});
+        });
   }
 
   /// How many have always been there.

@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "cubical/graphs/top_nodes.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 
-/// The cells of the highest dimension (two or three), numbered by their corner that comes first,
-/// and what has always been there: the outside, in two parts where one axis alone has ends, and
-/// cells that never enter. Roots are critical top cells, bridges critical facets, but for edges
-/// that are marked: they are in pairs with voxels. The same as the graph of voxels for the image
-/// turned around.
-class TopGraph {
+/// The graph of top cells of two or three axes. Roots are critical top cells, bridges critical
+/// facets, but for edges that are marked: they are in pairs with voxels. The same as the graph of
+/// voxels for the image turned around.
+class TopGraph : public TopNodes<StarGrid, 3> {
  public:
-  static constexpr bool kBackwards = true;
+  using TopNodes::TopNodes;
 
-  explicit TopGraph(const StarGrid& grid);
-
-  std::size_t size() const { return std::size_t{count_} + 2; }
-  std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
   Direction root_direction(std::uint32_t n) const { return has_cubes() ? kCubes[n] : kSquares[n]; }
   Direction bridge_direction(std::uint32_t n) const {
     return has_cubes() ? kSquares[n] : kEdges[n];
@@ -36,23 +30,13 @@ class TopGraph {
   /// but for some at the border.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
-  /// Whether anything but the outside has always been there.
-  bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
-  /// it.
-  template <class Use>
-  void for_each_outer_node(std::uint32_t v, Use&& use) const;
   /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
-  /// As in VoxelGraph: the top cells between the ghost layer and the one beside it.
-  std::array<std::uint32_t, 2> seam(bool after) const;
-  std::optional<double> seam_value(std::uint32_t node) const;
+  /// As in VoxelNodes.
   bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
   /// What a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
-  /// The top cell in a direction from a voxel.
-  std::uint32_t node(std::uint32_t v, const Direction& d) const;
   /// The star that a top cell is in; one of no direction if it is in none.
   StarCell cell(std::uint32_t node) const;
   /// The axis along which a top cell is left; nothing if it is critical.
@@ -80,20 +64,10 @@ class TopGraph {
   /// Whether a top cell at a coordinate, that of its first voxel, and those beside it along the
   /// axis lie between voxels that follow each other.
   bool is_inner(int axis, std::uint32_t low) const {
-    const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
-    return low >= first && low < n && n - low > 2 - border_[axis] && !grid_.is_wrapped(axis, low) &&
+    const std::uint32_t n = grid_.extent(axis), border = border_[static_cast<std::size_t>(axis)];
+    return low >= 1 - border && low < n && n - low > 2 - border && !grid_.is_wrapped(axis, low) &&
            !grid_.is_wrapped(axis, low + 1);
   }
-  /// Whether a node is a cell: behind the last voxels of an axis that has ends there is none.
-  bool is_cell(std::uint32_t node) const;
-  /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
-  template <class Use>
-  void for_each_corner(std::uint32_t node, Use&& use) const;
-  std::uint32_t outside_beyond(const Direction& d) const;
-  const StarGrid& grid_;
-  std::array<std::uint32_t, 3> extent_{}, stride_{}, border_{};
-  std::array<Divisor, 3> by_extent_;
-  std::uint32_t count_ = 1;
 };
 
 // A voxel tells the cells around it whose star they are in where their arrows lead, in one word:
@@ -161,20 +135,6 @@ std::uint32_t TopGraph::arrow_word(unsigned cells, ExitOf&& exit_of) const {
     word |= 1U << (3 * u + static_cast<unsigned>(exit_of(n)));
   }
   return word;
-}
-
-template <class Use>
-void TopGraph::for_each_outer_node(std::uint32_t v, Use&& use) const {
-  for (const Direction& d : kCubes) {
-    Direction inside = d;
-    bool is_first = true;  // of those that differ along axes that are not there
-    for (int a = 0; a < 3; ++a)
-      if (!grid_.has_axis(a)) {
-        is_first = is_first && d[a] < 0;
-        inside[a] = 0;
-      }
-    if (is_first) use(node(v, inside));
-  }
 }
 
 template <class Use>

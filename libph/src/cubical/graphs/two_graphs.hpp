@@ -11,11 +11,11 @@ namespace ph::cubical {
 inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
-/// Whether bars of three axes are wanted that come from neither graph.
+/// Whether bars of three axes or more are wanted that come from neither graph.
 inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
   // Around periodic axes classes of all dimensions may live for ever.
-  return grid.top_dim() == 3 && wanted.max_dim > 0 &&
-         (lowest_dim(grid, wanted) <= 1 || grid.any_periodic());
+  return grid.top_dim() >= 3 && wanted.max_dim > 0 &&
+         (lowest_dim(grid, wanted) <= grid.top_dim() - 2 || grid.any_periodic());
 }
 /// Whether bars are wanted that come from the graph that knows H0: of all others than three axes
 /// any bars.

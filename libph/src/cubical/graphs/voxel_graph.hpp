@@ -2,23 +2,18 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
 
+#include "cubical/graphs/voxel_nodes.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 
-/// Voxels, and what has always been there: the outside, in two parts where one axis alone has ends,
-/// and voxels that never enter if what never enters is no cell. Roots are voxels without an older
+/// The graph of voxels in the stars of up to three axes: roots are voxels without an older
 /// neighbour, bridges critical edges.
-class VoxelGraph {
+class VoxelGraph : public VoxelNodes<StarGrid> {
  public:
-  static constexpr bool kBackwards = false;
+  using VoxelNodes::VoxelNodes;
 
-  explicit VoxelGraph(const StarGrid& grid) : grid_(grid) {}
-
-  std::size_t size() const { return std::size_t{grid_.size()} + 2; }
-  std::uint32_t outside(int part) const { return grid_.size() + static_cast<std::uint32_t>(part); }
   Direction root_direction(std::uint32_t) const { return {}; }
   Direction bridge_direction(std::uint32_t number) const { return kEdges[number]; }
 
@@ -44,38 +39,11 @@ class VoxelGraph {
           use(v, v + offset[StarTables::edges(star)]);
     }
   }
-  /// Whether anything but the outside has always been there.
-  bool has_outer_nodes() const { return grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for what has always been there and hangs together because a voxel never
-  /// enters.
-  template <class Use>
-  void for_each_outer_node(std::uint32_t v, Use&& use) const {
-    use(v);
-    for (int e = 0; e < kEdgeCount; ++e) {
-      const int axis = axis_of_edge(e);
-      if (!grid_.has_axis(axis)) continue;
-      const std::uint32_t u = or_outside(grid_.step(v, axis, kEdges[e][axis]), e);
-      if (u >= grid_.size() || !grid_.enters(u)) use(u);
-    }
-  }
   /// Calls `use(node, number)` for the roots in the star of a voxel that enters.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const {
     if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
   }
-  /// The nodes that a slab shares with the one before it or after it: those of the ghost layer
-  /// and of the one beside it. @return the first one, and how many.
-  std::array<std::uint32_t, 2> seam(bool after) const {
-    const std::uint32_t count = 2 * grid_.layer_size();
-    return {after ? grid_.size() - count : 0, count};
-  }
-  /// The value of a node of a seam, in the order of the stars; nothing if it never counts.
-  std::optional<double> seam_value(std::uint32_t v) const {
-    if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;
-    return grid_.value(v);
-  }
-  /// Whether the slab knows where a node of a seam leads.
-  bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
   /// What an edge of the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {
     return {v, across(v, static_cast<int>(number))};
@@ -84,14 +52,8 @@ class VoxelGraph {
  private:
   // Across an edge of the star of v.
   std::uint32_t across(std::uint32_t v, int edge) const {
-    return or_outside(grid_.step_in_star(v, edge), edge);
+    return or_outside(grid_.step_in_star(v, edge), kEdges[edge][axis_of_edge(edge)]);
   }
-  std::uint32_t or_outside(std::uint32_t u, int edge) const {
-    if (u != StarGrid::kOutside) return u;
-    return outside(grid_.open_axes() == 1 && kEdges[edge][axis_of_edge(edge)] > 0 ? 1 : 0);
-  }
-
-  const StarGrid& grid_;
 };
 
 }  // namespace ph::cubical

@@ -326,7 +326,7 @@ class Representing {
 
 }  // namespace
 
-bool can_represent_voxels(const CubicalImage& grid) { return GridFrame::can_hold(grid); }
+bool can_represent_voxels(const CubicalImage& grid) { return StarGrid::can_hold(grid); }
 
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,

@@ -206,7 +206,8 @@ void PartLoops<K>::work(std::size_t most) {
 template <Field K>
 WholeCell PartLoops<K>::cell(const LoopSquare& square) const {
   const StarTables& tables = star_tables(whole_.wrapped(square.voxel()));
-  return {square.voxel(), kSquares[tables.square_order().at(square.rank())], square.value()};
+  return {square.voxel(), widened(kSquares[tables.square_order().at(square.rank())]),
+          square.value()};
 }
 
 template <Field K>
@@ -214,7 +215,7 @@ void PartLoops<K>::finish(PairSink& pairs) const {
   Ticker ticker(context_, "bars of loops", free_.count());
   owners_->for_each([&](const StarCell& edge, const Column* column) {
     ticker.tick();
-    const WholeCell birth{grid_.in_whole(edge.voxel), edge.direction, edge.value};
+    const WholeCell birth{grid_.in_whole(edge.voxel), widened(edge.direction), edge.value};
     if (column != nullptr)
       pairs.pair(1, birth, cell(squares_[column->number()]));
     else

@@ -5,14 +5,19 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/stars/star_tables.hpp"
+#include "cubical/layers/star_numbers.hpp"
 
 namespace ph::cubical {
 
 /// A cell of the whole grid, by the star that it is in: a voxel, and the number of its direction
 /// there.
 class GridCell {
+  static constexpr unsigned kBits = 13;  // in a star of eight axes there are 3^8 cells
+
  public:
+  /// Those of a grid that can be told apart.
+  static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << (64 - kBits);
+
   GridCell() = default;
   GridCell(std::uint64_t voxel, std::uint32_t number) : both_(voxel << kBits | number) {}
   std::uint64_t voxel() const { return both_ >> kBits; }
@@ -20,14 +25,13 @@ class GridCell {
   friend auto operator<=>(const GridCell&, const GridCell&) = default;
 
  private:
-  static constexpr unsigned kBits = 4;  // no star has more cells of a dimension than 12
   std::uint64_t both_ = 0;
 };
 
 /// A StarCell of the whole grid.
 struct WholeCell {
   std::uint64_t voxel;
-  Direction direction;
+  WideDirection direction;
   double value;
 };
 

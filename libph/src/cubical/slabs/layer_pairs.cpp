@@ -5,6 +5,7 @@
 
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
+#include "cubical/layers/layer_graphs.hpp"
 #include "cubical/slabs/slab_basins.hpp"
 #include "ph/error.hpp"
 
@@ -30,6 +31,13 @@ void LayerPairs::take(std::optional<Forest>& all, Forest next, bool comes_before
   if (is_ring() && has_begin && has_end) all->close_ring();
 }
 
+template <class Forest, class Grid, class Graph>
+void LayerPairs::take_slab(std::optional<Forest>& all, const Grid& slab, const Graph& graph,
+                           const CriticalCells& bridges, std::uint64_t first) {
+  if (all) all->after.forget_values();
+  take(all, SlabBasins(slab, graph, first, all.has_value(), context_).forest(bridges));
+}
+
 void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
                      FreeCellSink* free) {
   has_begin = has_begin || slab.slab().is_first;
@@ -40,23 +48,30 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
     return *edges;
   };
   if (graphs_.vertices) {
-    const VoxelGraph graph(slab);
-    if (vertices) vertices->after.forget_values();
-    auto forest =
-        SlabBasins(slab, graph, first, vertices.has_value(), context_).forest(edges_of_slab());
-    take(vertices, std::move(forest));
+    take_slab(vertices, slab, VoxelGraph(slab), edges_of_slab(), first);
     settle_vertices(pairs, free);
   }
   if (graphs_.tops) {
-    const TopGraph graph(slab);
     if (grid_.top_dim() == 3) edges.reset();
     const CriticalCells squares =
         grid_.top_dim() == 3 ? critical_cells(slab, 2, context_) : CriticalCells(&context_.memory);
-    if (tops) tops->after.forget_values();
-    auto forest = SlabBasins(slab, graph, first, tops.has_value(), context_)
-                      .forest(grid_.top_dim() == 3 ? squares : edges_of_slab());
-    take(tops, std::move(forest));
+    take_slab(tops, slab, TopGraph(slab), grid_.top_dim() == 3 ? squares : edges_of_slab(), first);
     settle_tops(pairs, free);
+  }
+}
+
+void LayerPairs::add(const LayerGrid& slab, std::uint64_t first, PairSink& pairs) {
+  has_begin = has_begin || slab.slab().is_first;
+  has_end = has_end || slab.slab().is_last;
+  if (graphs_.vertices) {
+    const LayerVoxelGraph graph(slab, context_);
+    take_slab(vertices, slab, graph, graph.links().bridges, first);
+    settle_vertices(pairs, nullptr);
+  }
+  if (graphs_.tops) {
+    const LayerTopGraph graph(slab, context_);
+    take_slab(tops, slab, graph, graph.links().bridges, first);
+    settle_tops(pairs, nullptr);
   }
 }
 
@@ -89,17 +104,12 @@ void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs, Free
 }
 
 void LayerPairs::finish(PairSink& pairs) const {
-  for (const auto& [edge, value] : around.met_once)
-    pairs.essential(1, WholeCell{edge.voxel(), kEdges[edge.number()], value});
+  for (const auto& [edge, value] : around.met_once) pairs.essential(1, cell(1, edge, value));
 }
 
 void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
-  const auto edge = [](const SeamBridge& bridge) {
-    return WholeCell{bridge.cell.voxel(), kEdges[bridge.cell.number()], bridge.value};
-  };
-  const auto voxel = [](const SeamRoot& root) {
-    return WholeCell{root.cell.voxel(), {}, root.value};
-  };
+  const auto edge = [this](const SeamBridge& b) { return cell(1, b.cell, b.value); };
+  const auto voxel = [this](const SeamRoot& root) { return cell(0, root.cell, root.value); };
   vertices->settle(
       [&](const SeamBridge& bridge, const SeamRoot* dies) {
         if (dies == nullptr)
@@ -116,14 +126,8 @@ void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
 
 void LayerPairs::settle_tops(PairSink& pairs, FreeCellSink* free) {
   const int top = grid_.top_dim();
-  const auto facet = [top](const SeamBridge& bridge) {
-    const std::uint32_t n = bridge.cell.number();
-    return WholeCell{bridge.cell.voxel(), top == 3 ? kSquares[n] : kEdges[n], bridge.value};
-  };
-  const auto top_cell = [top](const SeamRoot& root) {
-    const std::uint32_t n = root.cell.number();
-    return WholeCell{root.cell.voxel(), top == 3 ? kCubes[n] : kSquares[n], root.value};
-  };
+  const auto facet = [&](const SeamBridge& b) { return cell(top - 1, b.cell, b.value); };
+  const auto top_cell = [&](const SeamRoot& root) { return cell(top, root.cell, root.value); };
   tops->settle(
       [&](const SeamBridge& bridge, const SeamRoot* dies) {
         if (may_have_neither_) around.meet(bridge.value, bridge.cell);

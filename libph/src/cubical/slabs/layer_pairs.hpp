@@ -5,9 +5,11 @@
 #include <memory_resource>
 #include <optional>
 
+#include "cubical/layers/layer_grid.hpp"
 #include "cubical/pair_sink.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/seam_forest.hpp"
+#include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
@@ -45,6 +47,8 @@ class LayerPairs {
   /// @param free receives the cells of three axes that neither graph takes; may be null.
   void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
            FreeCellSink* free = nullptr);
+  /// The same of more than three axes.
+  void add(const LayerGrid& slab, std::uint64_t first, PairSink& pairs);
   /// What is known of the layers right after those that have come, or right before them.
   /// @throws Error (bad_data) if seams differ; nothing has changed then.
   /// @param free as in `add`, of all layers.
@@ -66,6 +70,15 @@ class LayerPairs {
   bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
   template <class Forest>
   void take(std::optional<Forest>& all, Forest next, bool comes_before = false);
+  /// @param bridges in the order of the graph.
+  template <class Forest, class Grid, class Graph>
+  void take_slab(std::optional<Forest>& all, const Grid& slab, const Graph& graph,
+                 const CriticalCells& bridges, std::uint64_t first);
+  /// A cell of the grid by its name.
+  WholeCell cell(int dim, const GridCell& name, double value) const {
+    const auto direction = direction_in_star(grid_.top_dim(), dim, name.number());
+    return {name.voxel(), direction.value_or(WideDirection{}), value};
+  }
   void settle_vertices(PairSink& pairs, FreeCellSink* free);
   void settle_tops(PairSink& pairs, FreeCellSink* free);
 

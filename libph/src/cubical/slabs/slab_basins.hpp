@@ -16,12 +16,13 @@ namespace ph::cubical {
 
 /// The trees that the arrows make in one slab of a grid. Roots have numbers, in the order of
 /// SeamForest.
-template <class Graph>
+/// @tparam Grid of the graph: a SlabFrame that says which voxels enter.
+template <class Grid, class Graph>
 class SlabBasins {
  public:
   /// @param first the slab's first voxel in the whole grid, ghosts included (modulo 2^64).
   /// @param is_next whether it is to be joined with what is right before it.
-  SlabBasins(const StarGrid& grid, const Graph& graph, std::uint64_t first, bool is_next,
+  SlabBasins(const Grid& grid, const Graph& graph, std::uint64_t first, bool is_next,
              const RunContext& context)
       : grid_(grid),
         graph_(graph),
@@ -104,12 +105,10 @@ class SlabBasins {
   }
   void add_critical() {
     Ticker ticker(context_, {});
-    for (const std::uint32_t v : grid_.critical()) {
-      ticker.work();
-      graph_.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
-        forest_.set_root(node, add({grid_.value(v), {v + first_, number}, Kind::critical}));
-      });
-    }
+    for_each_root(
+        grid_, graph_, ticker, [&](std::uint32_t v, std::uint32_t node, std::uint32_t number) {
+          forest_.set_root(node, add({grid_.value(v), {v + first_, number}, Kind::critical}));
+        });
   }
   void add_open(bool after) {
     const auto [begin, count] = graph_.seam(after);
@@ -144,7 +143,7 @@ class SlabBasins {
     return seam;
   }
 
-  const StarGrid& grid_;
+  const Grid& grid_;
   const Graph& graph_;
   const std::uint64_t first_;
   const bool is_next_;

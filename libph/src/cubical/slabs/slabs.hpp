@@ -53,7 +53,10 @@ class Slabs {
            (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * frame_.layer_size();
   }
   /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
-  StarGrid stars(std::uint32_t slab) {
+  StarGrid stars(std::uint32_t slab) { return grid<StarGrid>(slab); }
+  /// The same as another kind of grid. @tparam Grid a SlabFrame, made as StarGrid is.
+  template <class Grid>
+  Grid grid(std::uint32_t slab) {
     const CubicalImage part = image(slab);
     read_.reset();
     read_.emplace(context_.memory, part.is_in_file ? part.size() * bytes_of(part.type) : 0);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cubical/stars/critical_cells.hpp"
 
-#include "ph/detail/core/radix_sort.hpp"
-
 namespace ph::cubical {
 
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
@@ -21,11 +19,7 @@ CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& co
       tables.square_order().for_each(tables.critical_squares(grid.star(v), grid.pair_cubes(v)),
                                      add);
   }
-  critical.order.resize(critical.cells.size());
-  for (std::uint32_t i = 0; i < critical.cells.size(); ++i)
-    critical.order[i] = {grid.value(critical.cells[i].voxel), i};
-  radix_sort_by_value(
-      critical.order, [](const CriticalCells::Place& place) { return place.value; }, context);
+  put_in_order(critical, grid, context);
   return critical;
 }
 

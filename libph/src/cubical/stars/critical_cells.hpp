@@ -6,6 +6,7 @@
 
 #include "cubical/stars/free_edges.hpp"
 #include "cubical/stars/star_grid.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {
@@ -26,6 +27,16 @@ struct CriticalCells {
 
   explicit CriticalCells(std::pmr::memory_resource* memory) : cells(memory), order(memory) {}
 };
+
+/// Puts all cells into the order. @tparam Grid knows the values of voxels.
+template <class Grid>
+void put_in_order(CriticalCells& critical, const Grid& grid, const RunContext& context) {
+  critical.order.resize(critical.cells.size());
+  for (std::uint32_t i = 0; i < critical.cells.size(); ++i)
+    critical.order[i] = {grid.value(critical.cells[i].voxel), i};
+  radix_sort_by_value(
+      critical.order, [](const CriticalCells::Place& place) { return place.value; }, context);
+}
 
 /// @param dim 1 or 2.
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);

@@ -15,7 +15,8 @@ bool GridFrame::can_hold(const CubicalImage& grid) {
     if (GridShape::keeps_axis(grid, k))
       nodes *= static_cast<double>(grid.extents[k]) + (grid.voxels_are_vertices ? 0 : 1);
   // Labels are those of the outside, of what never enters and of the roots, fewer than nodes.
-  return GridShape::count_axes(grid) <= 3 && grid.size() > 0 && nodes < kMostNodes;
+  return GridShape::count_axes(grid) <= GridShape::kMostAxes && grid.size() > 0 &&
+         nodes < kMostNodes;
 }
 
 GridFrame::GridFrame(const CubicalImage& grid)
@@ -24,7 +25,7 @@ GridFrame::GridFrame(const CubicalImage& grid)
       is_t_construction_(!grid.voxels_are_vertices),
       any_periodic_(false),
       shape_(grid) {
-  for (int a = 0; a < 3; ++a) {
+  for (int a = 0; a < axis_count(); ++a) {
     const GridShape::Axis& axis = shape_.axis(a);
     if (!axis.exists) continue;
     const auto extent = static_cast<std::uint32_t>(axis.extent);

@@ -33,7 +33,7 @@ class Divisor {
   std::uint64_t factor_ = 0;
 };
 
-/// Where the voxels of an image are that has at most three axes, as GridShape counts them.
+/// Where the voxels of an image are, as GridShape counts its axes.
 ///
 /// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
 /// around: reversed in value, with all axes running backwards, a border of voxels that have always
@@ -41,8 +41,7 @@ class Divisor {
 /// (homology relative to it).
 class GridFrame {
  public:
-  /// Three axes at most that have more than one voxel (V) or are not closed up at one (T), and no
-  /// more than about 2^31 voxels.
+  /// No more than about 2^31 voxels, and some.
   static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);
@@ -51,6 +50,7 @@ class GridFrame {
   int top_dim() const { return shape_.top_dim(); }  ///< of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
   std::uint32_t size() const { return size_; }  ///< voxels
+  int axis_count() const { return shape_.axis_count(); }
   bool has_axis(int axis) const { return axes_[axis].exists; }
   bool is_periodic(int axis) const { return axes_[axis].periodic; }
   bool any_periodic() const { return any_periodic_; }
@@ -151,7 +151,7 @@ class GridFrame {
   void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;
-  std::array<Axis, 3> axes_;  // the last one is the fastest
+  std::array<Axis, GridShape::kMostAxes> axes_;  // the last one is the fastest
   std::uint32_t size_ = 0;
   bool is_t_construction_ = false, any_periodic_ = false;
 

@@ -11,7 +11,7 @@ int GridShape::count_axes(const CubicalImage& image) {
 
 GridShape::GridShape(const CubicalImage& image)
     : input_axes_(image.extents.size()), is_t_construction_(!image.voxels_are_vertices) {
-  std::size_t axis = 3;
+  auto axis = static_cast<std::size_t>(std::max(count_axes(image), 3));
   std::uint64_t stride = 1;
   for (std::size_t k = input_axes_; k-- > 0;) {
     if (!keeps_axis(image, k)) {
@@ -25,16 +25,16 @@ GridShape::GridShape(const CubicalImage& image)
   }
 }
 
-void GridShape::append_numbers(std::uint64_t voxel, const Direction& direction, unsigned loops,
+void GridShape::append_numbers(std::uint64_t voxel, std::span<const int> direction, unsigned loops,
                                std::vector<Index>& numbers) const {
   const std::size_t base = numbers.size();
   numbers.resize(base + input_axes_, 0);
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
     const Axis& axis = axes_[a];
     if (!axis.exists) continue;
     const auto n = static_cast<Index>(axis.extent);
     const auto place = static_cast<Index>(voxel / axis.stride % axis.extent);
-    Index x = 2 * place + direction[a];
+    Index x = 2 * place + (a < direction.size() ? direction[a] : 0);
     if (x < 0 && axis.periodic) x = 2 * n - 1;
     numbers[base + static_cast<std::size_t>(axis.of_input)] =
         is_t_construction_ ? 2 * n - 1 - x : x;

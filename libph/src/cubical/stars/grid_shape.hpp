@@ -4,17 +4,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "cubical/stars/star_tables.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {
 
 /// The axes of an image of any size as the stars see them: those of one voxel are left out, and
-/// what a periodic one of them adds is put back by `PairSink`. See GridFrame.
+/// what a periodic one of them adds is put back by `PairSink`. Up to three are the last of three,
+/// so that stars know them by number. See GridFrame.
 class GridShape {
  public:
+  static constexpr int kMostAxes = 8;
   struct Axis {
     std::uint64_t extent = 1, stride = 1;
     bool exists = false, periodic = false;
@@ -27,11 +29,13 @@ class GridShape {
   }
   /// How many axes are not.
   static int count_axes(const CubicalImage& image);
-  /// Precondition: count_axes(image) <= 3. Voxels are not looked at.
+  /// Precondition: count_axes(image) <= kMostAxes. Voxels are not looked at.
   explicit GridShape(const CubicalImage& image);
 
   int top_dim() const { return top_dim_; }  ///< of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
+  /// How many there are with those that are left out of three.
+  int axis_count() const { return std::max(top_dim_, 3); }
   /// The last one is the fastest.
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   bool any_periodic() const { return std::ranges::any_of(axes_, &Axis::periodic); }
@@ -41,7 +45,7 @@ class GridShape {
         std::ranges::count_if(axes_, [](const Axis& a) { return a.exists && !a.periodic; }));
   }
   /// The slowest axis. A layer is what lies at one place of it.
-  int layer_axis() const { return 3 - top_dim_; }
+  int layer_axis() const { return axis_count() - top_dim_; }
   /// Of which periodic axes a voxel is the first one, as bits: see StarTables.
   unsigned wrapped(std::uint64_t voxel) const {
     unsigned result = 0;
@@ -56,11 +60,12 @@ class GridShape {
   std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
   /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
   /// of one voxel the copy goes around, as bits.
-  void append_numbers(std::uint64_t voxel, const Direction& direction, unsigned loops,
+  /// @param direction from the voxel to it, by axis; none along those that it leaves out.
+  void append_numbers(std::uint64_t voxel, std::span<const int> direction, unsigned loops,
                       std::vector<Index>& numbers) const;
 
  private:
-  std::array<Axis, 3> axes_;
+  std::array<Axis, kMostAxes> axes_;
   std::vector<std::size_t> loops_;
   std::size_t input_axes_;
   int top_dim_ = 0;

@@ -33,13 +33,11 @@ struct VoxelAges {
 }  // namespace
 
 StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const SlabPlace& slab)
-    : GridFrame(grid),
+    : SlabFrame(grid, slab),
       context_(context),
-      slab_(slab),
       stars_(&context.memory),
       cube_pairs_(slab.cube_pairs),
       critical_(&context.memory) {
-  if (slab.is_in_ring) be_part_of_ring(slab.is_first ? 1 : UINT32_MAX);
   if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, slab.is_in_ring, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {

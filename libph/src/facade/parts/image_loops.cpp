@@ -72,7 +72,7 @@ void ImageLoops::begin(std::span<const std::byte> told) {
     for (std::size_t left = from.count(bytes_of_cell, "cells"); left > 0; --left) {
       const auto voxel = from.get<std::uint64_t>("cell");
       const auto number = from.get<std::uint32_t>("cell");
-      if (number >= in_star || voxel >> 60 != 0) from.refuse("cell");
+      if (number >= in_star || voxel >= GridCell::kMostVoxels) from.refuse("cell");
       cells.emplace_back(voxel, number);
     }
   };

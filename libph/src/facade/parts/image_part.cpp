@@ -45,10 +45,10 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
 
 /// @throws Error (usage) if it has too many axes.
 GridShape shape_of(const WholeImage& whole) {
-  if (GridShape::count_axes(whole.image()) > 3)
+  if (const int axes = GridShape::count_axes(whole.image()); axes > GridShape::kMostAxes)
     throw Error(ErrorKind::usage,
-                "parts of an image: found more than three axes with more than "
-                "one voxel, expected two or three");
+                fmt::format("parts of an image: found {} axes, expected at most {}", axes,
+                            GridShape::kMostAxes));
   return GridShape(whole.image());
 }
 
@@ -56,8 +56,14 @@ std::uint64_t layers_of(const GridShape& shape) {
   if (shape.top_dim() < 2)
     throw Error(ErrorKind::usage,
                 "parts of an image: found one axis or none with more than one "
-                "voxel, expected two or three");
+                "voxel, expected two or more");
   return shape.axis(shape.layer_axis()).extent;
+}
+
+/// The lowest min_dim that asks for the graph of top cells alone: a periodic axis of one voxel has
+/// copies of all bars, one dimension up.
+int lowest_of_top_cells(const GridShape& shape) {
+  return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
 
 /// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
@@ -108,13 +114,16 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
                             "ascending from 0 on, below {}",
                             fmt::join(whole.first_layers, ", "), parts, layers));
   whole.loops = wants_loops(shape, whole.wanted());
-  if (whole.loops && !options.loops)
+  const int top = shape.top_dim();
+  if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
-                            "expected dimension 0 alone{}",
-                            std::ranges::find(whole.periodic, true) == whole.periodic.end()
-                                ? ", or 2 alone"
-                                : " where an axis closes up"));
+                fmt::format("parts of {}: found {} wanted, which need all layers at once; expected "
+                            "dimension 0 alone{}",
+                            top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
+                            top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
+                            shape.any_periodic()
+                                ? " where an axis closes up"
+                                : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
@@ -155,10 +164,10 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
                          layout.place(part), layout.first_voxel(part));
     for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
       context.report({"slabs", slab, slabs.count()});
-      {
-        const cubical::StarGrid grid = slabs.stars(slab);
-        state_->pairs.add(grid, slabs.first_voxel(slab), pairs);
-      }
+      if (shape.top_dim() <= 3)
+        state_->pairs.add(slabs.stars(slab), slabs.first_voxel(slab), pairs);
+      else
+        state_->pairs.add(slabs.grid<cubical::LayerGrid>(slab), slabs.first_voxel(slab), pairs);
       slabs.forget(slab);
       state_->claim.grow_to(state_->bars.bytes());
     }

@@ -47,8 +47,7 @@ WholeImage get_whole(ByteReader& from) {
     if (whole.extents[k] < 1) from.refuse("extents");
     voxels *= static_cast<double>(whole.extents[k]);
   }
-  constexpr double most = 1e18;
-  if (voxels > most) from.refuse("extents");
+  if (voxels > static_cast<double>(GridCell::kMostVoxels)) from.refuse("extents");
   for (std::size_t k = 0; k < axes; ++k) whole.periodic.push_back(from.flag("axis"));
   whole.type = static_cast<VoxelType>(from.get<std::uint8_t>("type"));
   if (whole.type > VoxelType::float64) from.refuse("type");
@@ -60,12 +59,15 @@ WholeImage get_whole(ByteReader& from) {
   whole.cells = from.flag("flag of cells");
   whole.loops = from.flag("flag of loops");
   const CubicalImage image = whole.image();
-  if (cubical::GridShape::count_axes(image) > 3) from.refuse("number of axes");
+  if (cubical::GridShape::count_axes(image) > cubical::GridShape::kMostAxes)
+    from.refuse("number of axes");
   const cubical::GridShape shape(image);
   if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
     from.refuse("number of parts");
-  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) from.refuse("flag of loops");
+  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops ||
+      (whole.loops && shape.top_dim() > 3))
+    from.refuse("flag of loops");
   whole.first_layers.resize(from.count(sizeof(std::int64_t), "layers"));
   for (Index& layer : whole.first_layers)
     layer = static_cast<Index>(from.get<std::int64_t>("layer"));
@@ -107,35 +109,45 @@ void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   });
 }
 
-/// @param in_star how many cells of the dimension a star has.
-GridCell get_cell(ByteReader& from, std::size_t in_star) {
+/// What is read as a name of a cell.
+struct CellName {
+  std::uint64_t voxel;
+  std::uint32_t number;
+};
+CellName get_name(ByteReader& from) {
   const auto voxel = from.get<std::uint64_t>("cell");
-  const auto number = from.get<std::uint32_t>("cell");
-  if (number >= in_star || voxel >> 60 != 0) from.refuse("cell");
-  return {voxel, number};
+  return {voxel, from.get<std::uint32_t>("cell")};
+}
+/// @param axes of the grid. @param dim of the cell.
+GridCell checked(const ByteReader& from, const CellName& name, int axes, int dim) {
+  if (name.voxel >= GridCell::kMostVoxels || !cubical::direction_in_star(axes, dim, name.number))
+    from.refuse("cell");
+  return {name.voxel, name.number};
+}
+GridCell get_cell(ByteReader& from, int axes, int dim) {
+  return checked(from, get_name(from), axes, dim);
 }
 
-void get_cells(ByteReader& from, std::size_t in_star, std::pmr::vector<GridCell>& cells) {
+void get_cells(ByteReader& from, int axes, int dim, std::pmr::vector<GridCell>& cells) {
   constexpr std::size_t bytes_of_cell = 12;
   cells.resize(from.count(bytes_of_cell, "cells"));
-  for (GridCell& cell : cells) cell = get_cell(from, in_star);
+  for (GridCell& cell : cells) cell = get_cell(from, axes, dim);
 }
 
 template <bool backwards>
 SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext& context) {
-  using namespace cubical;
-  const std::size_t roots_in_star =
-      !backwards ? 1 : (top_dim == 3 ? kCubes.size() : kSquares.size());
-  const std::size_t bridges_in_star = backwards && top_dim == 3 ? kSquares.size() : kEdges.size();
+  const int root_dim = backwards ? top_dim : 0, bridge_dim = backwards ? top_dim - 1 : 1;
   SeamForest<backwards> forest(context);
   constexpr std::size_t bytes_of_root = 24, bytes_of_bridge = 28, bytes_of_node = 4;
   forest.roots.resize(from.count(bytes_of_root, "roots"));
   for (SeamRoot& root : forest.roots) {
     root.value = from.get<double>("root");
-    root.cell = get_cell(from, roots_in_star);
+    const CellName name = get_name(from);
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
+    // Others have no cell: zeros stand there.
+    root.cell = checked(from, name, top_dim, root.kind == SeamRoot::Kind::critical ? root_dim : 0);
   }
   if (!forest.is_in_order()) from.refuse("order of roots");
   const auto root = [&] {
@@ -156,7 +168,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
   forest.bridges.resize(from.count(bytes_of_bridge, "bridges"));
   for (SeamBridge& bridge : forest.bridges) {
     bridge.value = from.get<double>("bridge");
-    bridge.cell = get_cell(from, bridges_in_star);
+    bridge.cell = get_cell(from, top_dim, bridge_dim);
     bridge.from = root();
     bridge.to = root();
   }
@@ -216,11 +228,11 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
   if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, top, context));
   constexpr std::size_t bytes_of_edge = 20;
   for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {
-    const GridCell edge = get_cell(from, cubical::kEdges.size());
+    const GridCell edge = get_cell(from, top, 1);
     pairs.around.met_once.emplace(edge, from.get<double>("edge"));
   }
-  get_cells(from, cubical::kEdges.size(), state->freed.edges);
-  get_cells(from, cubical::kSquares.size(), state->freed.squares);
+  get_cells(from, top, 1, state->freed.edges);
+  get_cells(from, top, 2, state->freed.squares);
   get_bars(from, state->bars);
   state->claim.grow_to(state->bars.bytes());
   from.expect_end();

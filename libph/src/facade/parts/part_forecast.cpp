@@ -25,7 +25,7 @@ class LayerSample {
         sign_(superlevel ? -1 : 1),
         layers_(shape.axis(shape.layer_axis()).extent),
         layer_size_(shape.axis(shape.layer_axis()).stride),
-        width_(shape.axis(2).extent) {}
+        width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
     constexpr std::uint64_t few = 64;  // of the layers between two that are looked at there are

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "cubical/stars/grid_frame.hpp"
+
+namespace ph::cubical {
+
+/// The nodes of a graph of top cells: the cells of the highest dimension, numbered by their corner
+/// that comes first, and what has always been there: the outside, in two parts where one axis alone
+/// has ends, and cells that never enter.
+/// @tparam Grid a SlabFrame that says which voxels enter. @tparam most its axes: three, or at most.
+template <class Grid, std::size_t most>
+class TopNodes {
+ public:
+  static constexpr bool kBackwards = true;
+  /// From a voxel to a cell, by axis.
+  using Way = std::array<int, most>;
+
+  explicit TopNodes(const Grid& grid) : grid_(grid) {
+    for (std::size_t a = axes(); a-- > 0;) {
+      const int axis = static_cast<int>(a);
+      // With a border around the voxels there is one more cell than voxels along an axis.
+      const bool has_border =
+          grid.is_t_construction() && grid.has_axis(axis) && !grid.is_periodic(axis);
+      border_[a] = has_border ? 1 : 0;
+      extent_[a] = grid.extent(axis) + border_[a];
+      stride_[a] = count_;
+      by_extent_[a] = Divisor(extent_[a]);
+      count_ *= extent_[a];
+    }
+  }
+
+  std::size_t size() const { return std::size_t{count_} + 2; }
+  std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
+  /// Whether anything but the outside has always been there.
+  bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
+  /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
+  /// it.
+  template <class Use>
+  void for_each_outer_node(std::uint32_t v, Use&& use) const;
+  /// As in VoxelNodes: the top cells between the ghost layer and the one beside it.
+  std::array<std::uint32_t, 2> seam(bool after) const {
+    const int axis = grid_.layer_axis();
+    const auto a = static_cast<std::size_t>(axis);
+    const std::uint32_t layer = border_[a] + (after ? grid_.extent(axis) - 2 : 0);
+    return {layer * stride_[a], stride_[a]};
+  }
+  std::optional<double> seam_value(std::uint32_t node) const;
+  /// The top cell in a direction from a voxel.
+  std::uint32_t node(std::uint32_t v, const Way& d) const;
+
+ protected:
+  std::size_t axes() const {
+    return most == 3 ? most : static_cast<std::size_t>(grid_.axis_count());
+  }
+  /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
+  template <class Use>
+  void for_each_corner(std::uint32_t node, Use&& use) const;
+
+  const Grid& grid_;
+  std::array<std::uint32_t, most> extent_{}, stride_{}, border_{};
+
+ private:
+  /// Whether a node is a cell: behind the last voxels of an axis that has ends there is none.
+  bool is_cell(std::uint32_t node) const;
+  std::uint32_t outside_beyond(const Way& d) const {
+    if (grid_.open_axes() == 1)
+      for (std::size_t a = 0; a < axes(); ++a)
+        if (grid_.has_ends(static_cast<int>(a)) && d[a] > 0) return outside(1);
+    return outside(0);
+  }
+
+  std::array<Divisor, most> by_extent_;
+  std::uint32_t count_ = 1;
+};
+
+template <class Grid, std::size_t most>
+std::uint32_t TopNodes<Grid, most>::node(std::uint32_t v, const Way& d) const {
+  std::uint32_t result = 0;
+  for (std::size_t a = 0; a < axes(); ++a) {
+    const int axis = static_cast<int>(a);
+    if (!grid_.has_axis(axis)) continue;
+    const std::uint32_t x = grid_.coordinate(v, axis), last = grid_.extent(axis) - 1;
+    std::uint32_t low = x + border_[a];
+    if (d[a] < 0) {
+      if (low > 0)
+        --low;
+      else if (grid_.is_periodic(axis))
+        low = last;
+      else
+        return outside_beyond(d);
+    } else if (x == last && border_[a] == 0 && !grid_.is_periodic(axis)) {
+      return outside_beyond(d);
+    }
+    result += low * stride_[a];
+  }
+  return result;
+}
+
+template <class Grid, std::size_t most>
+template <class Use>
+void TopNodes<Grid, most>::for_each_corner(std::uint32_t node, Use&& use) const {
+  std::array<std::uint32_t, most> low{};
+  for (std::size_t a = axes(); a-- > 0;) {
+    const std::uint32_t rest = by_extent_[a].divide(node);
+    low[a] = node - rest * extent_[a];
+    node = rest;
+  }
+  for (unsigned corner = 0; corner < 1U << axes(); ++corner) {
+    Way d{};
+    std::uint32_t v = 0;
+    bool is_there = true;
+    for (std::size_t a = 0; a < axes(); ++a) {
+      const int axis = static_cast<int>(a);
+      const std::uint32_t upper = corner >> a & 1U, n = grid_.extent(axis);
+      if (!grid_.has_axis(axis)) {
+        is_there = is_there && upper == 0;
+        continue;
+      }
+      d[a] = upper != 0 ? -1 : 1;
+      std::uint32_t x = low[a] + upper;
+      if (border_[a] != 0) {
+        is_there = is_there && x >= 1 && x <= n;
+        --x;
+      } else if (x == n) {
+        x = 0;  // the axis is periodic
+      }
+      v = v * n + x;
+    }
+    if (is_there && use(v, d)) return;
+  }
+}
+
+template <class Grid, std::size_t most>
+template <class Use>
+void TopNodes<Grid, most>::for_each_outer_node(std::uint32_t v, Use&& use) const {
+  for (unsigned above = 0; above < 1U << axes(); ++above) {
+    Way d{};
+    bool is_first = true;  // of those that differ along axes that are not there
+    for (std::size_t a = 0; a < axes(); ++a) {
+      const bool is_above = (above >> (axes() - 1 - a) & 1U) != 0;
+      if (grid_.has_axis(static_cast<int>(a)))
+        d[a] = is_above ? 1 : -1;
+      else
+        is_first = is_first && !is_above;
+    }
+    if (is_first) use(node(v, d));
+  }
+}
+
+template <class Grid, std::size_t most>
+bool TopNodes<Grid, most>::is_cell(std::uint32_t node) const {
+  for (std::size_t a = axes(); a-- > 0;) {
+    const int axis = static_cast<int>(a);
+    const std::uint32_t rest = by_extent_[a].divide(node), low = node - rest * extent_[a];
+    if (grid_.has_axis(axis) && border_[a] == 0 && !grid_.is_periodic(axis) &&
+        low + 1 == extent_[a])
+      return false;
+    node = rest;
+  }
+  return true;
+}
+
+template <class Grid, std::size_t most>
+std::optional<double> TopNodes<Grid, most>::seam_value(std::uint32_t node) const {
+  std::optional<double> youngest;
+  if (!is_cell(node)) return youngest;
+  for_each_corner(node, [&](std::uint32_t v, const Way&) {
+    // In the T-construction what never enters has always been there.
+    if (grid_.enters(v) || !grid_.is_t_construction())
+      youngest = std::max(youngest.value_or(grid_.value(v)), grid_.value(v));
+    return false;
+  });
+  return youngest;
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "cubical/graphs/arrow_forest.hpp"
+#include "cubical/graphs/top_nodes.hpp"
+#include "cubical/graphs/voxel_nodes.hpp"
+#include "cubical/layers/layer_grid.hpp"
+#include "cubical/layers/star_links.hpp"
+#include "cubical/layers/star_numbers.hpp"
+
+namespace ph::cubical {
+
+using LayerVoxels = VoxelNodes<LayerGrid>;
+using LayerTops = TopNodes<LayerGrid, GridShape::kMostAxes>;
+
+// The same two graphs as those of stars, of any number of axes. There is no gradient on the cells
+// between: a bridge that only closes a circle around a voxel is left out, all others are looked at.
+
+/// Voxels joined by edges. Memory: 4 bytes a voxel, and what roots and bridges take.
+class LayerVoxelGraph : public LayerVoxels {
+ public:
+  LayerVoxelGraph(const LayerGrid& grid, const RunContext& context);
+
+  const StarLinks& links() const { return links_; }
+  std::uint32_t arrow(std::uint32_t v) const { return links_.arrows[v]; }
+  /// What an edge of the star of a voxel joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
+
+ private:
+  StarLinks links_;
+};
+
+/// Top cells joined by facets. Memory: 4 bytes a voxel, and what roots and bridges take.
+class LayerTopGraph : public LayerTops {
+ public:
+  LayerTopGraph(const LayerGrid& grid, const RunContext& context);
+
+  const StarLinks& links() const { return links_; }
+  std::uint32_t arrow(std::uint32_t node) const { return links_.arrows[node]; }
+  bool is_known_here(std::uint32_t node) const {
+    return links_.arrows[node] != StarLinks::kUnknown;
+  }
+  /// What a facet in the star of a voxel joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
+
+ private:
+  StarLinks links_;
+};
+
+/// All arrows are known already: nothing need be looked up beforehand.
+template <class Graph>
+void follow_inner_arrows(const LayerGrid&, const Graph&, ArrowForest<Graph>&, const RunContext&) {}
+
+/// Calls `use(voxel, node, number)` for the roots in stars, in the order of the grid.
+template <class Graph, class Use>
+void for_each_root(const LayerGrid&, const Graph& graph, Ticker& ticker, Use&& use) {
+  for (const StarLinks::Root& root : graph.links().roots) {
+    ticker.work();
+    use(root.voxel, root.node, root.number);
+  }
+}
+
+}  // namespace ph::cubical

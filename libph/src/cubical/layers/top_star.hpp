@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "cubical/layers/layer_graphs.hpp"
+#include "cubical/stars/star_matcher.hpp"
+
+namespace ph::cubical {
+
+/// The top cells and facets of a voxel's star in the graph of top cells. One for each thread.
+///
+/// The top cells around a voxel, in its star or not, are joined as the graph does it: by the facets
+/// of younger voxels first, then by those of the star, the youngest first. What is joined that way
+/// in a pair of no length becomes an arrow. A facet whose sides hang together by then joins nothing
+/// in the whole grid.
+class TopStar {
+ public:
+  using Nodes = LayerTops;
+
+  TopStar(const LayerGrid& grid, const Nodes& nodes, std::pmr::memory_resource* memory);
+  void look_at(std::uint32_t v, FoundLinks& found);
+
+ private:
+  struct Cell {
+    std::uint16_t code;
+    std::uint32_t far;  // the voxel beyond all its steps
+  };
+  /// In the order of the grid.
+  struct Placed {
+    std::uint32_t place, which;
+    friend auto operator<=>(const Placed&, const Placed&) = default;
+  };
+  /// The top cells around a voxel are numbered by their sides: bit a is set above it along axis a.
+  std::uint32_t code_of(std::uint32_t sides) const { return codes_[sides]; }
+  std::uint32_t code_of_facet(std::uint32_t sides, int normal) const {
+    const auto a = static_cast<std::size_t>(normal);
+    return codes_[sides] - ((sides >> a & 1U) + 1) * shapes_.digit[a];
+  }
+  std::uint32_t place(std::uint32_t code, const LayerGrid::Steps& steps) const;
+  std::uint32_t node(std::uint32_t v, std::uint32_t sides) const;
+  void find_cells(std::uint32_t v, const LayerGrid::Steps& steps);
+  void join_by_younger_facets();
+  void join_by_facet(std::uint32_t v, std::uint32_t code, FoundLinks& found);
+
+  std::uint32_t find(std::uint32_t sides) const {
+    while (same_[sides] != sides) sides = same_[sides];
+    return sides;
+  }
+
+  const LayerGrid& grid_;
+  const Nodes& nodes_;
+  const int axes_;
+  StarShapes shapes_;
+  std::pmr::vector<std::uint16_t> codes_;  // by sides
+  std::pmr::vector<Cell> cells_;           // of the star: a cell after those with a step less
+  std::pmr::vector<std::uint8_t> is_in_;   // by code: whether it is in the star
+  std::pmr::vector<Placed> facets_, tops_;
+  // By sides: trees of top cells around the voxel. Of a tree in the star alone the root is the
+  // elder, the youngest cell; any other one has been there before.
+  std::pmr::vector<std::uint32_t> same_, age_;
+  std::pmr::vector<std::uint8_t> is_new_;
+};
+
+}  // namespace ph::cubical
