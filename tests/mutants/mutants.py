@@ -464,7 +464,7 @@ MUTANTS = [
      "libph/src/cubical/rounds/part_stars.hpp",
      "if (slab().is_in_ring && is_ghost(v) && in_whole(v) < layer_size())", "if (false)",
      ["image_loops_tests"]),
-    ("loops in parts: a pivot is lost when its column goes", "libph/src/cubical/loops/loop_column.hpp",
+    ("loops in parts: a pivot is lost when its column goes", "libph/src/cubical/columns/chain_heap.hpp",
      "stay_.assign(1, pivot);", "stay_.clear();", ["image_loops_tests"]),
     ("loops in parts: no work waits for ghosts", "libph/src/cubical/rounds/part_loops.hpp",
      "reduction_.has_value() && layers_missing_ == 0", "reduction_.has_value()",

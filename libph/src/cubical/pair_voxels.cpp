@@ -118,6 +118,14 @@ bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& 
   constexpr double margin = 1.3;  // other layers may have more
   return margin * frame.size() * (least + per_cell * cells / seen) < left;
 }
+
+// Whether it has four axes or more, and bars of components are all that is wanted: then no cell
+// between those of the two graphs is looked at.
+bool has_only_components(const CubicalImage& voxels, const BarRequest& wanted) {
+  if (!GridFrame::can_hold(voxels)) return false;
+  const GridShape shape(voxels);
+  return shape.top_dim() > 3 && !wants_loops(shape, wanted);
+}
 }  // namespace
 
 template <Field K>
@@ -138,6 +146,13 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& w
         const std::lock_guard lock(mutex);
         bars.expect(count);
       }};
+  if (has_only_components(voxels, wanted)) {
+    const GridFrame frame(voxels);
+    PairSink pairs(frame.shape(), wanted.cells, sink);
+    Slabs slabs(frame, Slabs::layers_that_fit(frame, context), context);
+    pair_in_slabs(slabs, field, wanted, context, pairs);
+    return;
+  }
   if (!StarGrid::can_hold(voxels)) {
     pair_cells(voxels, field, wanted.max_dim, wanted.cells, context, bars);
     return;

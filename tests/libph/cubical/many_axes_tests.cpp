@@ -47,10 +47,14 @@ TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
     if (random.integer(0, 3) == 0) options.threshold = random.integer(-2, 200);
     const Cubical cubical(image, options);
     const int max_dim = random.coin() ? axes : random.integer(0, axes);
+    const int min_dim = random.coin() ? 0 : random.integer(0, max_dim);
+    RunContext context;
+    context.slab_layers = random.integer(0, 2);
     for (const std::int64_t field : {2, 3}) {
       const auto bars = [&](Engine engine) {
-        return pairs_of(
-            persistence(cubical, {.max_dim = max_dim, .field = field, .engine = engine}));
+        return pairs_of(persistence(
+            cubical, {.max_dim = max_dim, .min_dim = min_dim, .field = field, .engine = engine},
+            context));
       };
       const auto found = bars(Engine::gradient);
       ASSERT_EQ(found, bars(Engine::standard));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cubical/graphs/two_graphs.hpp"
+#include "cubical/layers/layer_grid.hpp"
 #include "cubical/slabs/layer_pairs.hpp"
 #include "cubical/slabs/slab_loops.hpp"
 #include "ph/error.hpp"
@@ -54,10 +55,14 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
   bool too_many_loops = false;
 
   const auto add_slab = [&](std::uint32_t slab) {
-    const StarGrid grid = slabs.stars(slab);
     const std::uint64_t first = slabs.first_voxel(slab);
-    found.add(grid, first, pairs, loops ? &*loops : nullptr);
-    if (loops) loops->add_stars(grid, static_cast<std::uint32_t>(first));
+    if (frame.top_dim() > 3) {
+      found.add(slabs.grid<LayerGrid>(slab), first, pairs);
+    } else {
+      const StarGrid grid = slabs.stars(slab);
+      found.add(grid, first, pairs, loops ? &*loops : nullptr);
+      if (loops) loops->add_stars(grid, static_cast<std::uint32_t>(first));
+    }
     slabs.forget(slab);
   };
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
