@@ -20,7 +20,7 @@ constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 void wait_for(MPI_Request& request) {
   using std::chrono::microseconds;
   constexpr int kBusy = 200;  // times that it asks at once
-  constexpr microseconds kMost(1000);
+  constexpr microseconds kMost(200);
   int is_done = 0;
   for (int i = 0; i < kBusy && is_done == 0; ++i) MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
   for (microseconds pause(20); is_done == 0; pause = std::min(2 * pause, kMost)) {
