@@ -178,7 +178,8 @@ def check_refusals(place):
         assert found[2][0] == USAGE and "--exchange: part 2: found" in found[2][2], found
         assert word in found[2][2], found
         assert found[1][0] == IO and "part 2 has failed: --exchange: part 2" in found[1][2], found
-        place.clear()
+        assert place.names() == [], "all have ended, and nothing is left"
+    place.clear()
     (place.folder / "exchange").write_text("")
     found = Run(place, 2, "image.npy", only=[1]).ends()
     assert found[1][0] == CANNOT_CREATE and "exchange" in found[1][2], found
@@ -193,8 +194,7 @@ def check_errors(place):
     assert found[2][0] == MEMORY, found
     for part in (1, 3):
         assert found[part][0] == IO and "part 2 has failed: " in found[part][2], found[part]
-    assert not output.exists()
-    place.clear()
+    assert not output.exists() and place.names() == []
     for stopped in (1, 3):
         run = Run(place, 3, "image.npy", "-o", "bars.csv")
         place.wait_for("ph-run/*/hello-3")

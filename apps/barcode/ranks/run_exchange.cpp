@@ -77,8 +77,8 @@ int run_exchange(Arguments arguments, const std::stop_token& stop) {
     if (part != 0) session.note(fmt::format("part {} of {}: done", part + 1, parts));
     return code;
   } catch (...) {
+    run.abandon(reason());
     if (const std::string why = run.failure(); !why.empty()) throw Error(ErrorKind::io, why);
-    run.fail(reason());
     throw;
   }
 }

@@ -209,12 +209,7 @@ bool RunFolder::leave() {
     is_leaving_ = rank_ != 0;
   }
   if (rank_ == 0) {
-    wait_for([&] {
-      const Names here = names().value_or(Names());
-      int done = 1;
-      while (done < size_ && here.contains(name_of("done", done))) ++done;
-      return done == size_;
-    });
+    wait_for([&] { return have_all("done"); });
     watch_ = {};
     put(file("done", 0), "");
     return clear();
@@ -228,6 +223,14 @@ bool RunFolder::leave() {
     return misses == kMostMisses || (here && here->contains(name_of("done", 0)));
   });
   watch_ = {};
+  return true;
+}
+
+/// Whether all others have said something.
+bool RunFolder::have_all(std::string_view said) const {
+  const Names here = names().value_or(Names());
+  for (int other = 0; other < size_; ++other)
+    if (other != rank_ && !here.contains(name_of(said, other))) return false;
   return true;
 }
 
@@ -255,6 +258,25 @@ void RunFolder::fail(const std::string& why) noexcept {
       put(file("failed", rank_), why);
   } catch (...) {
     // Then the others find out because this part falls silent.
+  }
+}
+
+void RunFolder::abandon(const std::string& why) noexcept {
+  try {
+    fail(why);
+    if (!has_joined_) return;
+    watch_ = {};  // no sign of life comes later
+    put(file("ended", rank_), "");
+    constexpr int kTries = 30;
+    for (int i = 0; rank_ == 0 && i < kTries; ++i) {
+      if (have_all("ended")) {
+        clear();
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  } catch (...) {
+    // The folder stays.
   }
 }
 

@@ -25,6 +25,7 @@ namespace ph::barcode {
 ///       part-I/        the messages to part I
 ///       alive-I        a number, a new one each second
 ///       failed-I       why part I has ended
+///       ended-I        part I has ended after an error, its own or another's
 ///       done-I         part I has all it needs and waits for the end
 ///
 /// Runs do not mix. Making a folder either succeeds or finds one, on all file systems: so there is
@@ -73,6 +74,9 @@ class RunFolder {
   void stop() noexcept;
   /// Tells the others why this one ends, once. Not if another one has failed before.
   void fail(const std::string& why) noexcept;
+  /// Ends after an error: tells the others why, as `fail`. If all of them end, too, in the seconds
+  /// to come, part 1 clears the folder; else it stays, for those who may come late.
+  void abandon(const std::string& why) noexcept;
   /// Why this run cannot go on, with the number of the part; empty: it can.
   std::string failure() const;
 
@@ -87,6 +91,7 @@ class RunFolder {
   void sleep(std::chrono::milliseconds time);
   void watch(const std::stop_token& end);
   void give_up(const std::string& why);
+  bool have_all(std::string_view said) const;
   bool clear();
 
   const std::filesystem::path folder_;

@@ -102,6 +102,25 @@ TEST_F(Exchange, AFailureEndsTheOthersAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(kPatience));
 }
 
+TEST_F(Exchange, AfterAnErrorNothingIsLeftIfAllHaveEnded) {
+  const auto end_after_error = [](RunFolder& folder) {
+    try {
+      join(folder);
+      if (folder.rank() == 2) throw Error(ErrorKind::io, "no bread");
+      FolderTransport(folder).receive(2);
+    } catch (const Error& error) {
+      folder.abandon(error.what());
+    }
+  };
+  run(3, end_after_error);
+  EXPECT_TRUE(fs::is_empty(folder_));
+  run(1, [](RunFolder& folder) {
+    join(folder);
+    folder.abandon("no bread");
+  });
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
 TEST_F(Exchange, SilenceIsTakenForDeath) {
   const auto thrown = run(3, [&](RunFolder& folder) {
     join(folder);
