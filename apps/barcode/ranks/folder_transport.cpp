@@ -64,13 +64,13 @@ std::vector<std::byte> FolderTransport::receive(int from) {
   const std::string name =
       fmt::format("{}-{}", from + 1, received_[static_cast<std::size_t>(from)]++);
   const fs::path folder = run_.messages_to(rank()), path = folder / name;
-  constexpr int kTries = 50;  // in some seconds; a scanner of viruses may have it for a moment
+  constexpr int tries = 50;  // in some seconds; a scanner of viruses may have it for a moment
   int failures = 0;
   auto message = run_.wait_for([&] {
     std::optional<std::vector<std::byte>> bytes;
     if (!is_in(folder, name)) return bytes;
     bytes = bytes_of(path);
-    if (!bytes && ++failures == kTries)
+    if (!bytes && ++failures == tries)
       throw Error(ErrorKind::io,
                   fmt::format("--exchange: a message from part {}: cannot be read", from + 1));
     return bytes;

@@ -21,10 +21,10 @@ namespace {
 /// Seconds after which a part that says nothing is taken to have died. File systems of a network
 /// show some changes half a minute late. Tests set PH_TEST_PATIENCE; users have no need to.
 int patience() {
-  constexpr int kUsual = 60;
+  constexpr int usual = 60;
   const char* const text = std::getenv("PH_TEST_PATIENCE");
   const int seconds = text == nullptr ? 0 : std::atoi(text);
-  return seconds > 0 ? seconds : kUsual;
+  return seconds > 0 ? seconds : usual;
 }
 
 /// What has to be the same for all parts. The name of the input is not: each machine has its own

@@ -236,9 +236,9 @@ bool RunFolder::have_all(std::string_view said) const {
 
 /// Others may still look into it, which some file systems do not like.
 bool RunFolder::clear() {
-  constexpr int kTries = 50;
+  constexpr int tries = 50;
   std::error_code error;
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < tries; ++i) {
     fs::remove_all(run_, error);
     if (!error) fs::remove(run_.parent_path(), error);
     if (!error) return true;
@@ -267,8 +267,8 @@ void RunFolder::abandon(const std::string& why) noexcept {
     if (!has_joined_) return;
     watch_ = {};  // no sign of life comes later
     put(file("ended", rank_), "");
-    constexpr int kTries = 30;
-    for (int i = 0; rank_ == 0 && i < kTries; ++i) {
+    constexpr int tries = 30;
+    for (int i = 0; rank_ == 0 && i < tries; ++i) {
       if (have_all("ended")) {
         clear();
         return;
