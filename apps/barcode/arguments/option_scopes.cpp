@@ -99,9 +99,9 @@ std::string_view name_of(Situation situation) {
                                                     "points with --complex alpha",
                                                     "a part of an image (--part)",
                                                     "parts to join (--join)",
-                                                    "an image on several ranks",
+                                                    "an image on several processes",
                                                     "a part of a cloud (--part)",
-                                                    "points on several ranks"};
+                                                    "points on several processes"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
 }
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "barcode/mpi/mpi_transport.hpp"
-#include "barcode/mpi/run_ranks.hpp"
+#include "barcode/ranks/run_ranks.hpp"
 #include "common/run/program.hpp"
 #include "core/system/machine_memory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/mpi/run_ranks.hpp"
+#include "barcode/ranks/run_ranks.hpp"
 
 #include <array>
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/batch.hpp"
-#include "barcode/mpi/cloud_ranks.hpp"
-#include "barcode/mpi/image_ranks.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"
+#include "barcode/ranks/cloud_ranks.hpp"
+#include "barcode/ranks/image_ranks.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "barcode/arguments/arguments.hpp"
-#include "barcode/mpi/rank_result.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "barcode/run.hpp"
 #include "facade/parts/transport.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/mpi/cloud_ranks.hpp"
+#include "barcode/ranks/cloud_ranks.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport&
   if (!whole) return result;
   const std::string description =
       fmt::format("{}, {}", cloud.data.read.description,
-                  app::count_of(static_cast<std::size_t>(parts), "rank"));
+                  app::count_of(static_cast<std::size_t>(parts), transport.word()));
   const BarcodeInfo info = info_of(*whole, description, job.input);
   result.bars.emplace(RankBars{bars_of(std::move(*whole), job.format, context), info});
   return result;

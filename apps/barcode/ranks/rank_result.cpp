@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/mpi/rank_result.hpp"
+#include "barcode/ranks/rank_result.hpp"
 
 #include <fmt/format.h>
 

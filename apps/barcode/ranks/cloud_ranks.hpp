@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "barcode/mpi/rank_result.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "facade/parts/transport.hpp"
 
 namespace ph::barcode {
