@@ -45,7 +45,8 @@ class LayerSample {
     const std::uint64_t rows = layer_size_ / width_;
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
-    for (std::uint64_t y = step / 2; y < rows; y += step)
+    // A layer of few rows has one at least.
+    for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
         if (is_minimum(layer, y, x)) ++found;
     return looked_at == 0 ? 0 : static_cast<double>(found) / static_cast<double>(looked_at);
