@@ -125,6 +125,10 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
         refused([&] { ImagePart::forecast(image, 3, options); });
       }
     }
+  const ImagePart with_loops(image, 1, 3, {.loops = true});
+  EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
+  EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));
+  EXPECT_FALSE(with_loops.is_of(image, 1, 3, {.max_dim = 0, .loops = true}));
   // Parts of other layers are parts of other options.
   const ImagePartOptions equal{.max_dim = 0}, other{.max_dim = 0, .first_layers = {0, 1, 6}};
   ImagePart first(image, 0, 3, other);
