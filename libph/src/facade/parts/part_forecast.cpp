@@ -122,6 +122,7 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),
                loops = whole.loops ? bar * 1.3 : 0;
   const double of_minimum = whole.loops ? 500 : 250;
+  constexpr double of_process = 2 << 20;  // code, stacks, and what allocators keep
 
   ImagePartForecast forecast;
   forecast.first_layers = cut(costs, parts);
@@ -141,8 +142,9 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
     if (p == 0) minima_of_first = minima_here;
     forecast.longest = std::max(forecast.longest, sum(costs) / mean_cost);
     raise(forecast.file, {seams, 1.2 * seams + 1.5 * bars * minima_here + 1024});
-    raise(forecast.memory, {whole.loops ? read + 8 * voxels : seams,
-                            read + 10 * voxels + of_minimum * minima_here + 2 * seams});
+    raise(forecast.memory,
+          {whole.loops ? read + 8 * voxels : seams,
+           read + 10 * voxels + of_minimum * minima_here + 2 * seams + of_process});
   }
   const double bars_of_all = (bars + loops) * minima_of_all;
   forecast.join = {seams_of_all / 2, 2 * seams_of_all + 4 * bars_of_all + (4 << 20)};
