@@ -153,11 +153,11 @@ def check_sharing(mpi, one_process):
             assert code == 0, err
             found = (mpi.folder / "shared.csv").read_text() if resumes else out
             assert found == expected, f"{ranks} ranks of unequal layers: other bytes"
-            said = re.search(r"ranks begin with layers ([\d, ]+): else one would take ([\d.]+) times",
-                             err)
+            said = re.search(r"begin with layers ([\d, ]+): .* would take ([\d.]+) times", err)
             assert said, err
             first = [int(layer) for layer in said[1].split(", ")]
-            assert len(first) == ranks and first[0] == 0 and 40 < first[ranks // 2] and first[-1] < 64, first
+            assert len(first) == ranks and first[0] == 0 and first[-1] < 64, first
+            assert first[ranks // 2] > 40, first
             assert sorted(set(first)) == first and float(said[2]) >= 2, said[0]
             assert err.count("sent ") == ranks, err
             tried += 1
