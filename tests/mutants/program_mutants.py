@@ -7,7 +7,7 @@ MUTANTS = [
     ("parts: the age of the input plays no part", "apps/barcode/parts/part_files.cpp",
      "if (!error && changed <= written) continue;", "continue;", ["ph-barcode"], "ph_barcode_parts"),
     ("parts: part 1 is the second", "apps/barcode/arguments/part_arguments.cpp",
-     "text.substr(0, slash), 1, parts)) - 1", "text.substr(0, slash), 1, parts)) % parts",
+     "text.substr(0, slash), 1, parts)) - 1", "text.substr(0, slash), 1, parts)) % static_cast<int>(parts)",
      ["ph-barcode"], "ph_barcode_parts"),
     ("parts: a part that is there twice is taken twice", "apps/barcode/parts/inputs_part.cpp",
      "if (std::ranges::binary_search(numbers_, number))",

@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -132,6 +133,69 @@ def check_resumed_clouds(mpi, one_process):
     assert not list(mpi.folder.glob("resumed.csv.*"))
 
 
+def unequal(path):
+    """Noise in the last quarter of the layers, in all others one value."""
+    volume(path, (64, 24, 24))
+    data = bytearray(path.read_bytes())
+    voxels = 64 * 24 * 24
+    data[-voxels:-voxels // 4] = bytes([40]) * (voxels * 3 // 4)
+    path.write_bytes(bytes(data))
+
+
+def check_sharing(mpi, one_process):
+    """Ranks share layers by what is in them, and say so. @return the runs with other layers."""
+    unequal(mpi.folder / "unequal.npy")
+    tried = 0
+    for options in ([], ["--construction", "cells", "--superlevel"], ["--periodic", "0"],
+                    ["--max-dim", "0", "--resume", "-o", "shared.csv"]):
+        resumes = "--resume" in options
+        expected = one_process("unequal.npy", *options[:2 if resumes else None])
+        for ranks in (4, 8) if resumes else (3, 4, 8):
+            code, out, err = mpi.run(ranks, "unequal.npy", *options, "--verbose")
+            assert code == 0, err
+            found = (mpi.folder / "shared.csv").read_text() if resumes else out
+            assert found == expected, f"{ranks} ranks of unequal layers: other bytes"
+            said = re.search(r"begin with layers ([\d, ]+): .* would take ([\d.]+) times", err)
+            assert said, err
+            first = [int(layer) for layer in said[1].split(", ")]
+            assert len(first) == ranks and first[0] == 0 and first[-1] < 64, first
+            assert first[ranks // 2] > 40, first
+            assert sorted(set(first)) == first and float(said[2]) >= 2, said[0]
+            assert err.count("sent ") == ranks, err
+            tried += 1
+    # An image that is the same everywhere is cut into equal parts, and nothing is said.
+    volume(mpi.folder / "image.npy", (24, 20, 16))
+    code, _, err = mpi.run(3, "image.npy", "--verbose")
+    assert code == 0 and "begin with" not in err, err
+    return tried
+
+
+def check_forecasts(mpi):
+    """--dry-run computes nothing, whatever the ranks are; lines of progress say whose they are."""
+    volume(mpi.folder / "image.npy", (24, 20, 16))
+    unequal(mpi.folder / "unequal.npy")
+    for path, ranks, options, longest in (("image.npy", 3, [], "1.0"), ("image.npy", 30, [], ""),
+                                          ("image.npy", 1, ["--max-dim", "0"], "1.0"),
+                                          ("unequal.npy", 4, [], "")):
+        code, out, err = mpi.run(ranks, path, *options, "-o", "none.csv", "--dry-run")
+        assert code == 0, err
+        assert not list(mpi.folder.glob("none.csv*"))
+        lines = out.splitlines()
+        parts = min(ranks, 24) if path == "image.npy" else ranks
+        assert [line.split()[0] for line in lines] == ["input", "parts", "memory", "sent"], out
+        assert lines[1].startswith(f"parts    {parts}, the longest takes {longest}"), out
+        assert ("share layers by what is in them" in out) == (path == "unequal.npy"), out
+        for line in lines[2:]:
+            assert re.search(r" [0-9.]+ ([KMG]i)?B to [0-9.]+ ([KMG]i)?B \(", line), out
+    volume(mpi.folder / "large.npy", (64, 96, 96))
+    for options in ([], ["--max-dim", "0"]):
+        code, _, err = mpi.run(3, "large.npy", *options, "-o", "progress.csv", "--progress", "json")
+        assert code == 0, err
+        lines = [json.loads(line) for line in err.splitlines() if line.startswith("{")]
+        assert {line["rank"] for line in lines} == {0, 1, 2}, err
+        assert all("stage" in line and "done" in line for line in lines), err
+
+
 def check_refusals(mpi):
     volume(mpi.folder / "image.npy", (24, 20, 16))
     volume(mpi.folder / "large.npy", (48, 96, 96))
@@ -224,6 +288,8 @@ def main():
             return subprocess.run([mpi.barcode, *arguments, "--quiet"], cwd=name,
                                   check=True, capture_output=True, text=True).stdout
         tried = check_bytes(mpi, one_process) + check_clouds(mpi, one_process)
+        tried += check_sharing(mpi, one_process)
+        check_forecasts(mpi)
         check_resumed_clouds(mpi, one_process)
         check_refusals(mpi)
         killed, slowest = check_kills(mpi, one_process, kills, seed)

@@ -135,6 +135,16 @@ inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   return std::move(parts[0]);
 }
 
+/// The first layers of so many parts, of any sizes.
+inline std::vector<Index> random_first_layers(Generator& random, int layers, int parts) {
+  std::vector<Index> first{0};
+  for (int left = parts - 1; left > 0; --left) {
+    const auto next = static_cast<int>(first.back()) + 1;
+    first.push_back(random.integer(next, random.coin() ? next : layers - left));
+  }
+  return first;
+}
+
 /// Whether a volume has bars of dimension 1, or what needs them, among all that are wanted.
 inline bool is_refused(const ImageCase& c) {
   try {

@@ -139,7 +139,9 @@ std::string format_size(double bytes) {
     bytes /= 1024;
     ++unit;
   }
-  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+  // Three digits, but for the last ones before the next unit: no power of ten.
+  constexpr double kFourDigits = 999.5;
+  return fmt::format("{:.{}g} {}", bytes, bytes >= kFourDigits ? 4 : 3, kUnits[unit]);
 }
 
 std::string count_of(std::size_t count, std::string_view what) {

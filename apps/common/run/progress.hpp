@@ -21,7 +21,7 @@ namespace ph::app {
 class ProgressReporter {
  public:
   /// @param rank of one of several processes that compute together.
-  ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank);
+  ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank = std::nullopt);
   ~ProgressReporter();
 
   bool active() const { return mode_ == ProgressMode::bar || mode_ == ProgressMode::json; }

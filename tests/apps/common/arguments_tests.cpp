@@ -54,6 +54,10 @@ TEST(Numbers, Sizes) {
     EXPECT_EQ(kind_of([&] { parse_size("--m", text); }), ErrorKind::usage) << text;
   EXPECT_EQ(format_size(1536), "1.5 KiB");
   EXPECT_EQ(format_size(12), "12 B");
+  EXPECT_EQ(format_size(999), "999 B");
+  EXPECT_EQ(format_size(1000), "1000 B");
+  EXPECT_EQ(format_size(1023.9 * 1024), "1024 KiB");
+  EXPECT_EQ(format_size(1010.0 * 1024 * 1024), "1010 MiB");
 }
 
 TEST(Numbers, DoNotDependOnTheLocale) {

@@ -108,7 +108,17 @@ TEST(Progress, LinesOfJsonAreNeverHeldBack) {
   });
   EXPECT_EQ(count_of("{\"stage\": \"start\"", text), 1U) << text;
   EXPECT_EQ(count_of("{\"stage\": \"reduce\", \"done\": 2, \"total\": 3", text), 1U) << text;
+  EXPECT_EQ(count_of("\"rank\"", text), 0U) << text;
   EXPECT_EQ(count_of("\x1b", text), 0U);
+}
+
+TEST(Progress, LinesOfJsonSayWhoseTheyAre) {
+  const std::string text = stderr_of([] {
+    ProgressReporter progress(ProgressMode::json, true, 3);
+    progress.report({"reduce", 2, 0});
+  });
+  EXPECT_EQ(count_of("\"total\": null, ", text), 1U) << text;
+  EXPECT_EQ(count_of(", \"rank\": 3}\n", text), 1U) << text;
 }
 
 TEST(Progress, MessagesNeverShareALineWithABar) {

@@ -86,7 +86,10 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   std::vector<ImageLoops::Message> on_their_way;
   std::vector<bool> has_begun(loops.size(), false);
   const auto post = [&](ImageLoops& from) {
-    for (auto& message : from.take_messages()) on_their_way.push_back(std::move(message));
+    for (auto& message : from.take_messages()) {
+      EXPECT_NE(message.to, from.part());
+      on_their_way.push_back(std::move(message));
+    }
   };
   const auto begin = [&](std::size_t i) {
     loops[i].begin(whole->told_to_loops(static_cast<int>(i)));

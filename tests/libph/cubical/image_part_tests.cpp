@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
 #include "core/bytes/sealed_part.hpp"
 #include "support/conformance.hpp"
@@ -42,6 +43,77 @@ TEST(ImagePart, AgreesWithTheOracleCellByCell) {
   }
   EXPECT_TRUE(is_enough(bars, std::size_t{3000})) << bars;
   EXPECT_TRUE(is_enough(bars, refused)) << refused;
+}
+
+TEST(ImagePart, MayHaveAnyLayers) {
+  std::size_t bars = 0, unequal = 0;
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(1000)); ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    ImageCase c = random_image_case(random);
+    if (is_refused(c)) continue;
+    const auto expected = pairs_of(ImagePart(c.image, 0, 1, c.options).barcode());
+    for (int count = 1; count <= c.layers; ++count) {
+      c.options.first_layers = random_first_layers(random, c.layers, count);
+      const ImagePart whole = joined(random, parts_of(c.image, count, c.options));
+      ASSERT_EQ(pairs_of(whole.barcode()), expected) << count << " parts";
+      ASSERT_EQ(whole.options().first_layers, c.options.first_layers);
+      for (int i = 0; i < count; ++i)
+        unequal += c.options.first_layers[static_cast<std::size_t>(i)] != c.layers * i / count;
+    }
+    bars += expected.size();
+  }
+  EXPECT_TRUE(is_enough(bars, std::size_t{1500})) << bars;
+  EXPECT_TRUE(is_enough(unequal, std::size_t{500})) << unequal;
+}
+
+TEST(ImagePart, RefusesLayersThatAreNone) {
+  Generator random(6);
+  const Image image = random.image({7, 4, 3}, false);
+  for (const auto construction :
+       {CubicalOptions::Construction::vertices, CubicalOptions::Construction::cells})
+    for (const auto& layers : std::vector<std::vector<Index>>{{0, 3},
+                                                              {0, 2, 4, 6},
+                                                              {1, 3, 5},
+                                                              {-1, 3, 5},
+                                                              {0, 3, 3},
+                                                              {0, 5, 3},
+                                                              {0, 0, 3},
+                                                              {0, -3, 3},
+                                                              {0, 3, 7},
+                                                              {0, 3, Index{1} << 40}}) {
+      const ImagePartOptions options{
+          .cubical = {.construction = construction}, .max_dim = 0, .first_layers = layers};
+      for (int part = 0; part < 4; ++part) {
+        const auto refused = [&](auto&& make) {
+          try {
+            make();
+            ADD_FAILURE() << layers.size() << " layers, the second one " << layers[1];
+          } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::usage);
+            const std::string why = error.what();
+            EXPECT_EQ(why.find("first layers of parts: found "), 0U) << why;
+            EXPECT_NE(why.find("one for each of 3 parts, ascending from 0 on, below 7"),
+                      std::string::npos)
+                << why;
+          }
+        };
+        refused([&] { ImagePart(image, part, 3, options); });
+        refused([&] { ImagePart::forecast(image, 3, options); });
+      }
+    }
+  const ImagePart with_loops(image, 1, 3, {.loops = true});
+  EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
+  EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));
+  EXPECT_FALSE(with_loops.is_of(image, 1, 3, {.max_dim = 0, .loops = true}));
+  // Parts of other layers are parts of other options.
+  const ImagePartOptions equal{.max_dim = 0}, other{.max_dim = 0, .first_layers = {0, 1, 6}};
+  ImagePart first(image, 0, 3, other);
+  EXPECT_TRUE(first.is_of(image, 0, 3, other));
+  EXPECT_FALSE(first.is_of(image, 0, 3, equal));
+  EXPECT_THROW(first.join(ImagePart(image, 1, 3, equal)), Error);
+  first.join(ImagePart(image, 1, 3, other));
+  EXPECT_EQ(first.last(), 1);
 }
 
 // But for holes: of two that have always been there one is closed first, sooner or later.
@@ -168,6 +240,36 @@ TEST(ImagePart, RefusesDamagedBytes) {
     }
   EXPECT_GT(refused, content.size() / 4);
   EXPECT_TRUE(is_refused(sealed_part("inputs", content)));
+}
+
+TEST(ImagePart, RefusesDamagedLayers) {
+  Generator random(3);
+  const Image image = random.image({300, 2}, false);
+  const ImagePartOptions options{.first_layers = {0, 258, 299}};
+  const std::vector<std::byte> bytes = ImagePart(image, 1, 3, options).bytes();
+  const auto content = content_of_part(bytes, "image");
+  ByteWriter layers;
+  layers.put_list(options.first_layers, [&](Index layer) { layers.put(std::int64_t{layer}); });
+  const auto found = std::ranges::search(content, layers.bytes());
+  ASSERT_EQ(found.size(), layers.bytes().size());
+  const auto begin = static_cast<std::size_t>(found.begin() - content.begin());
+  const auto is_refused = [&](std::span<const std::byte> damaged) {
+    try {
+      ImagePart first(image, 0, 3, options);
+      first.join(ImagePart::of_bytes(sealed_part("image", damaged)));
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused(content));
+  for (std::size_t i = begin; i < begin + found.size(); ++i)
+    for (unsigned flipped = 1; flipped < 256; ++flipped) {
+      std::vector<std::byte> damaged(content.begin(), content.end());
+      damaged[i] ^= static_cast<std::byte>(flipped);
+      ASSERT_TRUE(is_refused(damaged)) << i - begin << " ^ " << flipped;
+    }
 }
 
 // The check value of the catalogue of CRCs (Cook), of the digits 1 to 9.

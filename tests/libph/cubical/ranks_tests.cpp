@@ -64,7 +64,10 @@ TEST(Ranks, AgreeWithTheOracle) {
                          .field = field,
                          .engine = Engine::standard};
     const auto expected = pairs_of(persistence(Cubical(c.image, c.options.cubical), oracle));
-    ThreadRanks ranks(random.integer(1, 9), random.coin() ? &delays : nullptr);
+    const int count = random.integer(1, 9);
+    if (random.coin())
+      c.options.first_layers = random_first_layers(random, c.layers, std::min(count, c.layers));
+    ThreadRanks ranks(count, random.coin() ? &delays : nullptr);
     ASSERT_EQ(pairs_of(bars_of_ranks(c, ranks, field)), expected);
     bars += expected.size();
     of_many_axes += has_many_axes ? 1 : 0;

@@ -194,7 +194,9 @@ VoxelType ImagePart::type() const { return state_->whole.type; }
 const ImagePartOptions& ImagePart::options() const { return state_->options; }
 bool ImagePart::is_of(const Image& image, int part, int parts,
                       const ImagePartOptions& options) const {
-  return first() == part && last() == part && state_->whole == whole_image(image, parts, options);
+  WholeImage whole = whole_image(image, parts, options);
+  whole.loops = options.loops && cubical::wants_loops(state_->shape, whole.wanted());
+  return first() == part && last() == part && state_->whole == whole;
 }
 
 void ImagePart::join(ImagePart next, const RunContext& context) {

@@ -45,7 +45,8 @@ class LayerSample {
     const std::uint64_t rows = layer_size_ / width_;
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
-    for (std::uint64_t y = step / 2; y < rows; y += step)
+    // A layer of few rows has one at least.
+    for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
         if (is_minimum(layer, y, x)) ++found;
     return looked_at == 0 ? 0 : static_cast<double>(found) / static_cast<double>(looked_at);
@@ -121,6 +122,7 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),
                loops = whole.loops ? bar * 1.3 : 0;
   const double of_minimum = whole.loops ? 500 : 250;
+  constexpr double of_process = 2 << 20;  // code, stacks, and what allocators keep
 
   ImagePartForecast forecast;
   forecast.first_layers = cut(costs, parts);
@@ -140,8 +142,9 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
     if (p == 0) minima_of_first = minima_here;
     forecast.longest = std::max(forecast.longest, sum(costs) / mean_cost);
     raise(forecast.file, {seams, 1.2 * seams + 1.5 * bars * minima_here + 1024});
-    raise(forecast.memory, {whole.loops ? read + 8 * voxels : seams,
-                            read + 10 * voxels + of_minimum * minima_here + 2 * seams});
+    raise(forecast.memory,
+          {whole.loops ? read + 8 * voxels : seams,
+           read + 10 * voxels + of_minimum * minima_here + 2 * seams + of_process});
   }
   const double bars_of_all = (bars + loops) * minima_of_all;
   forecast.join = {seams_of_all / 2, 2 * seams_of_all + 4 * bars_of_all + (4 << 20)};
