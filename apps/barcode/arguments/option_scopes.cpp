@@ -69,7 +69,7 @@ constexpr std::array kScopes{
     OptionScope{"representatives", kComputed, kOfInputs},
     OptionScope{"significance", kAllPairs | kSomePairs | kAlpha,
                 "Rips and alpha complexes of points and distances"},
-    OptionScope{"dry-run", kComputed | kSomeLayers, kOfInputs},
+    OptionScope{"dry-run", kComputed | kSomeLayers | kCloudPart | kCloudRanks, kOfInputs},
     OptionScope{"plot", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
     OptionScope{"plot-kind", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
     OptionScope{"dims", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},

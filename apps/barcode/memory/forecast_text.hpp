@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "ph/parts/cloud_part.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph::barcode {
@@ -10,6 +11,10 @@ namespace ph::barcode {
 /// @param on_ranks whether each part is that of a rank, so that they send each other what is
 /// known.
 std::string forecast_text(const ImagePartForecast& forecast, const std::string& description,
+                          int parts, bool on_ranks);
+
+/// The same of a point cloud.
+std::string forecast_text(const CloudPartForecast& forecast, const std::string& description,
                           int parts, bool on_ranks);
 
 /// Whether layers are to be shared out by what is in them: else a rank would take twice the mean.

@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/cloud_input.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::barcode {
 BarcodeInfo info_of(const CloudPart& part, const std::string& description,
@@ -34,6 +36,12 @@ Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context
   return persistence(std::move(whole).rips(context), {.max_dim = 0}, context);
 }
 
+Outcome foresee(const CloudInput& cloud, int parts, bool on_ranks) {
+  const CloudPartForecast forecast = CloudPart::forecast(cloud.points, parts, cloud.options);
+  write_file("-", forecast_text(forecast, cloud.data.read.description, parts, on_ranks));
+  return {app::kOk, cloud.data.read.description};
+}
+
 Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
                        app::Session& session) {
   app::require_in_scope(arguments.given, kCloudPart, name_of(kCloudPart));
@@ -41,6 +49,7 @@ Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
   const std::string path =
       part_path(arguments.output, app::output_names({input}).front(), part, parts);
   const CloudInput cloud = read_cloud_input(input, arguments, session);
+  if (arguments.dry_run) return foresee(cloud, parts, false);
   if (arguments.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;

@@ -8,6 +8,9 @@
 
 namespace ph::barcode {
 
+/// Says what a cloud in parts will take, and computes nothing.
+Outcome foresee(const CloudInput& cloud, int parts, bool on_ranks);
+
 /// Computes a part of the components of a point cloud and writes it. Precondition: arguments.part.
 /// @throws Error (usage) if the input is no points, or more than components is wanted.
 Outcome run_cloud_part(const std::string& input, const Arguments& arguments, app::Session& session);

@@ -39,6 +39,10 @@ RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport&
   const RunContext& context = session.context();
   const CloudInput cloud = read_cloud_input(job.input, arguments, session);
   const int rank = transport.rank(), parts = transport.size();
+  if (arguments.dry_run) {
+    if (rank == 0) foresee(cloud, parts, true);
+    return {};
+  }
   RankResult result{kept_path(arguments, rank, parts), std::nullopt};
   Post post(transport);
   std::optional<CloudPart> whole =

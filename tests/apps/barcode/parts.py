@@ -5,6 +5,7 @@ import io
 import json
 import os
 import random
+import re
 import struct
 import sys
 import time
@@ -236,6 +237,18 @@ class Clouds(ProgramTest):
             self.assertEqual(whole[key], joined[key], key)
         self.assertEqual([(bar["birth"], bar["death"]) for bar in whole["bars"]],
                          [(bar["birth"], bar["death"]) for bar in joined["bars"]])
+
+    def test_what_a_part_takes_is_foreseen(self):
+        cloud = self.cloud(random.Random(13), "cloud.csv", 3000, 3)
+        said = self.expect(0, cloud, *self.OPTIONS, "--part", "1/4", "--dry-run", "--quiet").stdout
+        self.assertFalse(os.path.exists(self.path("cloud.1of4.ph")))
+        lines = dict(line.split(None, 1) for line in said.splitlines())
+        self.assertEqual(list(lines), ["input", "parts", "memory", "file", "join"])
+        found = re.match(r"([\d.]+) (KiB|MiB) to ([\d.]+) (KiB|MiB)", lines["file"])
+        low, high = (float(n) * {"KiB": 2**10, "MiB": 2**20}[unit] for n, unit in (found.group(1, 2), found.group(3, 4)))
+        for name in self.parts(cloud, 4):
+            size = os.path.getsize(self.path(name))
+            self.assertTrue(low <= size <= high, f"{name}: {size} bytes, foreseen {lines['file']}")
 
     def test_refusals_and_resume(self):
         rng = random.Random(12)

@@ -26,6 +26,19 @@ struct CloudPartOptions {
   Index sample = 0;
 };
 
+/// What parts of a cloud will take, foreseen from the numbers of points and blocks. The points, which
+/// may be a mapped file, are not counted.
+struct CloudPartForecast {
+  /// Bytes, at least and at most.
+  struct Bytes {
+    double low = 0, high = 0;
+  };
+  Bytes memory;  ///< of a part
+  Bytes file;    ///< of a part, as CloudPart::bytes
+  Bytes join;    ///< memory to join all of them and have the bars
+  Bytes sent;    ///< by all ranks together, if each has a part
+};
+
 /// The components of a point cloud, as far as they are known from some blocks of it and what is
 /// near these: edges of its minimum spanning tree. Parts are computed apart, by any processes that
 /// can read the cloud, on any machines, and joined in any grouping and order: what comes of all of
@@ -45,6 +58,9 @@ class CloudPart {
   /// (resource), (cancelled).
   CloudPart(PointsView points, int part, int parts, const CloudPartOptions& options = {},
             const RunContext& context = default_context());
+  /// Looks at no coordinates. @throws Error (usage) as the constructor.
+  static CloudPartForecast forecast(PointsView points, int parts,
+                                    const CloudPartOptions& options = {});
   CloudPart(CloudPart&&) noexcept;
   CloudPart& operator=(CloudPart&&) noexcept;
   ~CloudPart();

@@ -86,6 +86,24 @@ CloudPart::CloudPart(PointsView points, int part, int parts, const CloudPartOpti
   }
 }
 
+CloudPartForecast CloudPart::forecast(PointsView points, int parts,
+                                      const CloudPartOptions& options) {
+  check(points, 0, parts, options);
+  const WholeCloud whole = whole_cloud(points, parts, options);
+  const auto n = static_cast<double>(whole.points), of_part = n / parts;
+  const double of_block = of_part / whole.blocks;
+  // Measured of 10⁶ to 10⁸ points, uniform and in clusters: see docs/notes/benchmarks.md. Of a
+  // small block, and where clusters end, more is near than in it.
+  constexpr double small = 32 << 20;
+  CloudPartForecast forecast;
+  forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};
+  forecast.file = {16 * of_part, 1024 + 50 * of_part};
+  forecast.join = {24 * n, small + 64 * n};
+  // Joined along a tree, half of the parts are on their way at each of its steps.
+  forecast.sent = {16 * (n - of_part), 25 * n * std::ceil(std::log2(parts)) + 1024.0 * parts};
+  return forecast;
+}
+
 CloudPart::CloudPart(std::unique_ptr<State> state) : state_(std::move(state)) {}
 CloudPart::CloudPart(CloudPart&&) noexcept = default;
 CloudPart& CloudPart::operator=(CloudPart&&) noexcept = default;
