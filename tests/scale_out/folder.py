@@ -165,7 +165,6 @@ def check_refusals(place):
             (["image.npy", *part, "--plot", "x.svg", "--plot-kind", "tree"], "--plot-kind"),
             (["image.npy", *part, "--exchange", ""], "--exchange"),
             (["points.csv", *part], "points need --complex rips"),
-            (["points.csv", *part, *H0, "--dry-run"], "--dry-run"),
             (["image.npy", *part, "-o", "image.npy"], "is an input")):
         place.clear()
         run = subprocess.run([place.program, *arguments], cwd=place.folder, capture_output=True, text=True,

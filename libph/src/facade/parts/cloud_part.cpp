@@ -100,7 +100,7 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   forecast.file = {16 * of_part, 1024 + 50 * of_part};
   forecast.join = {24 * n, small + 64 * n};
   // Joined along a tree, half of the parts are on their way at each of its steps.
-  forecast.sent = {16 * (n - of_part), 25 * n * std::ceil(std::log2(parts)) + 1024.0 * parts};
+  forecast.sent = {16 * (n - of_part), 25 * n * std::ceil(std::log2(parts)) + 1024.0 * (parts - 1)};
   return forecast;
 }
 
