@@ -44,7 +44,7 @@ def waves(shape):
 
 
 KINDS = {"noise": noise, "blurred noise": blurred, "waves": waves}
-SIZES = {"64³": (64,) * 3, "128³": (128,) * 3, "256³": (256,) * 3, "512³": (512,) * 3}
+SIZES = {"16³": (16,) * 3, "64³": (64,) * 3, "128³": (128,) * 3, "256³": (256,) * 3, "512³": (512,) * 3}
 
 
 def mebibytes(text):
@@ -78,11 +78,12 @@ def compare(array, name, programs, options, folder):
         took = meter.best([*ours, *common])
         if took.ok and not filecmp.cmp(bars, one_process, shallow=False):
             raise SystemExit(f"{name}: found other bars on {ranks} ranks than in one process")
-        print_row(f"{name}, {ranks} ranks", took, one, f"{sent([*ours, '--threads', '1']):.0f}")
+        words = f"{ranks} rank" if ranks == 1 else f"{ranks} ranks"
+        print_row(f"{name}, {words}", took, one, f"{sent([*ours, '--threads', '1']):.0f}")
         for peer in options.peer:
             title, command = peer.split(" = ", 1)
-            words = [word.format(input=image, output=folder / "peer") for word in command.split()]
-            print_row(f"{name}, {title}, {ranks} ranks", meter.best([*run, *words]), one)
+            arguments = [word.format(input=image, output=folder / "peer") for word in command.split()]
+            print_row(f"{name}, {title}, {words}", meter.best([*run, *arguments]), one)
 
 
 def main():

@@ -24,10 +24,11 @@ constexpr std::string_view kHelp =
     R"(mpirun -n RANKS ph-barcode-mpi [OPTION...] IMAGE -o BARS
 mpirun -n RANKS ph-barcode-mpi --complex rips --max-dim 0 [OPTION...] POINTS
 
-The barcode of one image of two or three axes, computed by all ranks, each of
-which looks at some layers; or the components of points of up to eight
-coordinates, of which each rank has some blocks. All ranks have to see the
-file. The bars are those of ph-barcode, to the last byte.
+The barcode of one image of two or three axes (of up to eight: its components,
+or the highest dimension but one), computed by all ranks, each of which looks
+at some layers; or the components of points of up to eight coordinates, of which
+each rank has some blocks. All ranks have to see the file. The bars are those of
+ph-barcode, to the last byte.
 
 Options are those of ph-barcode. For images: --raw-..., --channel,
 --construction, --superlevel, --periodic, --max-dim, --min-dim, --field,

@@ -36,9 +36,9 @@ Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context
   return persistence(std::move(whole).rips(context), {.max_dim = 0}, context);
 }
 
-Outcome foresee(const CloudInput& cloud, int parts, bool on_ranks) {
+Outcome foresee(const CloudInput& cloud, int parts, std::string_view process) {
   const CloudPartForecast forecast = CloudPart::forecast(cloud.points, parts, cloud.options);
-  write_file("-", forecast_text(forecast, cloud.data.read.description, parts, on_ranks));
+  write_file("-", forecast_text(forecast, cloud.data.read.description, parts, process));
   return {app::kOk, cloud.data.read.description};
 }
 
@@ -49,7 +49,7 @@ Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
   const std::string path =
       part_path(arguments.output, app::output_names({input}).front(), part, parts);
   const CloudInput cloud = read_cloud_input(input, arguments, session);
-  if (arguments.dry_run) return foresee(cloud, parts, false);
+  if (arguments.dry_run) return foresee(cloud, parts, "");
   if (arguments.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;

@@ -9,7 +9,8 @@
 namespace ph::barcode {
 
 /// Says what a cloud in parts will take, and computes nothing.
-Outcome foresee(const CloudInput& cloud, int parts, bool on_ranks);
+/// @param process as of forecast_text.
+Outcome foresee(const CloudInput& cloud, int parts, std::string_view process);
 
 /// Computes a part of the components of a point cloud and writes it. Precondition: arguments.part.
 /// @throws Error (usage) if the input is no points, or more than components is wanted.

@@ -81,9 +81,9 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
       });
 }
 
-Outcome foresee(const PartInput& read, int parts, bool on_ranks) {
+Outcome foresee(const PartInput& read, int parts, std::string_view process) {
   const ImagePartForecast forecast = ImagePart::forecast(read.image, parts, read.options);
-  write_file("-", forecast_text(forecast, read.description, parts, on_ranks));
+  write_file("-", forecast_text(forecast, read.description, parts, process));
   return {app::kOk, read.description};
 }
 
@@ -94,7 +94,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
       part_path(arguments.output, app::output_names({input}).front(), part, parts);
   app::require_in_scope(arguments.given, kImagePart, name_of(kImagePart));
   const PartInput read = read_part_input(input, arguments.keeps_cells, arguments, session);
-  if (arguments.dry_run) return foresee(read, parts, false);
+  if (arguments.dry_run) return foresee(read, parts, "");
   if (arguments.resumes && kept_image_part(path, input, read, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;

@@ -13,7 +13,8 @@
 namespace ph::barcode {
 
 /// Says what an image in parts will take, and computes nothing.
-Outcome foresee(const PartInput& read, int parts, bool on_ranks);
+/// @param process as of forecast_text.
+Outcome foresee(const PartInput& read, int parts, std::string_view process);
 
 /// Computes a part of an image and writes it. Precondition: arguments.part.
 /// @throws Error (usage) if the input is no image.

@@ -11,43 +11,23 @@
 #include "facade/parts/join_ranks.hpp"
 
 namespace ph::barcode {
-namespace {
-
-/// The part of this rank: computed, or with --resume taken from its file. Else with --resume it is
-/// written there.
-CloudPart own_blocks(const CloudInput& cloud, int rank, int parts, const std::string& kept,
-                     const Arguments& arguments, app::Session& session) {
-  if (arguments.resumes) {
-    auto there = kept_cloud_part(kept, arguments.inputs.front(), cloud, rank, parts, session);
-    if (there) {
-      session.explain(fmt::format("rank {}: {} is there already", rank, kept));
-      return std::move(*there);
-    }
-  }
-  CloudPart part(cloud.points, rank, parts, cloud.options, session.context());
-  if (arguments.resumes) {
-    app::Output output(kept);
-    write_part_file(output, part.bytes());
-  }
-  return part;
-}
-
-}  // namespace
-
 RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
                           app::Session& session) {
   const RunContext& context = session.context();
   const CloudInput cloud = read_cloud_input(job.input, arguments, session);
   const int rank = transport.rank(), parts = transport.size();
   if (arguments.dry_run) {
-    if (rank == 0) foresee(cloud, parts, true);
+    if (rank == 0) foresee(cloud, parts, transport.word());
     return {};
   }
   RankResult result{kept_path(arguments, rank, parts), std::nullopt};
   Post post(transport);
-  std::optional<CloudPart> whole =
-      join_ranks(std::optional(own_blocks(cloud, rank, parts, result.kept, arguments, session)),
-                 post, context);
+  std::optional<CloudPart> own = kept_or_computed(
+      result.kept, arguments, session,
+      [&] { return kept_cloud_part(result.kept, job.input, cloud, rank, parts, session); },
+      [&] { return CloudPart(cloud.points, rank, parts, cloud.options, context); },
+      [](const CloudPart&) { return true; });
+  std::optional<CloudPart> whole = join_ranks(std::move(own), post, context);
   explain_costs(post, session);
   if (!whole) return result;
   const std::string description =

@@ -50,27 +50,6 @@ std::vector<Index> shared_out(const PartInput& input, int parts, const Transport
   return layers;
 }
 
-/// The part of this rank: computed, or with --resume taken from its file. Else with --resume it is
-/// written there. Loops of volumes need voxels, which no file of a part has.
-ImagePart own_part(const PartInput& input, int rank, int parts, const std::string& kept,
-                   const Arguments& arguments, app::Session& session) {
-  if (arguments.resumes) {
-    auto there = kept_image_part(kept, arguments.inputs.front(), input, rank, parts, session);
-    if (there && !there->has_loops()) {
-      session.explain(fmt::format("rank {}: {} is there already", rank, kept));
-      return std::move(*there);
-    }
-  }
-  ImagePart part(input.image, rank, parts, input.options, session.context());
-  if (arguments.resumes && part.has_loops()) {
-    session.note("--resume does nothing for loops of volumes: they are computed anew");
-  } else if (arguments.resumes) {
-    app::Output output(kept);
-    write_part_file(output, part.bytes());
-  }
-  return part;
-}
-
 }  // namespace
 
 RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
@@ -88,7 +67,7 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
                     app::count_of(static_cast<std::size_t>(parts), "layer")));
   RankResult result;
   if (arguments.dry_run) {
-    if (rank == 0) foresee(input, parts, true);
+    if (rank == 0) foresee(input, parts, transport.word());
     return result;
   }
   Post post(transport);
@@ -96,7 +75,15 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
   std::optional<ImagePart> own;
   if (rank < parts) {
     result.kept = kept_path(arguments, rank, parts);
-    own.emplace(own_part(input, rank, parts, result.kept, arguments, session));
+    own.emplace(kept_or_computed(
+        result.kept, arguments, session,
+        [&] { return kept_image_part(result.kept, job.input, input, rank, parts, session); },
+        [&] { return ImagePart(input.image, rank, parts, input.options, context); },
+        [&](const ImagePart& part) {
+          if (!part.has_loops()) return true;  // they need voxels, which no file of a part has
+          session.note("--resume does nothing for loops of volumes: they are computed anew");
+          return false;
+        }));
   }
   const bool has_loops = own && own->has_loops();
   std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
