@@ -61,10 +61,11 @@ class LoopColumn {
   std::optional<Term> follow(const Term& pivot, std::size_t most) {
     return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
   }
-  /// Before it is kept: as `follow`. What it is added to need not do so again, and much cancels
-  /// out.
+  /// Before it is kept: as `follow`, if it is long. What it is added to need not do so again, and
+  /// much cancels out.
   std::optional<Term> settle(const Term& pivot) {
-    return is_cycle_ ? pivot : follow(pivot, size());
+    constexpr std::size_t few = 32;
+    return is_cycle_ || size() < few ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
   /// What it holds, each edge once; to be assigned before it is used again.
