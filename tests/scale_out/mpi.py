@@ -194,6 +194,9 @@ def check_forecasts(mpi):
     lines = [json.loads(line) for line in err.splitlines() if line.startswith("{")]
     assert {line["rank"] for line in lines} == {0, 1, 2}, err
     assert all("stage" in line and "done" in line for line in lines), err
+    for options, does_nothing in ([], True), (["--max-dim", "0"], False):
+        code, _, err = mpi.run(2, "image.npy", *options, "-o", "slabs.csv", "--slab-layers", "3")
+        assert code == 0 and ("--slab-layers does nothing" in err) == does_nothing, err
 
 
 def check_refusals(mpi):

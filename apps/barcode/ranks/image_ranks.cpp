@@ -86,6 +86,8 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
         }));
   }
   const bool has_loops = own && own->has_loops();
+  if (has_loops && arguments.common.slab_layers > 0)
+    session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
   std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
   if (has_loops) loops.emplace(*own, arguments.options.field, context);
 

@@ -151,7 +151,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
         Whether bars know the cells of their birth and death.
     loops : bool
         Whether `ImageLoops` will find bars of a volume that need all layers at once. The part holds
-        the voxels until they take it.
+        the voxels until they take it, and has all its layers in memory, whatever `slab_layers` is.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

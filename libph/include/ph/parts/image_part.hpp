@@ -19,8 +19,9 @@ struct ImagePartOptions {
   int min_dim = 0;
   std::optional<int> max_dim = std::nullopt;  ///< default: all
   bool cells = true;                          ///< else bars have none
-  /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them. Of more
-  /// than three axes it does not.
+  /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them, but not of
+  /// more than three axes. A part that has them looks at all its layers at once, whatever
+  /// RunContext::slab_layers says.
   bool loops = false;
   /// The first layer of each part, ascending from 0 on; default: parts of about equal size.
   std::vector<Index> first_layers = {};
