@@ -2,9 +2,12 @@
 #include "methods.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "plane/free_patches.hpp"
 #include "surface/concavity.hpp"
+#include "surface/noise.hpp"
 #include "surface/seeds.hpp"
 #include "voxels/base_points.hpp"
 #include "voxels/rips_graph.hpp"
@@ -38,10 +41,67 @@ constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
 bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
   constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(
-      pairs, [&](const VoxelPair& pair) { return are_adjacent(pair, voxel); });
+      pairs, [&](const VoxelPair& pair) { return pair.distance < kAdjacent * voxel; });
   if (2 * static_cast<double>(adjacent) >= fewest * static_cast<double>(voxels)) return false;
   const VoxelGrid half = voxel_grid(scene.cloud, scene.points.beyond, voxel / 2);
   return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
+}
+
+/// The concavity at each voxel, and what it needs.
+struct Relief {
+  Points normals;
+  std::vector<double> concavity;
+};
+
+Relief relief_of(const VoxelGrid& grid, const VoxelPairs& pairs, double voxel,
+                 const Vec3& viewpoint) {
+  Relief relief{surface_normals(grid.centroids, pairs, kOfNormals * voxel, viewpoint), {}};
+  relief.concavity =
+      smoothed(concavity(grid.centroids, relief.normals, pairs), pairs, kAdjacent * voxel);
+  return relief;
+}
+
+double distance_between(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
+  const auto row = centroids.row(static_cast<Index>(v));
+  return std::hypot(row[0] - viewpoint[0], row[1] - viewpoint[1], row[2] - viewpoint[2]);
+}
+
+/// Adds to the concavity where the surface is seen so slantwise that it may not be one: sheets of
+/// points between an object and what is behind it.
+void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief) {
+  constexpr double largest_cosine = 0.3, weight = 0.3;
+  for (std::size_t v = 0; v < relief.concavity.size(); ++v) {
+    const auto place = centroids.row(static_cast<Index>(v));
+    const auto normal = relief.normals.row(static_cast<Index>(v));
+    double product = 0;
+    for (std::size_t k = 0; k < 3; ++k) product += normal[k] * (viewpoint[k] - place[k]);
+    const double cosine = product / distance_between(centroids, v, viewpoint);
+    if (cosine < largest_cosine) relief.concavity[v] += weight * (1 - cosine / largest_cosine);
+  }
+}
+
+/// What the same steps find where the supporting plane is free.
+ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& context) {
+  constexpr double side = 12;      // voxels
+  constexpr int fewest_near = 16;  // voxels: the surface is whole there
+  if (!scene.plane) return {};
+  const std::vector<Index> points = free_patches(scene.cloud, scene.in_range, scene.points.beyond,
+                                                 *scene.plane, scene.margin, side * voxel);
+  const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
+  const VoxelPairs pairs = near_voxels(grid, voxel, context);
+  const Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);
+  std::vector<int> near(grid.cells.size());
+  for (const VoxelPair& pair : pairs) {
+    ++near[pair.u];
+    ++near[pair.v];
+  }
+  std::vector<double> ranges, values;
+  for (std::size_t v = 0; v < near.size(); ++v) {
+    if (near[v] < fewest_near) continue;
+    ranges.push_back(distance_between(grid.centroids, v, scene.cloud.viewpoint));
+    values.push_back(relief.concavity[v]);
+  }
+  return {ranges, values};
 }
 
 }  // namespace
@@ -50,7 +110,7 @@ VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& co
   return close_voxels(grid, voxel, kNeighbourhood, context);
 }
 
-bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
+double adjacent_radius(double voxel) { return kAdjacent * voxel; }
 
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock) {
@@ -75,11 +135,17 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
       break;
   }
   const Index voxels = grid.centroids.rows();
-  Points normals =
-      surface_normals(grid.centroids, pairs, kOfNormals * voxel, scene.cloud.viewpoint);
+  Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);
+  if (options.method == Method::surface) add_grazing(grid.centroids, scene.cloud.viewpoint, relief);
+  auto& [normals, values] = relief;
   clock.finish("normals", voxels);
-  std::vector<double> values =
-      smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
+  ConcavityNoise noise;
+  if (options.method == Method::surface) {
+    noise = noise_of(scene, voxel, context);
+    for (std::size_t v = 0; v < values.size(); ++v)
+      values[v] /= noise.at(distance_between(grid.centroids, v, scene.cloud.viewpoint));
+    clock.finish("noise", voxels);
+  }
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size() / 2);
   for_each_within(pairs, kAdjacent * voxel, [&](const VoxelPair& p) {
@@ -93,7 +159,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
           std::move(grid),
           std::move(points),
           std::move(graph),
-          {std::move(normals), std::move(pairs), scene.cloud.viewpoint, scene.plane}};
+          {std::move(normals), std::move(pairs), scene.cloud.viewpoint, scene.plane},
+          noise.measured()};
 }
 
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
@@ -104,7 +171,7 @@ VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& option
   // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
   FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   clock.finish("complex", rips.size());
-  return {options.voxel_size(), std::move(grid), scene.points.beyond, std::move(rips), {}};
+  return {options.voxel_size(), std::move(grid), scene.points.beyond, std::move(rips), {}, {}};
 }
 
 }  // namespace ph::segment

@@ -31,6 +31,8 @@ struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
   PlaneMargin margin;
+  std::vector<Index>
+      in_range;  ///< if there is a plane: all points in range, those of the plane too
   Cleared points;
 };
 
@@ -39,14 +41,15 @@ struct VoxelFiltration {
   double voxel;  ///< edge of a voxel of the grid, metres
   VoxelGrid grid;
   std::vector<Index> points;
-  FilteredGraph graph;  ///< on the voxels
-  Surface surface;      ///< empty if the method does not look at it
+  FilteredGraph graph;         ///< on the voxels
+  Surface surface;             ///< empty if the method does not look at it
+  std::vector<NoiseAt> noise;  ///< method surface: see Segmentation
 };
 
 /// Method surface: the pairs of voxels in each other's neighbourhood, see Surface.
 VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
-/// Whether an edge of the graph of method surface joins them.
-bool are_adjacent(const VoxelPair& pair, double voxel);
+/// Method surface: an edge of the graph joins voxels that are nearer than this, metres.
+double adjacent_radius(double voxel);
 
 /// Voxels enter with the concavity of the surface around them (supervoxels: with their distance to
 /// the seeds), edges between adjacent ones with the later of their ends.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "methods.hpp"
+#include "objects/openings.hpp"
 #include "options.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
@@ -19,11 +20,11 @@
 namespace ph::segment {
 namespace {
 
-/// What all stages hold of a cloud at once, at most: of each point its number in two lists of those
-/// that are left, its voxel, its number, its vertex and its coordinates as the tree has them, these
-/// sorted by segment, its label.
+/// What all stages hold of a cloud at once, at most: of each point its number in three lists of
+/// those that are left, its voxel, its number, its vertex and its coordinates as the tree has them,
+/// these sorted by segment, its label.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 3 * 8 + 4 + 4 + 12 + 12 + 4;
+  constexpr std::size_t bytes_per_point = 4 * 8 + 4 + 4 + 12 + 12 + 4;
   return cloud.size() * bytes_per_point;
 }
 
@@ -65,6 +66,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
+    scene.in_range = std::move(in_range);
   } else
     scene.points.beyond = std::move(in_range);
   clock.finish("plane", count(scene.points.beyond));
@@ -75,29 +77,30 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
   const std::vector<Index>& points = filtration.points;
   const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
-  // Those beyond the plane, ascending, and behind them those that were won back, ascending.
+  // Those beyond the plane, ascending, and behind them those that were won back.
   const auto beyond =
       static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
-  if (beyond == points.size()) {
-    scene.points = points;
-    scene.vertex_of_point = voxel_of;
-  } else {
-    scene.points.reserve(points.size());
-    scene.vertex_of_point.reserve(points.size());
-    for (std::size_t next = 0, next_base = beyond; scene.points.size() < points.size();) {
-      const bool is_base =
-          next == beyond || (next_base < points.size() && points[next_base] < points[next]);
-      const std::size_t from = is_base ? next_base++ : next++;
-      scene.points.push_back(points[from]);
-      scene.vertex_of_point.push_back(voxel_of[from]);
-    }
+  std::vector<std::pair<Index, std::uint32_t>> won_back;
+  for (std::size_t k = beyond; k < points.size(); ++k)
+    won_back.emplace_back(points[k], voxel_of[k]);
+  std::ranges::sort(won_back);
+  scene.points.reserve(points.size());
+  scene.vertex_of_point.reserve(points.size());
+  for (std::size_t next = 0, next_back = 0; scene.points.size() < points.size();) {
+    const bool is_back =
+        next == beyond || (next_back < won_back.size() && won_back[next_back].first < points[next]);
+    const auto& [point, voxel] =
+        is_back ? won_back[next_back++] : std::pair(points[next], voxel_of[next]);
+    next += is_back ? 0 : 1;
+    scene.points.push_back(point);
+    scene.vertex_of_point.push_back(voxel);
   }
   scene.xyz.resize(3 * points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
 }
 
-/// The tree and what a cut needs besides. `plane` is there already.
+/// What a cut needs besides the tree and the points. `plane` is there already.
 void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
                 const SegmentOptions& options, SceneTree& scene) {
   scene.method = options.method;
@@ -110,7 +113,6 @@ void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
   scene.width = cloud.columns();
   scene.height = cloud.rows();
   scene.first_cut = options.cut();
-  keep_points(cloud, filtration, scene);
   scene.cells = filtration.grid.cells;
   scene.vertices = filtration.grid.centroids;
   scene.normals = filtration.surface.normals;
@@ -131,10 +133,11 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   result.rays_meet_at = centre_elsewhere(cloud);
   if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
   const Scene scene = clear_scene(cloud, options, clock, result);
-  const VoxelFiltration filtration = options.method == Method::paper
-                                         ? rips_filtration(scene, options, context, clock)
-                                         : surface_filtration(scene, options, context, clock);
+  VoxelFiltration filtration = options.method == Method::paper
+                                   ? rips_filtration(scene, options, context, clock)
+                                   : surface_filtration(scene, options, context, clock);
 
+  result.noise = filtration.noise;
   const MemoryClaim of_voxels(context.memory, bytes_for_voxels(filtration.grid));
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
@@ -143,8 +146,14 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   clock.finish("persistence", filtration.graph.size());
 
   keep_scene(cloud, filtration, options, result);
+  const std::vector<Index> component_of =
+      components_of(result, filtration.grid, filtration.surface, result.first_cut, context);
+  if (options.method == Method::surface && scene.plane)
+    assign_points_in_openings(cloud, scene.in_range, *scene.plane, filtration.voxel, component_of,
+                              result.first_cut.min_size, filtration.points, filtration.grid);
+  keep_points(cloud, filtration, result);
   static_cast<SceneCut&>(result) =
-      cut_scene(result, filtration.grid, filtration.surface, result.first_cut, context);
+      cut_into(result, component_of, filtration.surface, result.first_cut, context);
   Index in_segments = 0;
   for (const Segment& s : result.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);

@@ -91,7 +91,7 @@ struct Segment {
 struct CutOptions {
   /// Least persistence of a part: a mean concavity, 0…2 (surface), or metres (supervoxels). Method
   /// paper: components at this distance, metres, at most that of the tree. >= 0.
-  double value = 0.01;
+  double value = 1;
   Index min_part =
       200;  ///< not paper: fewest voxels of a part; a smaller one joins a neighbour, >= 1
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1

@@ -21,31 +21,6 @@ namespace {
 
 constexpr std::uint32_t kSmall = Parts::kSmall;
 
-/// Calls `join(p, q)` for parts that meet, but not in a seam.
-template <class Join>
-void join_without_seam(const VoxelGrid& grid, const Surface& surface, const Parts& parts,
-                       Join&& join) {
-  constexpr double least_seam = 0.05;  // mean rise; seams between objects have 0.12 to 0.7
-  constexpr int fewest = 3;            // pairs of voxels that tell
-  struct Contact {
-    double sum = 0;
-    int count = 0;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
-  for (const VoxelPair& pair : surface.pairs) {
-    const std::uint32_t p = parts.of[pair.u], q = parts.of[pair.v];
-    if (p == q || p == kSmall || q == kSmall) continue;
-    const double value = rise(grid.centroids, surface.normals, pair);
-    if (!std::isfinite(value)) continue;
-    Contact& contact = contacts[std::minmax(p, q)];
-    contact.sum += value;
-    ++contact.count;
-  }
-  for (const auto& [both, contact] : contacts)
-    if (contact.count >= fewest && contact.sum < least_seam * contact.count)
-      join(both.first, both.second);
-}
-
 /// Finds parts whose surfaces go on behind an occluder.
 class HiddenJoins {
   /// A voxel next to an occluder.
@@ -147,8 +122,6 @@ std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, dou
     const std::uint32_t a = objects.find(p), b = objects.find(q);
     objects.link(std::max(a, b), std::min(a, b));
   };
-  join_without_seam(grid, surface, parts, join);
-  context.poll();
   HiddenJoins(grid, surface, voxel, parts).find(context, join);
   if (surface.support)
     join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join, context);

@@ -3,12 +3,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <bitset>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "objects/circle.hpp"
 #include "objects/close_boxes.hpp"
 #include "ph/eigen.hpp"
 
@@ -33,57 +32,20 @@ Rim rim_of(const std::vector<Eigen::Vector3d>& part, double depth) {
   return rim;
 }
 
-struct Circle {
-  Eigen::Vector2d centre;
-  double radius = 0;
-};
-
-/// Least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting procedure and its error
-/// analysis, 1976), both rims with the same weight.
-Circle fit_circle(const Rim& a, const Rim& b) {
-  const Eigen::Vector2d origin = a.points.front();
-  Eigen::Matrix3d left = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const Rim* rim : {&a, &b}) {
-    const double weight = 1.0 / static_cast<double>(rim->points.size());
-    for (const auto& point : rim->points) {
-      const Eigen::Vector2d p = point - origin;
-      const Eigen::Vector3d row(p.x(), p.y(), 1);
-      left += weight * row * row.transpose();
-      right += weight * p.squaredNorm() * row;
-    }
-  }
-  const Eigen::Vector3d solution = left.ldlt().solve(right);
-  const Eigen::Vector2d centre = solution.head<2>() / 2;
-  return {origin + centre, std::sqrt(solution.z() + centre.squaredNorm())};
-}
-
-constexpr std::size_t kSectors = 36;
-using Sectors = std::bitset<kSectors>;
-constexpr std::size_t kFewestOfEach = 9;
+constexpr std::size_t kFewestOfEach = 9;  // sectors
 
 /// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double tolerance) {
-  double squares = 0;
-  for (const auto& point : rim.points)
-    squares += std::pow((point - circle.centre).norm() - circle.radius, 2);
   // Not "larger than": a circle through points on a line is not a number.
-  if (!(squares <= tolerance * tolerance * static_cast<double>(rim.points.size())))
-    return std::nullopt;
-  Sectors sectors;
-  for (const auto& point : rim.points) {
-    const Eigen::Vector2d p = point - circle.centre;
-    const double turn = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
-    sectors.set(static_cast<std::size_t>(turn * kSectors) % kSectors);
-  }
-  return sectors;
+  if (!(deviation(circle, rim.points) <= tolerance)) return std::nullopt;
+  return sectors_of(circle, rim.points);
 }
 
 bool share_a_rim(const Rim& a, const Rim& b, double voxel) {
   constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
-  constexpr std::size_t all = 29, of_both = 2;  // sectors of 10 degrees
+  constexpr std::size_t all = 26, of_both = 2;  // sectors of 10 degrees
   if (std::abs(a.top - b.top) > height * voxel) return false;
-  const Circle circle = fit_circle(a, b);
+  const Circle circle = fit_circle({&a.points, &b.points});
   const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);
   const auto p = arc(circle, a, tolerance), q = arc(circle, b, tolerance);
   return p && q && p->count() >= kFewestOfEach && q->count() >= kFewestOfEach &&

@@ -7,6 +7,7 @@
 #include "metric/pairs_within.hpp"
 #include "objects/components.hpp"
 #include "objects/meetings.hpp"
+#include "objects/weak_seams.hpp"
 #include "options.hpp"
 #include "voxels/rips_graph.hpp"
 
@@ -28,7 +29,7 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
   };
   if (scene.method != Method::paper) {
     for (const VoxelPair& p : surface.pairs)
-      if (are_apart(p.u, p.v) && are_adjacent(p, scene.voxel))
+      if (are_apart(p.u, p.v) && p.distance < adjacent_radius(scene.voxel))
         meet(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
   } else if (options.value < scene.distance) {  // else all that have an edge are one
     for_each_pair_within(
@@ -44,20 +45,24 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
 
 }  // namespace
 
-SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
-                   const CutOptions& options, const RunContext& context) {
-  std::vector<Index> component_of;
-  if (scene.method == Method::paper) {
-    // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
-    // complex every merge is done.
-    component_of = scene.tree.components(options.value);
-  } else {
-    component_of = scene.tree.basins(options.value, options.min_part);
-    if (options.objects && scene.method == Method::surface) {
-      component_of =
-          join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
-    }
-  }
+std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
+                                 const Surface& surface, const CutOptions& options,
+                                 const RunContext& context) {
+  // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
+  // complex every merge is done.
+  if (scene.method == Method::paper) return scene.tree.components(options.value);
+  std::vector<Index> component_of = scene.tree.basins(options.value, options.min_part);
+  if (scene.method == Method::supervoxels) return component_of;
+  constexpr double strength = 2;  // of a seam, in least persistences
+  component_of =
+      join_over_weak_seams(component_of, scene.tree.births, surface.pairs,
+                           adjacent_radius(scene.voxel), strength * options.value, context);
+  if (!options.objects) return component_of;
+  return join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
+}
+
+SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
+                  const Surface& surface, const CutOptions& options, const RunContext& context) {
   SceneCut result = extract_components(scene, component_of, options.min_size);
   find_neighbours(scene.tree, contacts_of(scene, surface, options, result, context), result);
   return result;
@@ -66,11 +71,13 @@ SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface&
 SceneCut cut(const SceneTree& scene, const CutOptions& options, const RunContext& context) {
   validate(scene, options);
   context.poll();
-  if (scene.method == Method::paper) return cut_scene(scene, {}, {}, options, context);
   const VoxelGrid grid{scene.cells, scene.vertices, scene.counts, {}};
-  const Surface surface{scene.normals, near_voxels(grid, scene.voxel, context), scene.viewpoint,
-                        scene.plane};
-  return cut_scene(scene, grid, surface, options, context);
+  Surface surface;
+  if (scene.method != Method::paper)
+    surface = {scene.normals, near_voxels(grid, scene.voxel, context), scene.viewpoint,
+               scene.plane};
+  return cut_into(scene, components_of(scene, grid, surface, options, context), surface, options,
+                  context);
 }
 
 }  // namespace ph::segment

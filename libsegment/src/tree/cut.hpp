@@ -5,9 +5,15 @@
 
 namespace ph::segment {
 
-/// `cut` with what the pipeline has at hand and `cut` makes anew.
+/// The components that a cut leaves, small ones too: for each vertex one of the vertices of its
+/// component. Looks at `scene` for the method, the voxel and the tree.
 /// @param grid its centroids are the vertices. @param surface empty in method paper.
-SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
-                   const CutOptions& options, const RunContext& context);
+std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
+                                 const Surface& surface, const CutOptions& options,
+                                 const RunContext& context);
+
+/// The segments that components make.
+SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
+                  const Surface& surface, const CutOptions& options, const RunContext& context);
 
 }  // namespace ph::segment

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <bitset>
+#include <span>
+#include <vector>
+
+namespace ph::segment {
+
+/// Of round things, seen from above. Lengths are metres.
+struct Circle {
+  Eigen::Vector2d centre;
+  double radius = 0;  ///< not a number: the points lie on a line
+};
+
+/// Ten degrees each.
+inline constexpr std::size_t kSectors = 36;
+using Sectors = std::bitset<kSectors>;
+
+/// Least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting procedure and its error
+/// analysis, 1976). Each set of points has the same weight. @pre none is empty.
+Circle fit_circle(std::initializer_list<const std::vector<Eigen::Vector2d>*> sets);
+
+/// The root of the mean of the squares of the distances from a circle.
+double deviation(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
+
+/// The sectors, as seen from the centre, in which there are points.
+Sectors sectors_of(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
+
+}  // namespace ph::segment

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "objects/openings.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "objects/circle.hpp"
+#include "objects/parts.hpp"
+#include "ph/eigen.hpp"
+
+namespace ph::segment {
+namespace {
+
+struct Opening {
+  Circle circle;
+  double height;        ///< above the plane
+  std::uint32_t voxel;  ///< that its points go to
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// A circle, and the points without those that are far from it by their own measure.
+Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
+  constexpr int times = 3;
+  constexpr double medians = 2;
+  Circle circle{};
+  for (int i = 0; i < times; ++i) {
+    circle = fit_circle({&points});
+    std::vector<double> distances;
+    for (const Eigen::Vector2d& p : points)
+      distances.push_back(std::abs((p - circle.centre).norm() - circle.radius));
+    const double most = std::max(medians * median(distances), voxel);
+    std::size_t next = 0;
+    std::erase_if(points, [&](const Eigen::Vector2d&) { return !(distances[next++] < most); });
+    if (points.empty()) break;
+  }
+  return circle;
+}
+
+/// @param upright of the object: x, y along the plane, z above it.
+std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
+                                  const std::vector<std::uint32_t>& numbers, double voxel) {
+  constexpr std::size_t outliers = 50;                // one of so many may be higher
+  constexpr std::size_t fewest = 20;                  // voxels of a rim
+  constexpr double depth = 3;                         // voxels
+  constexpr double of_voxel = 1.6, of_radius = 0.12;  // that a rim may deviate
+  constexpr double least_radius = 0.02, most_radius = 0.25;
+  constexpr std::size_t fewest_sectors = 20;  // of 36
+  constexpr double middle = 0.6, most_in_middle = 0.03;
+  std::vector<double> heights;
+  for (const auto& p : object) heights.push_back(p.z());
+  const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);
+  std::ranges::nth_element(heights, top, std::greater<>());
+  std::vector<Eigen::Vector2d> upper;
+  for (const auto& p : object)
+    if (p.z() > *top - depth * voxel) upper.emplace_back(p.head<2>());
+  if (upper.size() < fewest) return std::nullopt;
+  std::vector<Eigen::Vector2d> rim = upper;
+  const Circle circle = fit_without_outliers(rim, voxel);
+  if (rim.empty() || !(circle.radius >= least_radius && circle.radius <= most_radius) ||
+      deviation(circle, rim) > std::min(of_voxel * voxel, of_radius * circle.radius) ||
+      sectors_of(circle, rim).count() < fewest_sectors)
+    return std::nullopt;
+  const auto inside = std::ranges::count_if(upper, [&](const Eigen::Vector2d& p) {
+    return (p - circle.centre).norm() < middle * circle.radius;
+  });
+  if (static_cast<double>(inside) > most_in_middle * static_cast<double>(upper.size()))
+    return std::nullopt;
+  std::size_t lowest = 0;
+  const auto cost = [&](std::size_t k) {
+    return object[k].z() + (object[k].head<2>() - circle.centre).norm();
+  };
+  for (std::size_t k = 1; k < object.size(); ++k)
+    if (cost(k) < cost(lowest)) lowest = k;
+  return Opening{circle, *top, numbers[lowest]};
+}
+
+}  // namespace
+
+void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>& in_range,
+                               const Plane& plane, double voxel,
+                               const std::vector<Index>& object_of, Index min_size,
+                               std::vector<Index>& points, VoxelGrid& grid) {
+  constexpr double of_radius = 0.97;  // the rim itself is smeared
+  const Eigen::Vector3d normal(plane.normal.data());
+  Eigen::Matrix3d upright;
+  upright.row(0) = normal.unitOrthogonal();
+  upright.row(1) = normal.cross(upright.row(0));
+  upright.row(2) = normal;
+  const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return upright * p + Eigen::Vector3d(0, 0, plane.offset);
+  };
+  const Parts objects = number_parts(object_of, min_size);
+  std::vector<std::vector<Eigen::Vector3d>> places(objects.count());
+  std::vector<std::vector<std::uint32_t>> numbers(objects.count());
+  for (std::uint32_t v = 0; v < objects.of.size(); ++v) {
+    if (objects.of[v] == Parts::kSmall) continue;
+    places[objects.of[v]].push_back(above(as_matrix(grid.centroids).row(v).transpose()));
+    numbers[objects.of[v]].push_back(v);
+  }
+  const Eigen::Vector3d eye = above(Eigen::Vector3d(cloud.viewpoint.data()));
+  std::vector<Opening> openings;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto opening = opening_of(places[k], numbers[k], voxel);
+    if (opening && opening->height < eye.z()) openings.push_back(*opening);
+  }
+  if (openings.empty()) return;
+  constexpr double below = 0.05;  // metres: a shiny bottom may be seen as deep as that
+  std::vector<bool> has_voxel(cloud.size());
+  for (const Index i : points) has_voxel[static_cast<std::size_t>(i)] = true;
+  for (const Index i : in_range) {
+    const float* q = cloud.point(static_cast<std::size_t>(i));
+    if (has_voxel[static_cast<std::size_t>(i)] || plane.signed_distance(q[0], q[1], q[2]) < -below)
+      continue;
+    const Eigen::Vector3d p = above({q[0], q[1], q[2]});
+    for (const Opening& opening : openings) {
+      if (p.z() >= opening.height) continue;
+      const double t = (eye.z() - opening.height) / (eye.z() - p.z());  // where its ray passes
+      const Eigen::Vector2d crossing = (eye + t * (p - eye)).head<2>();
+      if ((crossing - opening.circle.centre).norm() >= of_radius * opening.circle.radius) continue;
+      points.push_back(i);
+      grid.voxel_of.push_back(opening.voxel);
+      break;
+    }
+  }
+}
+
+}  // namespace ph::segment

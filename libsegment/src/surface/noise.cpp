@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "surface/noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ph::segment {
+
+ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
+                               const std::vector<double>& values) {
+  constexpr std::size_t fewest = 300;  // of a quantile that can be relied on
+  constexpr double quantile = 0.84;    // one standard deviation up, were it normal
+  constexpr std::size_t most = 8;      // ranges
+  std::vector<NoiseAt> of;
+  for (std::size_t i = 0; i < ranges.size(); ++i) of.push_back({ranges[i], values[i]});
+  std::ranges::sort(of, [](const NoiseAt& a, const NoiseAt& b) {
+    return std::pair(a.range, a.concavity) < std::pair(b.range, b.concavity);
+  });
+  const std::size_t count = std::min(most, of.size() / fewest);
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto begin = of.begin() + static_cast<std::ptrdiff_t>(b * of.size() / count);
+    const auto end = of.begin() + static_cast<std::ptrdiff_t>((b + 1) * of.size() / count);
+    const double range = (begin + (end - begin) / 2)->range;
+    const auto at =
+        begin + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(end - begin));
+    std::ranges::nth_element(begin, at, end, {}, &NoiseAt::concavity);
+    measured_.push_back({range, at->concavity});
+  }
+}
+
+double ConcavityNoise::at(double range) const {
+  constexpr double least = 0.01, typical = 0.02, most = 0.13;
+  if (measured_.empty()) return typical;
+  double noise = 0;
+  const auto next = std::ranges::lower_bound(measured_, range, {}, &NoiseAt::range);
+  if (next == measured_.begin()) {
+    noise = next->concavity;
+  } else if (next == measured_.end()) {
+    const NoiseAt& last = measured_.back();  // from there on as the noise of depth grows
+    noise = last.concavity * (range / last.range) * (range / last.range);
+  } else {
+    const NoiseAt& before = *(next - 1);
+    const double t = (range - before.range) / (next->range - before.range);
+    noise = before.concavity + t * (next->concavity - before.concavity);
+  }
+  return std::clamp(noise, least, most);
+}
+
+}  // namespace ph::segment
