@@ -85,8 +85,8 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   constexpr double side = 12;      // voxels
   constexpr int fewest_near = 16;  // voxels: the surface is whole there
   if (!scene.plane) return {};
-  const std::vector<Index> points = free_patches(scene.cloud, scene.in_range, scene.points.beyond,
-                                                 *scene.plane, scene.margin, side * voxel);
+  const std::vector<Index> points =
+      free_patches(scene.cloud, scene.on_plane, scene.points.beyond, *scene.plane, side * voxel);
   const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
   const VoxelPairs pairs = near_voxels(grid, voxel, context);
   const Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);
@@ -126,6 +126,9 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
     if (scene.plane) {
       assign_base_points(scene.cloud, scene.points.strip, *scene.plane, scene.margin,
                          kSquareOfBase * voxel, points, grid);
+      if (scene.lower)
+        assign_base_points(scene.cloud, scene.lower_strip, scene.lower->plane, scene.lower->margin,
+                           kSquareOfBase * voxel, points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
     pairs = near_voxels(grid, voxel, context);

@@ -8,6 +8,7 @@
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/segment.hpp"
 #include "plane/plane.hpp"
+#include "surfaces/lower_support.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
@@ -31,9 +32,11 @@ struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
   PlaneMargin margin;
-  std::vector<Index>
-      in_range;  ///< if there is a plane: all points in range, those of the plane too
+  std::vector<Index> in_range;  ///< all points in range, if there is a plane
+  std::vector<Index> on_plane;  ///< those that count as part of it
   Cleared points;
+  std::optional<LowerSupport> lower;  ///< below the plane, if there is one
+  std::vector<Index> lower_strip;     ///< of it, as of the plane
 };
 
 /// What a method makes of a scene; `grid` and `points` belong together.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -88,11 +89,19 @@ void validate(const SceneTree& scene) {
   expect("births", scene.tree.births.size(), vertices);
   expect("vertices of points", scene.vertex_of_point.size(), points);
   expect("coordinates", scene.xyz.size(), 3 * points);
+  if (scene.surfaces.size() > kMostSurfaces || scene.removed < 0 ||
+      scene.removed > std::ssize(scene.surfaces))
+    fail("surfaces, and those removed", fmt::format("{}, {}", scene.surfaces.size(), scene.removed),
+         fmt::format("at most {}, and no more of them", kMostSurfaces));
   Index size = 0;
   if (scene.width < 0 || scene.height < 0 ||
       __builtin_mul_overflow(scene.width, scene.height, &size))
     fail("size of the cloud", fmt::format("{} x {}", scene.width, scene.height),
          "a number of points");
+  expect("marks of points", scene.removed_with.size(), static_cast<std::size_t>(size));
+  for (const std::uint8_t surface : scene.removed_with)
+    if (surface > scene.removed)
+      fail("mark of a point", int{surface}, fmt::format("at most {}", scene.removed));
   for (Index last = -1; const Index i : scene.points) {
     if (i <= last || i >= size) fail("points", i, fmt::format("ascending, below {}", size));
     last = i;
@@ -114,6 +123,7 @@ void validate(const SceneTree& scene, const SceneCut& cut) {
           fmt::format("cut: {}: found {}, expected {}, as in the scene", what, found, expected));
   };
   expect("labels", cut.labels.size(), scene.cloud_size());
+  expect("labels of surfaces", cut.surface_labels.size(), scene.cloud_size());
   expect("labels of vertices", cut.vertex_labels.size(), scene.cells.size());
   for (const auto* labels : {&cut.labels, &cut.vertex_labels})
     for (const std::uint32_t label : *labels)

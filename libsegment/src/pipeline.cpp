@@ -2,6 +2,7 @@
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
 // ICRA 2016. Section and algorithm numbers here and in methods.cpp are those of the paper.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "methods.hpp"
@@ -13,6 +14,7 @@
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/range_filter.hpp"
+#include "surfaces/bounds.hpp"
 #include "tree/cross_check.hpp"
 #include "tree/cut.hpp"
 #include "tree/tree_barcode.hpp"
@@ -36,6 +38,25 @@ std::size_t bytes_for_voxels(const VoxelGrid& grid) {
 }
 
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
+
+void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std::uint8_t>& marks) {
+  for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
+}
+
+/// What stands on the floor below a table is as good as what stands on the table.
+void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
+  const CloudView& cloud = scene.cloud;
+  scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);
+  if (!scene.lower) return;
+  Cleared below = remove_plane(cloud, scene.lower->points, scene.lower->plane, scene.lower->margin);
+  scene.lower_strip = std::move(below.strip);
+  std::vector<Index> both;
+  std::ranges::merge(scene.points.beyond, below.beyond, std::back_inserter(both));
+  scene.points.beyond = std::move(both);
+  mark(points_on(cloud, scene.lower->points, scene.lower->plane, scene.lower->margin), 2,
+       result.removed_with);
+  result.surfaces.push_back({Role::support, scene.lower->plane});
+}
 
 /// What is in range and stands before the supporting plane; the plane goes into the result, too.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
@@ -66,6 +87,11 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
+    scene.on_plane = points_on(cloud, in_range, *scene.plane, scene.margin);
+    mark(scene.on_plane, 1, result.removed_with);
+    result.surfaces.push_back({Role::support, *scene.plane});
+    if (options.method == Method::surface) clear_lower_support(in_range, scene, result);
+    result.removed = std::ssize(result.surfaces);
     scene.in_range = std::move(in_range);
   } else
     scene.points.beyond = std::move(in_range);
@@ -95,6 +121,7 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
     scene.points.push_back(point);
     scene.vertex_of_point.push_back(voxel);
   }
+  for (const Index i : scene.points) scene.removed_with[static_cast<std::size_t>(i)] = 0;
   scene.xyz.resize(3 * points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
@@ -129,6 +156,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   cloud.viewpoint = options.viewpoint.value_or(input.viewpoint);
   const MemoryClaim of_points(context.memory, bytes_for_points(cloud));
   Segmentation result;
+  result.removed_with.resize(cloud.size());
   StageClock clock(context, result.stages);
   result.rays_meet_at = centre_elsewhere(cloud);
   if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
@@ -152,6 +180,10 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
     assign_points_in_openings(cloud, scene.in_range, *scene.plane, filtration.voxel, component_of,
                               result.first_cut.min_size, filtration.points, filtration.grid);
   keep_points(cloud, filtration, result);
+  if (options.method == Method::surface && scene.plane)
+    std::ranges::copy(
+        find_bounds(cloud, *scene.plane, result, component_of, result.first_cut.min_size),
+        std::back_inserter(result.surfaces));
   static_cast<SceneCut&>(result) =
       cut_into(result, component_of, filtration.surface, result.first_cut, context);
   Index in_segments = 0;

@@ -78,6 +78,13 @@ std::string signature_of(const Segment& segment, const RunInfo& info) {
   return object({{"h0", bars_of(0)}, {"h1", bars_of(1)}, {"h2", bars_of(2)}});
 }
 
+std::string on_of(const Segment& segment, const RunInfo& info) {
+  if (segment.on.surface != 0) return object({{"surface", integer(segment.on.surface)}});
+  if (segment.on.segment != 0)
+    return object({{"segment", integer(info.number_of(segment.on.segment))}});
+  return "null";
+}
+
 std::string segments_of(const Segmentation& s, const RunInfo& info) {
   return lines(s.segments, [&](const Segment& g) {
     return object({{"label", integer(info.number_of(g.label))},
@@ -89,6 +96,8 @@ std::string segments_of(const Segmentation& s, const RunInfo& info) {
                    {"centroid", numbers(g.centroid)},
                    {"box", box_of(g.box)},
                    {"oriented_box", oriented_box_of(g.oriented_box)},
+                   {"role", json::string(role_name(g.role))},
+                   {"on", on_of(g, info)},
                    {"neighbours", neighbours_of(g, info)},
                    {"signature", signature_of(g, info)}});
   });
@@ -132,6 +141,8 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
                    {"stages", stages_of(s)},
                    {"viewpoint", numbers(s.viewpoint)},
                    {"plane", plane_of(s)},
+                   {"surfaces", json_of(s.surfaces)},
+                   {"noise", json_of(s.noise)},
                    {"voxel", number(s.voxel)},
                    {"complex", object({{"vertices", integer(vertices)},
                                        {"edges", integer(s.edges)},

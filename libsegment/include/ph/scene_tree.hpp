@@ -51,6 +51,37 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
+/// What a part of a scene is to those who want to take hold of things.
+enum class Role {
+  object = 0,
+  support = 1,  ///< a plane that objects stand on: a table, a board, the floor
+  wall = 2,     ///< a plane behind which nothing is seen: a wall, the back or the side of a cabinet
+  unknown = 3   ///< it may be an object; too little of it, or of what it stands on, is seen
+};
+/// What they are called, by number.
+inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",
+                                                               "unknown"};
+
+constexpr std::string_view role_name(Role role) {
+  return kRoleNames[static_cast<std::size_t>(role)];
+}
+
+/// A plane that bounds a scene. It is no segment.
+struct SceneSurface {
+  Role role = Role::support;  ///< support or wall
+  Plane plane;
+  friend bool operator==(const SceneSurface&, const SceneSurface&) = default;
+};
+
+/// A point says in a byte which surface it is on.
+inline constexpr std::size_t kMostSurfaces = 255;
+
+/// How concave a flat surface looks at a range: the noise of the sensor in the filtration.
+struct NoiseAt {
+  double range = 0;      ///< from the viewpoint, metres
+  double concavity = 0;  ///< of the free supporting plane: 84 % of it is below that
+};
+
 /// A box with axes of its own.
 struct OrientedBox {
   Vec3 centre{};
@@ -64,6 +95,13 @@ struct Neighbour {
   std::uint32_t label = 0;
   double meets_at = 0;  ///< value of the first edge of the graph that joins the two
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
+};
+
+/// What a segment stands on: one of both, or neither.
+struct StandsOn {
+  std::uint32_t surface = 0;  ///< number, from 1, of a support among the surfaces of the scene
+  std::uint32_t segment = 0;  ///< label of a segment
+  friend bool operator==(const StandsOn&, const StandsOn&) = default;
 };
 
 /// One segment with enough voxels: a component of infinite persistence (paper), a basin of the
@@ -83,6 +121,8 @@ struct Segment {
   /// normal of the plane and axes[0] the longer side of the smallest rectangle around what the
   /// points cover of the plane. Without a plane: the principal axes, longest first.
   OrientedBox oriented_box;
+  Role role = Role::unknown;          ///< object or unknown
+  StandsOn on;                        ///< as far as it is seen
   std::vector<Neighbour> neighbours;  ///< all segments that it touches, the first met first
   friend bool operator==(const Segment&, const Segment&) = default;
 };
@@ -110,15 +150,24 @@ struct SceneTree {
   int steps = 0;               ///< paper: levels up to it; 0: exact deaths
   Vec3 viewpoint{};            ///< where the sensor stood
   std::optional<Plane> plane;  ///< the plane that was removed
-  Index width = 0;             ///< columns of the cloud; of an unorganised one its points
-  Index height = 1;            ///< rows of the cloud; 1 if it is not organised
-  CutOptions first_cut;        ///< the cut that the segmentation was made with
+  /// What bounds the scene: first the planes that were removed, `plane` before all others, then
+  /// those that were found among the components: boards, walls. At most kMostSurfaces.
+  std::vector<SceneSurface> surfaces;
+  /// Method surface: nearest first; empty if too little of a supporting plane was seen.
+  std::vector<NoiseAt> noise;
+  Index removed = 0;     ///< how many of them were removed, with what is behind them
+  Index width = 0;       ///< columns of the cloud; of an unorganised one its points
+  Index height = 1;      ///< rows of the cloud; 1 if it is not organised
+  CutOptions first_cut;  ///< the cut that the segmentation was made with
   std::size_t cloud_size() const { return static_cast<std::size_t>(width * height); }
 
   // By point that has a vertex, in the order of the cloud.
   std::vector<Index> points;                   ///< its number in the cloud, ascending
   std::vector<std::uint32_t> vertex_of_point;  ///< its vertex
   std::vector<float> xyz;                      ///< its coordinates
+
+  /// By point of the cloud: the number, from 1, of the removed surface that it is on; 0: none.
+  std::vector<std::uint8_t> removed_with;
 
   // By vertex, that is, by voxel in the order of the grid (z slowest).
   std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel / voxel
@@ -135,6 +184,8 @@ struct SceneCut {
   std::vector<std::uint32_t> labels;  ///< one a point of the cloud: 0 none, 1…k the segments
   std::vector<Segment> segments;      ///< segment i has label i + 1
   std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
+  /// One a point of the cloud: the number, from 1, of the surface that it is on; 0: none.
+  std::vector<std::uint8_t> surface_labels;
 };
 
 /// A coarser or finer cut without segmenting anew: milliseconds. What is found anew is which voxels

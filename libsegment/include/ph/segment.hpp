@@ -98,12 +98,6 @@ struct Stage {
   double seconds = 0;  ///< wall-clock time
 };
 
-/// How concave a flat surface looks at a range: the noise of the sensor in the filtration.
-struct NoiseAt {
-  double range = 0;      ///< from the viewpoint, metres
-  double concavity = 0;  ///< of the free supporting plane: 84 % of it is below that
-};
-
 /// What the supporting plane says of the viewpoint, as shares of the points in range off the plane.
 struct PlaneSight {
   double behind = 0;  ///< lie behind the plane as seen from the viewpoint, past its edge or hidden
@@ -117,8 +111,6 @@ struct Segmentation : SceneTree, SceneCut {
   /// Where the pixels' rays meet, if that is not where the options or the cloud say that the sensor
   /// stood. It was taken as `viewpoint` unless the options have one.
   std::optional<Vec3> rays_meet_at;
-  /// Method surface: nearest first; empty if too little of a supporting plane was seen.
-  std::vector<NoiseAt> noise;
   PlaneSight plane_sight;       ///< much of it: the viewpoint is wrong
   Barcode barcode = Barcode();  ///< H0, zero-length bars included
   bool checked = false;         ///< whether the cross-check ran

@@ -6,6 +6,7 @@
 
 #include "objects/oriented_box.hpp"
 #include "ph/detail/core/raw_vector.hpp"
+#include "surfaces/bounds.hpp"
 
 namespace ph::segment {
 namespace {
@@ -87,7 +88,10 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
                             Index min_size) {
   std::vector<Component> kept = measured(scene, component_of);
   std::vector<std::uint32_t> label_of_root(kept.size());
-  std::erase_if(kept, [&](const Component& c) { return c.voxels < min_size; });
+  const std::vector<std::uint8_t> surfaces = surfaces_of(scene, component_of, min_size);
+  std::erase_if(kept, [&](const Component& c) {
+    return c.voxels < min_size || surfaces[static_cast<std::size_t>(c.root)] != 0;
+  });
   std::ranges::sort(kept, comes_before);
 
   SceneCut result;
@@ -109,10 +113,15 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
     result.vertex_labels.push_back(label_of_root[static_cast<std::size_t>(root)]);
 
   result.labels.resize(scene.cloud_size());
+  result.surface_labels = scene.removed_with;
   RawVector<float> x(points), y(points), z(points);
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
-    const std::uint32_t label = result.vertex_labels[scene.vertex_of_point[k]];
-    if (label == 0) continue;
+    const std::uint32_t v = scene.vertex_of_point[k], label = result.vertex_labels[v];
+    if (label == 0) {
+      result.surface_labels[static_cast<std::size_t>(scene.points[k])] =
+          surfaces[static_cast<std::size_t>(component_of[v])];
+      continue;
+    }
     result.labels[static_cast<std::size_t>(scene.points[k])] = label;
     const std::size_t to = place[label - 1]++;
     x[to] = scene.xyz[3 * k];

@@ -4,70 +4,56 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
 namespace ph::segment {
 namespace {
 
-/// The plane as squared paper, as far as there are points.
+/// The plane as squared paper around the foot of the viewpoint. It repeats itself so far away that
+/// squares which are taken for one are only in the way of each other.
 class SquaredPaper {
  public:
-  SquaredPaper(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
-               double side)
-      : cloud_(cloud) {
-    const Eigen::Vector3d n(plane.normal[0], plane.normal[1], plane.normal[2]);
+  static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
+
+  SquaredPaper(const CloudView& cloud, const Plane& plane, double side) : cloud_(cloud) {
+    const Eigen::Vector3d n(plane.normal.data()), eye(cloud.viewpoint.data());
     axes_[0] = n.unitOrthogonal() / side;
     axes_[1] = n.cross(axes_[0]);
-    std::array<double, 2> high = {-kInfinity, -kInfinity};
-    for (const Index i : points)
-      for (std::size_t k = 0; k < 2; ++k) {
-        low_[k] = std::min(low_[k], at(cloud.point(static_cast<std::size_t>(i)), k));
-        high[k] = std::max(high[k], at(cloud.point(static_cast<std::size_t>(i)), k));
-      }
-    if (points.empty()) return;
-    for (double& x : low_) x = std::floor(x);
-    const double columns = std::floor(high[0] - low_[0]) + 1,
-                 rows = std::floor(high[1] - low_[1]) + 1;
-    if (!(columns * rows < kMost)) return;
-    columns_ = static_cast<std::size_t>(columns);
-    count_ = columns_ * static_cast<std::size_t>(rows);
-    for (std::size_t k = 0; k < 2; ++k) {
-      eye_[k] = axes_[k].dot(Eigen::Vector3d(cloud.viewpoint.data())) - low_[k];
-    }
+    for (std::size_t k = 0; k < 2; ++k) foot_[k] = axes_[k].dot(eye);
   }
-  std::size_t count() const { return count_; }
   /// The square under a point.
   std::size_t of(Index i) const {
     const float* p = cloud_.point(static_cast<std::size_t>(i));
-    return static_cast<std::size_t>(at(p, 1) - low_[1]) * columns_ +
-           static_cast<std::size_t>(at(p, 0) - low_[0]);
+    return column(p, 1) * kColumns + column(p, 0);
   }
-  /// The square of the distance of its centre from the foot of the viewpoint, in sides.
-  double farness(std::size_t square) const {
-    const double x = static_cast<double>(square % columns_) + 0.5 - eye_[0];
-    const double y = static_cast<double>(square / columns_) + 0.5 - eye_[1];
+  /// The square of the distance of its centre from the foot, in sides.
+  static double farness(std::size_t square) {
+    const auto away = [](std::size_t column) {
+      return static_cast<double>(column) - (static_cast<double>(kColumns) - 1) / 2;
+    };
+    const double x = away(square % kColumns), y = away(square / kColumns);
     return x * x + y * y;
   }
 
  private:
-  static constexpr double kMost = 1 << 20;  // a plane of 60 m by 60 m has fewer
-
-  double at(const float* p, std::size_t k) const {
-    return axes_[k][0] * p[0] + axes_[k][1] * p[1] + axes_[k][2] * p[2];
+  std::size_t column(const float* p, std::size_t k) const {
+    const double place = axes_[k][0] * p[0] + axes_[k][1] * p[1] + axes_[k][2] * p[2] - foot_[k];
+    // Shifted by a multiple of the columns to what is positive, so that a cast rounds it down.
+    constexpr double shift = 1ULL << 40;
+    const double shifted = std::clamp(place + (shift + kColumns / 2), 0.0, 2 * shift);
+    return static_cast<std::size_t>(shifted) % kColumns;
   }
 
   const CloudView& cloud_;
   std::array<Eigen::Vector3d, 2> axes_;
-  std::array<double, 2> low_ = {kInfinity, kInfinity}, eye_{};
-  std::size_t columns_ = 0, count_ = 0;
+  std::array<double, 2> foot_{};
 };
 
 /// Evenly by how far they are.
-std::vector<std::size_t> some_of(std::vector<std::size_t> squares, const SquaredPaper& paper,
-                                 std::size_t most) {
-  std::ranges::sort(squares, {}, [&](std::size_t s) { return std::pair(paper.farness(s), s); });
+std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t most) {
+  std::ranges::sort(squares, {},
+                    [](std::size_t s) { return std::pair(SquaredPaper::farness(s), s); });
   const std::size_t count = std::min(most, squares.size());
   for (std::size_t k = 0; k < count; ++k)
     squares[k] = squares[(2 * k + 1) * squares.size() / (2 * count)];
@@ -77,34 +63,29 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, const Squared
 
 }  // namespace
 
-std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& points,
-                                const std::vector<Index>& beyond, const Plane& plane,
-                                const PlaneMargin& margin, double side) {
-  constexpr std::size_t most = 48;         // squares: what it takes is bounded
+std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
+                                const std::vector<Index>& beyond, const Plane& plane, double side) {
+  constexpr std::size_t most = 32;         // squares: what it takes is bounded
   constexpr std::uint32_t most_above = 3;  // points: an object has more, flying pixels fewer
   constexpr std::uint32_t fewest = 48;     // points of a square that tells
-  constexpr double margins = 1.5;          // the noise is looked for, so it is not cut off
-  const SquaredPaper paper(cloud, points, plane, side);
-  if (paper.count() == 0) return {};
-  std::vector<std::uint32_t> above(paper.count()), on(paper.count());
+  const SquaredPaper paper(cloud, plane, side);
+  std::vector<std::uint32_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
   for (const Index i : beyond) ++above[paper.of(i)];
-  std::vector<std::pair<Index, std::size_t>> candidates;  // with their squares
-  for (const Index i : points) {
-    const float* p = cloud.point(static_cast<std::size_t>(i));
-    if (std::abs(plane.signed_distance(p[0], p[1], p[2])) > margins * margin(cloud, p)) continue;
+  std::vector<std::uint16_t> square_of;
+  square_of.reserve(on_plane.size());
+  for (const Index i : on_plane) {
     const std::size_t square = paper.of(i);
-    if (above[square] > most_above) continue;
+    square_of.push_back(static_cast<std::uint16_t>(square));
     ++on[square];
-    candidates.emplace_back(i, square);
   }
   std::vector<std::size_t> squares;
   for (std::size_t s = 0; s < on.size(); ++s)
-    if (on[s] >= fewest) squares.push_back(s);
-  std::vector<bool> chosen(paper.count());
-  for (const std::size_t s : some_of(std::move(squares), paper, most)) chosen[s] = true;
+    if (on[s] >= fewest && above[s] <= most_above) squares.push_back(s);
+  std::vector<bool> chosen(SquaredPaper::kCount);
+  for (const std::size_t s : some_of(std::move(squares), most)) chosen[s] = true;
   std::vector<Index> found;
-  for (const auto& [i, square] : candidates)
-    if (chosen[square]) found.push_back(i);
+  for (std::size_t k = 0; k < on_plane.size(); ++k)
+    if (chosen[square_of[k]]) found.push_back(on_plane[k]);
   return found;
 }
 

@@ -242,4 +242,18 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
   return cleared;
 }
 
+std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& points,
+                             const Plane& plane, const PlaneMargin& margin) {
+  std::vector<Index> on(points.size());
+  std::size_t count = 0;
+  for (const Index i : points) {
+    const float* p = cloud.point(static_cast<std::size_t>(i));
+    const double height = plane.signed_distance(p[0], p[1], p[2]);
+    on[count] = i;  // written always, kept sometimes: no branch to mispredict
+    count += std::abs(height) <= margin(cloud, p) ? 1U : 0U;
+  }
+  on.resize(count);
+  return on;
+}
+
 }  // namespace ph::segment

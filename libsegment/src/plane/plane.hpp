@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,5 +54,9 @@ struct Cleared {
 /// stands on nothing.
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin);
+
+/// The points that count as part of a plane, in their order.
+std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& points,
+                             const Plane& plane, const PlaneMargin& margin);
 
 }  // namespace ph::segment

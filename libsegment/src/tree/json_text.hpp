@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <string>
+#include <vector>
 
 #include "io/bytes/json_writer.hpp"
 #include "ph/scene_tree.hpp"
@@ -15,6 +16,21 @@ inline std::string json_of(const CutOptions& o) {
                        {"min_part", json::integer(o.min_part)},
                        {"min_size", json::integer(o.min_size)},
                        {"objects", json::boolean(o.objects)}});
+}
+
+inline std::string json_of(const std::vector<SceneSurface>& surfaces) {
+  return json::lines(surfaces, [number = Index{0}](const SceneSurface& surface) mutable {
+    return json::object({{"number", json::integer(++number)},
+                         {"role", json::string(role_name(surface.role))},
+                         {"normal", json::numbers(surface.plane.normal)},
+                         {"offset", json::number(surface.plane.offset)}});
+  });
+}
+inline std::string json_of(const std::vector<NoiseAt>& noise) {
+  return json::array(noise, [](const NoiseAt& at) {
+    return json::object(
+        {{"range", json::number(at.range)}, {"concavity", json::number(at.concavity)}});
+  });
 }
 
 }  // namespace ph::segment

@@ -44,7 +44,8 @@ std::string tree_bytes(const SceneTree& scene) {
   const std::size_t n = scene.cells.size();
   bytes.reserve(kTreeHeader + kTreeSum + n * 11 * kTreeWord +
                 scene.tree.merges.size() * 2 * kTreeWord + scene.cloud_size() * 4 +
-                scene.xyz.size() * 4);
+                scene.xyz.size() * 4 + scene.surfaces.size() * kTreeSurface +
+                scene.noise.size() * kTreeNoise);
   const auto integer = [&](std::int64_t value) { put(bytes, value); };
   const auto number = [&](double value) { put(bytes, value); };
   for (const std::int64_t value :
@@ -65,6 +66,19 @@ std::string tree_bytes(const SceneTree& scene) {
   integer(scene.first_cut.min_part);
   integer(scene.first_cut.min_size);
   integer(scene.first_cut.objects);
+  integer(std::ssize(scene.surfaces));
+  integer(scene.removed);
+  integer(std::ssize(scene.noise));
+  for (const SceneSurface& surface : scene.surfaces) {
+    integer(static_cast<std::int64_t>(surface.role));
+    put_all(bytes, surface.plane.normal);
+    number(surface.plane.offset);
+    number(surface.plane.share);
+  }
+  for (const NoiseAt& noise : scene.noise) {
+    number(noise.range);
+    number(noise.concavity);
+  }
 
   for (const Vec3& cell : scene.cells) put_all(bytes, cell);
   put_all(bytes, scene.vertices);
@@ -76,8 +90,8 @@ std::string tree_bytes(const SceneTree& scene) {
     put(bytes, static_cast<std::uint32_t>(m.u));
     put(bytes, static_cast<std::uint32_t>(m.v));
   }
-  for_each_point(scene, [&](std::optional<std::uint32_t> vertex) {
-    put(bytes, vertex.value_or(kTreeNoVertex));
+  for_each_point(scene, [&](std::optional<std::uint32_t> vertex, std::size_t point) {
+    put(bytes, vertex.value_or(kTreeNoVertex - scene.removed_with[point]));
   });
   put_all(bytes, scene.xyz);
   put(bytes, tree_sum(bytes));

@@ -14,18 +14,20 @@ namespace ph::segment {
 // checksum. What can be found again from the rest (elder and younger of a merge, sizes) is not
 // stored: it cannot contradict it then.
 inline constexpr std::string_view kTreeMagic = "ph-tree\n";
-inline constexpr std::int64_t kTreeVersion = 1;
-inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 25 * kTreeWord;
+inline constexpr std::int64_t kTreeVersion = 2;
+inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 28 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
-inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;  // of a point
+// Of a point without a vertex, less the number of the removed surface that it is on.
+inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;
+inline constexpr std::size_t kTreeSurface = 6 * kTreeWord, kTreeNoise = 2 * kTreeWord;
 
-/// Calls `use(std::optional vertex)` for each point of the cloud.
+/// Calls `use(std::optional vertex, point)` for each point of the cloud.
 template <class Use>
 void for_each_point(const SceneTree& scene, Use&& use) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < scene.cloud_size(); ++i) {
     const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
-    use(has_vertex ? std::optional(scene.vertex_of_point[next++]) : std::nullopt);
+    use(has_vertex ? std::optional(scene.vertex_of_point[next++]) : std::nullopt, i);
   }
 }
 

@@ -44,7 +44,7 @@ std::string merges_of(const MergeTree& tree) {
 
 std::string vertex_of_point(const SceneTree& scene) {
   std::string text;
-  for_each_point(scene, [&](std::optional<std::uint32_t> vertex) {
+  for_each_point(scene, [&](std::optional<std::uint32_t> vertex, std::size_t) {
     if (!text.empty()) text += ", ";
     if (vertex)
       fmt::format_to(std::back_inserter(text), "{}", *vertex);
@@ -67,7 +67,7 @@ std::string tree_json(const SceneTree& scene) {
   validate(scene);
   const bool paper = scene.method == Method::paper;
   return document({{"format", json::string("ph-segment-tree")},
-                   {"version", "1"},
+                   {"version", "2"},
                    {"method", json_of(scene.method)},
                    {"width", integer(scene.width)},
                    {"height", integer(scene.height)},
@@ -78,6 +78,8 @@ std::string tree_json(const SceneTree& scene) {
                                                 : integer(scene.steps)},
                    {"viewpoint", numbers(scene.viewpoint)},
                    {"plane", plane_of(scene.plane)},
+                   {"surfaces", json_of(scene.surfaces)},
+                   {"noise", json_of(scene.noise)},
                    {"cut", json_of(scene.first_cut)},
                    {"edges", integer(scene.edges)},
                    {"vertices", vertices_of(scene)},

@@ -37,6 +37,8 @@ class TreeReader {
     // The arrays, and what finding the tree again takes.
     constexpr std::size_t bytes_a_vertex = 400;
     input_.require_memory(input_.size() + n * bytes_a_vertex);
+    read_surfaces();
+    read_noise();
     read_vertices(n);
     read_tree(n);
     read_points();
@@ -80,11 +82,13 @@ class TreeReader {
   void read_header() {
     constexpr std::int64_t most_steps = std::numeric_limits<int>::max();
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t most_noise = 64;
     integer("version", kTreeVersion, kTreeVersion);
     scene_.method = static_cast<Method>(integer("method", 0, 2));
     scene_.width = integer("width", 0, kMost);
     scene_.height = integer("height", scene_.width > 0 ? 1 : 0, kMost);
-    vertices_ = integer("number of vertices", 0, kMost - 2);
+    vertices_ =
+        integer("number of vertices", 0, kMost - 2 - static_cast<std::int64_t>(kMostSurfaces));
     merges_ = integer("number of merges", 0, std::max<std::int64_t>(vertices_ - 1, 0));
     points_ = integer("number of points with a vertex", 0, kMost);
     scene_.edges = integer("number of edges", merges_, most_edges(vertices_));
@@ -106,6 +110,33 @@ class TreeReader {
     cut.min_part = integer("fewest voxels of a part", 1, most);
     cut.min_size = integer("fewest voxels of a segment", 1, most);
     cut.objects = integer("whether parts are joined", 0, 1) == 1;
+    surfaces_ = integer("number of surfaces", has_plane ? 1 : 0,
+                        has_plane ? static_cast<std::int64_t>(kMostSurfaces) : 0);
+    scene_.removed = integer("number of removed surfaces", has_plane ? 1 : 0, surfaces_);
+    noise_ = integer("number of noises", 0, has_plane && !paper ? most_noise : 0);
+  }
+
+  void read_surfaces() {
+    for (std::int64_t k = 0; k < surfaces_; ++k) {
+      SceneSurface& surface = scene_.surfaces.emplace_back();
+      const bool removed = k < scene_.removed;
+      surface.role = static_cast<Role>(integer("role of a surface", 1, removed ? 1 : 2));
+      surface.plane.normal = finite("normal of a surface");
+      require_unit("normal of a surface", surface.plane.normal);
+      surface.plane.offset = number("offset of a surface");
+      surface.plane.share = number("share of a surface", 0, 1);
+      if (k == 0 && surface.plane != *scene_.plane)
+        fail("first surface", "another plane", "the plane of the header");
+    }
+  }
+
+  void read_noise() {
+    double range = 0;
+    for (std::int64_t k = 0; k < noise_; ++k) {
+      NoiseAt& noise = scene_.noise.emplace_back();
+      noise.range = range = number("range of a noise", range);
+      noise.concavity = number("noise", 0);
+    }
   }
 
   /// Before anything is allocated. The numbers that are multiplied are below 2^33, and no product
@@ -117,10 +148,12 @@ class TreeReader {
     if (!cloud || *cloud > static_cast<std::size_t>(kMost))
       fail("width times height", "more than 2^32", "at most 2^32");
     const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // normals
-    const std::size_t expected =
-        kHeader + static_cast<std::size_t>(vertices_) * (3 * vectors + 2) * kWord +
-        static_cast<std::size_t>(merges_) * 2 * kWord + *cloud * sizeof(std::uint32_t) +
-        static_cast<std::size_t>(points_) * 3 * sizeof(float) + kSum;
+    const std::size_t expected = kHeader + static_cast<std::size_t>(surfaces_) * kTreeSurface +
+                                 static_cast<std::size_t>(noise_) * kTreeNoise +
+                                 static_cast<std::size_t>(vertices_) * (3 * vectors + 2) * kWord +
+                                 static_cast<std::size_t>(merges_) * 2 * kWord +
+                                 *cloud * sizeof(std::uint32_t) +
+                                 static_cast<std::size_t>(points_) * 3 * sizeof(float) + kSum;
     at_ = input_.size();
     if (input_.size() != expected) {
       fail(input_.size() < expected ? "truncated" : "trailing data",
@@ -215,10 +248,14 @@ class TreeReader {
     scene_.points.reserve(static_cast<std::size_t>(points_));
     scene_.vertex_of_point.reserve(static_cast<std::size_t>(points_));
     std::int64_t with_vertex = 0;
+    scene_.removed_with.resize(scene_.cloud_size());
     for (Index i = 0; i < scene_.width * scene_.height; ++i) {
       at_ = cursor_.offset();
       const auto v = cursor_.read<std::uint32_t>("vertex of a point");
-      if (v == kTreeNoVertex) continue;
+      if (const std::uint32_t surface = kTreeNoVertex - v; surface <= scene_.removed) {
+        scene_.removed_with[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(surface);
+        continue;
+      }
       if (v >= n)
         fail("vertex of a point", fmt::format("{}", v), fmt::format("one of {} vertices", n));
       if (++with_vertex > points_) continue;
@@ -278,7 +315,7 @@ class TreeReader {
   BinaryCursor cursor_;
   SceneTree scene_;
   std::size_t at_ = 0;  // of what is looked at
-  std::int64_t vertices_ = 0, merges_ = 0, points_ = 0;
+  std::int64_t vertices_ = 0, merges_ = 0, points_ = 0, surfaces_ = 0, noise_ = 0;
 };
 
 }  // namespace

@@ -121,6 +121,8 @@ std::map<std::string, py::object> segment_of(const segment::Segment& s) {
           {"centre", py::cast(s.oriented_box.centre)},
           {"axes", py::cast(s.oriented_box.axes)},
           {"size", py::cast(s.oriented_box.size)},
+          {"role", py::cast(std::string(role_name(s.role)))},
+          {"on", py::cast(std::array{s.on.surface, s.on.segment})},
           {"neighbours", py::cast(neighbours)}};
 }
 
