@@ -102,7 +102,9 @@ struct Result {
   double read_seconds = 0;
 };
 
-Result result_of(const Arguments& arguments, const Outputs& outputs, app::Session& session) {
+/// @param plane_guess of the frame before, if there was one.
+Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_guess,
+                 const Outputs& outputs, app::Session& session) {
   const RunContext& context = session.context();
   Result result;
   const auto start = std::chrono::steady_clock::now();
@@ -138,7 +140,9 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   if (arguments.allow_empty && result.cloud->size() > 0)
     session.explain("--allow-empty: not needed, the cloud has points");
   outputs.require_suitable(result.cloud->height);
-  s = segment_within_limits(*result.cloud, arguments.options, context);
+  SegmentOptions options = arguments.options;
+  options.plane_guess = plane_guess;
+  s = segment_within_limits(*result.cloud, options, context);
   const CutOptions asked = arguments.cut.over(s.first_cut);
   if (asked != s.first_cut) cut_again(s, asked, context);
   return result;
@@ -192,12 +196,27 @@ std::vector<std::string> notes_on(const Result& result, const Arguments& argumen
   return notes(result.segmentation, arguments.options, cloud, &depth);
 }
 
+/// The view for the next frame; a warning if the camera moved since the last one.
+void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
+  if (!s.plane) return;
+  if (const auto motion = camera_motion(remembered.last, s))
+    warned.push_back(
+        fmt::format("the camera moved: since the last frame the plane turned by {:.1f} degrees and "
+                    "its distance changed by {:.1f} mm",
+                    motion->turn, 1e3 * motion->shift));
+  remembered.last.plane = s.plane;
+  remembered.last.viewpoint = s.viewpoint;
+}
+
 Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
   if (!stream) require_separate(arguments, session);
   Outputs outputs(arguments);
-  const Result result = result_of(arguments, outputs, session);
+  Remembered* const remembered = stream ? stream->remembered : nullptr;
+  const Result result =
+      result_of(arguments, remembered ? remembered->last.plane : std::nullopt, outputs, session);
   const Segmentation& s = result.segmentation;
   std::vector<std::string> warned = notes_on(result, arguments);
+  if (remembered) remember(s, *remembered, warned);
   for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 
@@ -213,7 +232,7 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
                .from_tree = !result.cloud,
                .sha256 = result.sha256,
                .warnings = std::move(warned)};
-  if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
+  if (remembered) info.numbers = remembered->tracker.update(s, s);
   if (arguments.signatures) info.signatures = signatures_of(s, session);
   const app::BarHold results_are_written(session);
   outputs.write(result.cloud ? &*result.cloud : nullptr, s, info, session.context());

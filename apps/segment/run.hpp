@@ -15,10 +15,15 @@ inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise
 /// Runs ph-segment; results go to files or standard output. @return the exit code.
 int run(int argc, const char* const* argv, std::stop_token stop);
 
+/// What is remembered from frame to frame so that results are steady.
+struct Remembered {
+  LabelTracker tracker;
+  SceneTree last = {};  ///< of the last frame with a plane: its plane and its viewpoint, no more
+};
 /// What a stream wants of one of its frames.
 struct OfStream {
-  LabelTracker* tracker = nullptr;  ///< null: labels by size
-  bool json = false;                ///< whether to give the summary
+  Remembered* remembered = nullptr;  ///< null: each frame by itself
+  bool json = false;                 ///< whether to give the summary
 };
 /// What became of one input.
 struct Outcome {

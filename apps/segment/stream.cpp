@@ -12,7 +12,6 @@
 #include "common/terminal/exit_code.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "ph/error.hpp"
-#include "ph/label_tracker.hpp"
 #include "segment/input/frames.hpp"
 #include "segment/run.hpp"
 
@@ -108,7 +107,7 @@ class Stream {
     std::string line;
     try {
       require_separate(one);
-      const OfStream stream{arguments_.stable_labels ? &tracker_ : nullptr, json_.has_value()};
+      const OfStream stream{arguments_.stable_labels ? &remembered_ : nullptr, json_.has_value()};
       const Outcome outcome = run_frame(one, session_, &stream);
       code = outcome.code;
       line = one_line(outcome.json);
@@ -151,7 +150,7 @@ class Stream {
   app::InputFiles known_;  // and those of a pipe so far
   bool replaces_input_ = false;
   std::optional<app::Output> json_;
-  LabelTracker tracker_;
+  Remembered remembered_;
   std::size_t frames_ = 0, failures_ = 0;
   int first_failure_ = app::kOk;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -64,6 +64,14 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   require(cut.min_size >= 1, "min_size", static_cast<double>(cut.min_size), "at least 1");
   require(std::isfinite(margin) && margin > 0, "plane_distance", margin, kLength);
   require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
+  if (o.plane_guess) {
+    const auto& [x, y, z] = o.plane_guess->normal;
+    const double length = std::hypot(x, y, z);
+    constexpr double rounding = 1e-6;
+    require(std::abs(length - 1) <= rounding, "plane_guess", length, "a normal of length 1");
+    require(std::isfinite(o.plane_guess->offset), "plane_guess", o.plane_guess->offset,
+            "a finite offset");
+  }
   if (!o.crop) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     require(o.crop->min[axis] <= o.crop->max[axis], "crop", o.crop->min[axis],

@@ -75,11 +75,12 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     return scene;
   }
   // Section VI: "we find all points that correspond to a planar model and remove them"
-  PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
+  PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
   if (options.method != Method::paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
     const double noise = deviations * search.noise * search.range * search.range;  // where it lies
-    if (noise > 2 * scene.margin.distance) search = find_plane(cloud, in_range, noise);
+    if (noise > 2 * scene.margin.distance)
+      search = find_plane(cloud, in_range, noise, options.plane_guess);
     scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
   }
   result.plane = scene.plane = search.plane;

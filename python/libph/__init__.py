@@ -50,7 +50,7 @@ from ._points import Subsample, collapse, distance_to_measure, farthest_points, 
 from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
-from ._scenes import Objects, Segment, Segmentation, Voxels, segment
+from ._scenes import Objects, SceneSurface, Segment, Segmentation, Voxels, segment
 from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
                             permutation_test)
 from ._surfaces import Surface, alpha_shape
@@ -63,7 +63,7 @@ __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
     "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "Loop", "Matching",
     "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn", "Objects",
-    "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report", "Segment",
+    "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report", "SceneSurface", "Segment",
     "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface", "Timeout", "UsageError",
     "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre",

@@ -12,7 +12,18 @@
 namespace ph::segment {
 
 /// What a file holds.
-enum class OutputKind { cloud, labels, json, tree, barcode, plot, coloured, picture, report };
+enum class OutputKind {
+  cloud,
+  labels,
+  surfaces,
+  json,
+  tree,
+  barcode,
+  plot,
+  coloured,
+  picture,
+  report
+};
 
 struct OutputPaths;
 
@@ -34,6 +45,7 @@ std::span<const OutputOption> output_options();
 struct OutputPaths {
   std::string output;            ///< the cloud with its labels
   std::string labels;            ///< one label a point
+  std::string surfaces;          ///< one number of a surface a point
   std::string json;              ///< the summary
   std::string tree;              ///< the merge tree
   std::string barcode;           ///< H0

@@ -88,6 +88,7 @@ void Outputs::require_suitable(Index height) const {
         fmt::format("{}: found an unorganised cloud, expected rows and columns; {}", option, hint));
   };
   if (extension_of(f.labels) == ".png") refuse("--labels", "use .npy or .csv");
+  if (extension_of(f.surfaces) == ".png") refuse("--surfaces", "use .npy or .csv");
   if (!f.picture.empty()) refuse("--picture", "use --coloured");
 }
 
@@ -106,7 +107,7 @@ std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segme
     CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);
     return app::drawn(plot, with_legend(std::move(seen), palette, info.numbers), options, context);
   }
-  options.value_label = s.method == Method::surface ? "Concavity" : "Distance (m)";
+  options.value_label = s.method == Method::surface ? "Concavity (noise)" : "Distance (m)";
   if (plot.kind == "tree") {
     const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
     const std::vector<Branch> branches = s.tree.branches();
@@ -143,6 +144,10 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
           cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
     case OutputKind::labels:
       return out.write(label_bytes(s, numbers_of(s.labels, info), label_format_of(f.labels)));
+    case OutputKind::surfaces: {
+      const std::vector<std::uint32_t> numbers(s.surface_labels.begin(), s.surface_labels.end());
+      return out.write(label_bytes(s, numbers, label_format_of(f.surfaces)));
+    }
     case OutputKind::json:
       return out.write(json_summary(arguments_, s, info));
     case OutputKind::tree:

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -54,5 +55,15 @@ class LabelTracker {
   std::vector<Place> places_;    // of the objects, by key
   std::vector<Object> objects_;  // by number
 };
+
+/// How a camera moved between two frames, told from the supporting plane of both: what it does in
+/// the plane itself is not seen.
+struct CameraMotion {
+  double turn = 0;   ///< of the plane, degrees
+  double shift = 0;  ///< of its distance from the viewpoint, metres
+};
+/// Nothing if a frame has no plane, or if the two differ by no more than noise does: half a degree,
+/// or 5 mm at a range of a metre.
+std::optional<CameraMotion> camera_motion(const SceneTree& before, const SceneTree& after);
 
 }  // namespace ph::segment

@@ -42,10 +42,13 @@ struct SegmentOptions {
   /// Edge of a voxel, metres, > 0. Not given: see voxel_size; method surface takes a larger one
   /// where the points are so far apart that voxels of this size would not touch.
   std::optional<double> voxel = {};
-  std::optional<Index> min_size = {};         ///< fewest voxels of a segment, >= 1; see cut
-  double max_range = 2.0;                     ///< farthest from the viewpoint, metres; inf: all
-  std::optional<Box> crop = {};               ///< keep the points inside this box only
-  bool plane = true;                          ///< remove the supporting plane and what is behind
+  std::optional<Index> min_size = {};  ///< fewest voxels of a segment, >= 1; see cut
+  double max_range = 2.0;              ///< farthest from the viewpoint, metres; inf: all
+  std::optional<Box> crop = {};        ///< keep the points inside this box only
+  bool plane = true;                   ///< remove the supporting plane and what is behind
+  /// Where the supporting plane was in the frame before: it is taken for a beginning if nearly as
+  /// many points lie on it now, so that it does not jump between frames. Unit normal.
+  std::optional<Plane> plane_guess = {};
   std::optional<double> plane_distance = {};  ///< half its thickness, metres, > 0; see plane_margin
   /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
   /// does the margin of the plane. At a range of one metre it is at least so thick (half of it,

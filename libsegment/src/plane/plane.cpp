@@ -159,6 +159,16 @@ double share_of(const Candidate& plane, const Sample& sample, double distance) {
   return static_cast<double>(inliers) / static_cast<double>(sample.size());
 }
 
+/// The plane of the frame before, unless it has lost more than a few of its points.
+std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, const Sample& sample,
+                                           double distance) {
+  constexpr double most_lost = 0.1;
+  if (!guess) return std::nullopt;
+  const Candidate plane{Eigen::Vector3d(guess->normal.data()), guess->offset};
+  const double share = share_of(plane, sample, distance);
+  return share >= (1 - most_lost) * guess->share ? std::optional(plane) : std::nullopt;
+}
+
 /// 0 of nothing.
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -193,11 +203,13 @@ double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint,
 
 }  // namespace
 
-PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance) {
+PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
+                       const std::optional<Plane>& guess) {
   if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
   const Sample sample = draw_sample(cloud, points);
   // Twice the thickness while searching: three noisy points seldom give the plane to a millimetre.
-  std::optional<Candidate> found = best_hypothesis(sample, 2 * distance);
+  std::optional<Candidate> found = as_good_as_before(guess, sample, distance);
+  if (!found) found = best_hypothesis(sample, 2 * distance);
   if (!found) return {std::nullopt, "no plane: the points in range lie on a line or in a spot"};
   for (int i = 0; i < kRefits; ++i) {
     const std::optional<Candidate> better = refit(*found, sample, i == 0 ? 2 * distance : distance);

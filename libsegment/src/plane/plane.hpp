@@ -26,8 +26,10 @@ struct PlaneSearch {
 /// a hash of the coordinates, so that neither the order of the points nor duplicates nor scaling
 /// everything by a power of two change the plane.
 /// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, metres, > 0.
-PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance);
+/// @param distance half the thickness of the plane, metres, > 0. @param guess taken instead of a
+/// hypothesis if nearly as many of the points lie on it as its share says.
+PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
+                       const std::optional<Plane>& guess = {});
 
 /// How near to a plane points count as part of it.
 struct PlaneMargin {

@@ -2,6 +2,6 @@
 """Point clouds and depth images, segmented into objects."""
 from ._objects import Objects, Segment
 from ._segment import segment
-from ._segmentation import Segmentation, Voxels
+from ._segmentation import SceneSurface, Segmentation, Voxels
 
-__all__ = ["Objects", "Segment", "Segmentation", "Voxels", "segment"]
+__all__ = ["Objects", "SceneSurface", "Segment", "Segmentation", "Voxels", "segment"]

@@ -42,6 +42,11 @@ class Segment(NamedTuple):
     neighbours : tuple of (int, float)
         The labels of the objects that it touches, the first met first, with the values at which
         they meet.
+    role : str
+        "object", or "unknown": it stands on nothing that is seen, and nothing hides its lower end.
+    on : tuple of (str, int) or None
+        What it stands on: ("surface", i), the i-th of `Segmentation.surfaces` from 0, or
+        ("object", label). None: that is not seen.
     """
 
     label: int
@@ -54,6 +59,8 @@ class Segment(NamedTuple):
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
     neighbours: tuple[tuple[int, float], ...]
+    role: str
+    on: tuple[str, int] | None
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Segment):
@@ -167,5 +174,7 @@ def segment_of(facts: dict[str, Any]) -> Segment:
     arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
     for array in arrays.values():
         array.flags.writeable = False
+    surface, label = facts["on"]
+    on = ("surface", surface - 1) if surface else ("object", label) if label else None
     return Segment(facts["label"], facts["points"], facts["voxels"], facts["persistence"],
-                   neighbours=tuple(facts["neighbours"]), **arrays)
+                   neighbours=tuple(facts["neighbours"]), role=facts["role"], on=on, **arrays)

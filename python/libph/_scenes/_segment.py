@@ -36,7 +36,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
             min_part: int | None = None, min_size: int | None = None,
             objects: bool | None = None, max_range: float = 2.0, crop: ArrayLike | None = None,
             plane: bool = True, plane_distance: float | None = None,
-            plane_noise: float | None = None, viewpoint: Sequence[float] | None = None,
+            plane_noise: float | None = None, previous: Segmentation | None = None, viewpoint: Sequence[float] | None = None,
             distance: float | None = None, steps: int | str | None = None, check: bool = True,
             colours: Any = None, intrinsics: ArrayLike | None = None, camera: Any = None,
             depth_scale: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:
@@ -60,8 +60,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     voxel : float, optional
         The edge of a voxel. Default: 0.005, or more for a sparse cloud; "paper": 0.01.
     min_persistence : float, optional
-        The least persistence of a part. "surface": a mean concavity from 0 to 2, default 0.01;
-        "supervoxels": a length, default 0.
+        The least persistence of a part. "surface": in units of the noise, that is, of how hollow
+        the free supporting plane looks, default 1; "supervoxels": a length, default 0.
     min_part : int, optional
         The fewest voxels of a part; a smaller one joins a neighbour. Default: 200; "supervoxels":
         8. Not of "paper".
@@ -80,6 +80,9 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     plane_noise : float, optional
         The least of it at a range of one metre; it grows with the square of the range. Default:
         0.005. Not of "paper".
+    previous : Segmentation, optional
+        That of the frame before, seen by the same camera. The supporting plane is looked for where
+        it was, so that it does not jump.
     viewpoint : sequence of float, optional
         Where the sensor stood. Default: as the file or the rays of the pixels say, else the origin.
     distance : float, optional
@@ -163,7 +166,7 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
         method = "supervoxels"
     method = "surface" if method is None else _options.choice("method", method, _METHODS)
     plane = _options.flag("plane", o["plane"])
-    idle = [("plane_distance", plane, "plane=True"), ("plane_noise", plane, "plane=True")]
+    idle = [(name, plane, "plane=True") for name in ("plane_distance", "plane_noise", "previous")]
     idle += [(name, method != "paper", "method 'surface' or 'supervoxels'")
              for name in ("min_persistence", "min_part", "plane_noise")]
     idle += [(name, method == "paper", "method 'paper'") for name in ("distance", "steps")]
@@ -178,6 +181,7 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
         crop=_if_given(_box, "crop", o), plane=plane,
         plane_distance=_if_given(_options.positive, "plane_distance", o),
         plane_noise=_if_given(_length, "plane_noise", o, _NOISE),
+        plane_guess=_if_given(_plane_of, "previous", o),
         viewpoint=_if_given(_point, "viewpoint", o), check=_options.flag("check", o["check"]),
         min_persistence=_if_given(_at_least_zero, "min_persistence", o),
         objects=_if_given(_options.flag, "objects", o, True),
@@ -190,6 +194,14 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
 def _if_given(check: Any, name: str, options: dict[str, Any], default: Any = None) -> Any:
     value = options[name]
     return default if value is None else check(name, value)
+
+
+def _plane_of(name: str, value: Any) -> tuple[float, ...] | None:
+    """The plane of a segmentation, and its share of the points."""
+    if not isinstance(value, Segmentation):
+        raise _options.refuse(name, value, "what ph.segment gave for the frame before")
+    plane = value.meta.get("plane")
+    return None if plane is None else (*plane, value.meta["plane_share"])
 
 
 def _at_least_one(name: str, value: Any) -> int:

@@ -54,6 +54,22 @@ class Voxels(NamedTuple):
     of_point: NDArray[np.int64]
 
 
+class SceneSurface(NamedTuple):
+    """A plane that bounds a scene; it is no object.
+
+    Attributes
+    ----------
+    role : str
+        "support": objects stand on it, as a table, a board, the floor. "wall": nothing is seen
+        behind it.
+    plane : tuple of float
+        (a, b, c, d) of ax + by + cz + d = 0, above 0 on the side of the camera.
+    """
+
+    role: str
+    plane: tuple[float, float, float, float]
+
+
 class Segmentation:
     """The objects of a scene: one cut of a merge tree, with the tree.
 
@@ -66,6 +82,10 @@ class Segmentation:
         Read-only.
     objects : Objects
         What is known of each object.
+    surfaces : tuple of SceneSurface
+        What bounds the scene: the plane that was removed, other supports, walls.
+    surface_labels : ndarray
+        Shaped as `labels`: which surface each point is on, the first being 1; 0: none. Read-only.
     tree : MergeTree
         How the voxels join. `voxels` says where they are.
     voxels : Voxels
@@ -74,12 +94,15 @@ class Segmentation:
         The H0 of the tree, with bars of no length.
     meta : Mapping
         How it was made: `method`, `voxel`, `plane` (a, b, c, d of ax + by + cz + d = 0),
-        `viewpoint`, where it was cut, and `notes`.
+        `viewpoint`, where it was cut, `noise` (pairs of a range and of the concavity that a flat
+        surface seems to have there), and `notes`.
     """
 
     _found: _core.Segmentation
     labels: NDArray[np.uint32]
     objects: Objects
+    surfaces: tuple[SceneSurface, ...]
+    surface_labels: NDArray[np.uint8]
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
@@ -96,6 +119,10 @@ class Segmentation:
                  "version": version}
         self.meta = Meta({key: value for key, value in known.items() if value != ""})
         self.objects = Objects(segment_of(facts) for facts in found.segments)
+        self.surfaces = tuple(SceneSurface(role, (a, b, c, d))
+                              for role, (a, b, c, d) in found.surfaces)
+        self.surface_labels = np.asarray(found.surface_labels)
+        self.surface_labels.flags.writeable = False
         return self
 
     def __eq__(self, other: object) -> bool:

@@ -132,6 +132,16 @@ std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& sc
   return all;
 }
 
+/// The role and the plane, a x + b y + c z + d = 0, of each.
+std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const SegmentedScene& scene) {
+  std::vector<std::pair<std::string, std::array<double, 4>>> all;
+  for (const segment::SceneSurface& s : scene.result.surfaces) {
+    const auto& [a, b, c] = s.plane.normal;
+    all.emplace_back(segment::role_name(s.role), std::array{a, b, c, s.plane.offset});
+  }
+  return all;
+}
+
 py::dict facts(const SegmentedScene& scene) {
   const segment::Segmentation& s = scene.result;
   py::dict meta;
@@ -151,6 +161,9 @@ py::dict facts(const SegmentedScene& scene) {
   } else {
     meta["plane_note"] = s.plane_note;
   }
+  py::list noise;
+  for (const segment::NoiseAt& n : s.noise) noise.append(py::make_tuple(n.range, n.concavity));
+  meta["noise"] = py::tuple(noise);
   meta["cut"] = s.first_cut.value;
   if (s.method != segment::Method::paper) meta["min_part"] = s.first_cut.min_part;
   meta["min_size"] = s.first_cut.min_size;
@@ -229,6 +242,7 @@ void bind_segmentations(py::module_& m) {
                        std::optional<Index> min_size, double max_range,
                        const std::optional<std::array<Vec3, 2>>& crop, bool plane,
                        std::optional<double> plane_distance, double plane_noise,
+                       const std::optional<std::array<double, 5>>& plane_guess,
                        std::optional<Vec3> viewpoint, bool check,
                        std::optional<double> min_persistence, bool objects,
                        std::optional<Index> min_part, double spacing, double distance, int steps) {
@@ -244,6 +258,10 @@ void bind_segmentations(py::module_& m) {
              o.plane = plane;
              o.plane_distance = plane_distance;
              o.plane_noise = plane_noise;
+             if (plane_guess) {
+               const auto& [a, b, c, d, share] = *plane_guess;
+               o.plane_guess = segment::Plane{{a, b, c}, d, share};
+             }
              o.viewpoint = viewpoint;
              o.check = check;
              o.min_persistence = min_persistence;
@@ -256,7 +274,7 @@ void bind_segmentations(py::module_& m) {
            }),
            py::kw_only(), py::arg("method"), py::arg("voxel"), py::arg("min_size"),
            py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("plane_distance"),
-           py::arg("plane_noise"), py::arg("viewpoint"), py::arg("check"),
+           py::arg("plane_noise"), py::arg("plane_guess"), py::arg("viewpoint"), py::arg("check"),
            py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("spacing"),
            py::arg("distance"), py::arg("steps"));
   py::class_<SegmentedScene>(m, "Segmentation")
@@ -277,6 +295,11 @@ void bind_segmentations(py::module_& m) {
       .def_property_readonly(
           "voxel_labels",
           [](const SegmentedScene& s) { return Block::of(std::vector(s.result.vertex_labels)); })
+      .def_property_readonly("surfaces", &surfaces)
+      .def_property_readonly("surface_labels",
+                             [](const SegmentedScene& s) {
+                               return Block::of(s.result.surface_labels, raster_of(s.result));
+                             })
       .def_property_readonly("segments", &segments)
       .def_property_readonly("tree", [](const SegmentedScene& s) { return s.result.tree; })
       .def_property_readonly("barcode", &barcode)

@@ -104,6 +104,19 @@ inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& s
   return clusters;
 }
 
+/// The points on each surface that bounds the scene (ph::segment::SceneTree::surfaces), in their
+/// order.
+inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentation& segmentation,
+                                                        const ::pcl::PCLHeader& header = {}) {
+  std::vector<::pcl::PointIndices> surfaces(segmentation.surfaces.size());
+  for (::pcl::PointIndices& surface : surfaces) surface.header = header;
+  for (std::size_t i = 0; i < segmentation.surface_labels.size(); ++i) {
+    const std::uint8_t number = segmentation.surface_labels[i];
+    if (number != 0) surfaces[number - 1U].indices.push_back(static_cast<::pcl::index_t>(i));
+  }
+  return surfaces;
+}
+
 /// The same points in the same order and organisation as another type: x, y, z, and what `paint`
 /// adds to point i.
 template <class To, class PointT, class Paint>
@@ -196,6 +209,10 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Half of it at a range of one metre, at least, growing with the square of the range; metres.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
+  /// Where the supporting plane was in the frame before; unsetPlaneGuess: it is not known.
+  void setPlaneGuess(const segment::Plane& plane) { options_.plane_guess = plane; }
+  void unsetPlaneGuess() { options_.plane_guess.reset(); }
+  const std::optional<segment::Plane>& getPlaneGuess() const { return options_.plane_guess; }
   /// Where the sensor stood; else where the rays of the pixels of an organised cloud meet, if that
   /// can be told, else the origin that the cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
@@ -214,8 +231,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
   Index getMinClusterSize() const { return options_.cut().min_size; }
-  /// Methods surface and supervoxels: least persistence of a part, a mean concavity (0…2) or
-  /// metres.
+  /// Methods surface and supervoxels: least persistence of a part, in units of the noise or metres.
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const { return options_.part_persistence(); }
   /// Method supervoxels: how far the surface is from a seed at most, metres.
@@ -270,6 +286,12 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Everything the last call found: segments with boxes and neighbours, the tree, times.
   const segment::Segmentation& result() const { return result_; }
   const std::vector<segment::Segment>& getSegments() const { return result_.segments; }
+  /// Supports and walls, which are no segments; Segment::on says on which of them one stands.
+  const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.surfaces; }
+  /// The points on each of them.
+  std::vector<::pcl::PointIndices> getSurfaceIndices() const {
+    return surface_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
+  }
   /// The merge tree with what other cuts need.
   const segment::SceneTree& getTree() const { return result_; }
   /// The persistence of each segment; infinite for one that touches no other.
