@@ -42,7 +42,7 @@ from segmentation_programs import Program
 
 # The constants that have an option, the default first.
 GRID = (
-    "min-persistence=0.01,0.005,0.02 min-part=200,100,400 voxel=0.005,0.004,0.006 "
+    "min-persistence=1,0.7,1.4 min-part=200,100,400 voxel=0.005,0.004,0.006 "
     "plane-distance=0.005,0.006"
 )
 
