@@ -64,6 +64,21 @@ class SquaredPaper {
   std::size_t columns_ = 0, count_ = 0;
 };
 
+/// How many different points there are over a square, up to a number. Points that are there twice
+/// tell nothing new.
+class DifferentPoints {
+ public:
+  void add(const float* p, std::size_t most) {
+    const std::array<float, 3> point = {p[0], p[1], p[2]};
+    if (points_.size() < most && std::ranges::find(points_, point) == points_.end())
+      points_.push_back(point);
+  }
+  std::size_t count() const { return points_.size(); }
+
+ private:
+  std::vector<std::array<float, 3>> points_;
+};
+
 /// Evenly by how far they are.
 std::vector<std::size_t> some_of(std::vector<std::size_t> squares, const SquaredPaper& paper,
                                  std::size_t most) {
@@ -80,26 +95,27 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, const Squared
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& points,
                                 const std::vector<Index>& beyond, const Plane& plane,
                                 const PlaneMargin& margin, double side) {
-  constexpr std::size_t most = 48;         // squares: what it takes is bounded
-  constexpr std::uint32_t most_above = 3;  // points: an object has more, flying pixels fewer
-  constexpr std::uint32_t fewest = 48;     // points of a square that tells
-  constexpr double margins = 1.5;          // the noise is looked for, so it is not cut off
+  constexpr std::size_t most = 48;       // squares: what it takes is bounded
+  constexpr std::size_t most_above = 3;  // points: an object has more, flying pixels fewer
+  constexpr std::size_t fewest = 48;     // points of a square that tells
+  constexpr double margins = 1.5;        // the noise is looked for, so it is not cut off
   const SquaredPaper paper(cloud, points, plane, side);
   if (paper.count() == 0) return {};
-  std::vector<std::uint32_t> above(paper.count()), on(paper.count());
-  for (const Index i : beyond) ++above[paper.of(i)];
+  std::vector<DifferentPoints> above(paper.count()), on(paper.count());
+  for (const Index i : beyond)
+    above[paper.of(i)].add(cloud.point(static_cast<std::size_t>(i)), most_above + 1);
   std::vector<std::pair<Index, std::size_t>> candidates;  // with their squares
   for (const Index i : points) {
     const float* p = cloud.point(static_cast<std::size_t>(i));
     if (std::abs(plane.signed_distance(p[0], p[1], p[2])) > margins * margin(cloud, p)) continue;
     const std::size_t square = paper.of(i);
-    if (above[square] > most_above) continue;
-    ++on[square];
+    if (above[square].count() > most_above) continue;
+    on[square].add(p, fewest);
     candidates.emplace_back(i, square);
   }
   std::vector<std::size_t> squares;
   for (std::size_t s = 0; s < on.size(); ++s)
-    if (on[s] >= fewest) squares.push_back(s);
+    if (on[s].count() >= fewest) squares.push_back(s);
   std::vector<bool> chosen(paper.count());
   for (const std::size_t s : some_of(std::move(squares), paper, most)) chosen[s] = true;
   std::vector<Index> found;
