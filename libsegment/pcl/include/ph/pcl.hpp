@@ -214,8 +214,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
   Index getMinClusterSize() const { return options_.cut().min_size; }
-  /// Methods surface and supervoxels: least persistence of a part, a mean concavity (0…2) or
-  /// metres.
+  /// Methods surface and supervoxels: least persistence of a part, in units of the noise or metres.
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const { return options_.part_persistence(); }
   /// Method supervoxels: how far the surface is from a seed at most, metres.
