@@ -49,14 +49,15 @@ std::vector<float> scaled(std::vector<float> xyz, double factor) {
   return xyz;
 }
 
-/// Points of a sphere, all around or the half before the sensor.
+/// Points of the part of a sphere that the sensor sees: nothing of what lies behind its outline.
 std::vector<float> ball(double radius, int count) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   std::vector<float> xyz;
-  for (int i = 0; i < count; ++i) {
+  while (xyz.size() < 3 * static_cast<std::size_t>(count)) {
     const double x = normal(random), y = normal(random), z = normal(random);
     const double r = radius / std::hypot(x, y, z);
+    if (std::abs(z) * r < radius * radius) continue;
     for (const double c : {x * r, y * r, 1 - std::abs(z) * r}) xyz.push_back(static_cast<float>(c));
   }
   return xyz;
@@ -98,9 +99,10 @@ TEST_P(BadInput, NoPlane) {
 }
 
 TEST_P(BadInput, SeveralPlanes) {
-  // A shelf above the table: the plane with most points goes, the other is a segment.
-  const TableScene scene(
-      {{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}});
+  // A shelf above the table: the plane with most points goes, the other is a segment. Its points
+  // are so near each other that their voxels touch.
+  const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
+                         2);
   const Segmentation s = segmented(scene.xyz());
   ASSERT_TRUE(s.plane);
   EXPECT_NEAR(s.plane->offset, std::sqrt(0.5), 0.01) << "the table";

@@ -10,7 +10,7 @@ namespace ph::segment {
 /// Of round things, seen from above. Lengths are metres.
 struct Circle {
   Eigen::Vector2d centre;
-  double radius = 0;  ///< not a number: the points lie on a line
+  double radius = 0;  ///< of points on a line: any, or not a number
 };
 
 /// Ten degrees each.

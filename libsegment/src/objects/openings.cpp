@@ -83,6 +83,13 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
 
 }  // namespace
 
+bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel) {
+  constexpr double below = 0.05, reach = 0.5;  // metres
+  const double height = plane.signed_distance(point[0], point[1], point[2]);
+  return height >= -below && height <= plane.signed_distance(voxel[0], voxel[1], voxel[2]) &&
+         std::hypot(point[0] - voxel[0], point[1] - voxel[1], point[2] - voxel[2]) <= reach;
+}
+
 void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>& in_range,
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
@@ -111,19 +118,27 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
     if (opening && opening->height < eye.z()) openings.push_back(*opening);
   }
   if (openings.empty()) return;
-  constexpr double below = 0.05;  // metres: a shiny bottom may be seen as deep as that
+  const auto place_of = [&](std::uint32_t v) -> Vec3 {
+    const auto row = grid.centroids.row(v);
+    return {row[0], row[1], row[2]};
+  };
   std::vector<bool> has_voxel(cloud.size());
   for (const Index i : points) has_voxel[static_cast<std::size_t>(i)] = true;
   for (const Index i : in_range) {
     const float* q = cloud.point(static_cast<std::size_t>(i));
-    if (has_voxel[static_cast<std::size_t>(i)] || plane.signed_distance(q[0], q[1], q[2]) < -below)
-      continue;
+    if (has_voxel[static_cast<std::size_t>(i)]) continue;
     const Eigen::Vector3d p = above({q[0], q[1], q[2]});
     for (const Opening& opening : openings) {
       if (p.z() >= opening.height) continue;
-      const double t = (eye.z() - opening.height) / (eye.z() - p.z());  // where its ray passes
-      const Eigen::Vector2d crossing = (eye + t * (p - eye)).head<2>();
-      if ((crossing - opening.circle.centre).norm() >= of_radius * opening.circle.radius) continue;
+      const auto from_axis = [&](double height) {  // where its ray passes that
+        const double t = (eye.z() - height) / (eye.z() - p.z());
+        return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();
+      };
+      // In through the opening, and not out again through a gap in the wall.
+      if (from_axis(opening.height) >= of_radius * opening.circle.radius ||
+          from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||
+          !may_be_in_opening(plane, {q[0], q[1], q[2]}, place_of(opening.voxel)))
+        continue;
       points.push_back(i);
       grid.voxel_of.push_back(opening.voxel);
       break;

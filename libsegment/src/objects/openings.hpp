@@ -7,6 +7,11 @@
 
 namespace ph::segment {
 
+/// Whether a point may have been won back for a voxel through an opening: all that such points have
+/// in common. It is near the voxel and lower, and not far below the plane: a shiny bottom is seen
+/// deeper than it is.
+bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel);
+
 /// Wins back the bottoms of round vessels (bowls, cups, pots), which lie so low that they were
 /// taken for the plane: what the sensor sees through the opening of a rim is inside the vessel. A
 /// rim is the upper end of an object if that lies on a circle, on most of it, and the middle of the

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -11,21 +12,27 @@ namespace ph::segment {
 namespace {
 
 /// The plane as squared paper around the foot of the viewpoint. It repeats itself so far away that
-/// squares which are taken for one are only in the way of each other.
+/// squares which are taken for one are only in the way of each other. Each square has 64 parts.
 class SquaredPaper {
  public:
   static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
+  struct Place {
+    std::uint32_t square;
+    std::uint32_t part;  ///< 0 to 63
+  };
 
   SquaredPaper(const CloudView& cloud, const Plane& plane, double side) : cloud_(cloud) {
     const Eigen::Vector3d n(plane.normal.data()), eye(cloud.viewpoint.data());
-    axes_[0] = n.unitOrthogonal() / side;
+    const double part = side / kParts;
+    axes_[0] = n.unitOrthogonal() / part;
     axes_[1] = n.cross(axes_[0]);
     for (std::size_t k = 0; k < 2; ++k) foot_[k] = axes_[k].dot(eye);
   }
-  /// The square under a point.
-  std::size_t of(Index i) const {
+  /// What a point is over.
+  Place of(Index i) const {
     const float* p = cloud_.point(static_cast<std::size_t>(i));
-    return column(p, 1) * kColumns + column(p, 0);
+    const std::uint32_t x = column(p, 0), y = column(p, 1);
+    return {y / kParts * std::uint32_t{kColumns} + x / kParts, y % kParts * kParts + x % kParts};
   }
   /// The square of the distance of its centre from the foot, in sides.
   static double farness(std::size_t square) {
@@ -37,12 +44,15 @@ class SquaredPaper {
   }
 
  private:
-  std::size_t column(const float* p, std::size_t k) const {
+  static constexpr std::uint32_t kParts = 8;  // a side
+
+  /// In parts.
+  std::uint32_t column(const float* p, std::size_t k) const {
     const double place = axes_[k][0] * p[0] + axes_[k][1] * p[1] + axes_[k][2] * p[2] - foot_[k];
     // Shifted by a multiple of the columns to what is positive, so that a cast rounds it down.
-    constexpr double shift = 1ULL << 40;
-    const double shifted = std::clamp(place + (shift + kColumns / 2), 0.0, 2 * shift);
-    return static_cast<std::size_t>(shifted) % kColumns;
+    constexpr double shift = 1ULL << 40, middle = kColumns * kParts / 2;
+    const double shifted = std::clamp(place + (shift + middle), 0.0, 2 * shift);
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(shifted) % (kColumns * kParts));
   }
 
   const CloudView& cloud_;
@@ -65,22 +75,27 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
-  constexpr std::size_t most = 32;         // squares: what it takes is bounded
-  constexpr std::uint32_t most_above = 3;  // points: an object has more, flying pixels fewer
-  constexpr std::uint32_t fewest = 48;     // points of a square that tells
+  constexpr std::size_t most = 32;  // squares: what it takes is bounded
+  // Parts, not points: points that are there twice tell nothing new.
+  constexpr int most_above = 2;  // an object covers more, flying pixels fewer
+  constexpr int fewest = 32;     // of 64
   const SquaredPaper paper(cloud, plane, side);
-  std::vector<std::uint32_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
-  for (const Index i : beyond) ++above[paper.of(i)];
+  std::vector<std::uint64_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
+  const auto mark = [](std::vector<std::uint64_t>& squares, const SquaredPaper::Place& place) {
+    squares[place.square] |= std::uint64_t{1} << place.part;
+  };
+  for (const Index i : beyond) mark(above, paper.of(i));
   std::vector<std::uint16_t> square_of;
   square_of.reserve(on_plane.size());
   for (const Index i : on_plane) {
-    const std::size_t square = paper.of(i);
-    square_of.push_back(static_cast<std::uint16_t>(square));
-    ++on[square];
+    const SquaredPaper::Place place = paper.of(i);
+    square_of.push_back(static_cast<std::uint16_t>(place.square));
+    mark(on, place);
   }
   std::vector<std::size_t> squares;
   for (std::size_t s = 0; s < on.size(); ++s)
-    if (on[s] >= fewest && above[s] <= most_above) squares.push_back(s);
+    if (std::popcount(on[s]) >= fewest && std::popcount(above[s]) <= most_above)
+      squares.push_back(s);
   std::vector<bool> chosen(SquaredPaper::kCount);
   for (const std::size_t s : some_of(std::move(squares), most)) chosen[s] = true;
   std::vector<Index> found;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "objects/openings.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/scene_tree.hpp"
@@ -282,9 +283,9 @@ class TreeReader {
       }
       if (is_inside(point, scene_.cells[v]))
         ++inside[v];
-      else if (!may_be_base(point, v))
+      else if (!may_be_base(point, v) && !may_be_bottom(point, v))
         fail("coordinates", fmt::format("({}, {}, {})", point[0], point[1], point[2]),
-             "a point of its voxel, or of the plane at its base");
+             "a point of its voxel, of the plane at its base, or seen through an opening above it");
     }
     for (std::uint32_t v = 0; v < n; ++v)
       if (inside[v] < scene_.counts[v])
@@ -301,7 +302,7 @@ class TreeReader {
   bool may_be_base(const Vec3& point, std::uint32_t v) const {
     if (!scene_.plane || scene_.method == Method::paper) return false;
     constexpr double aside = 3, up = 4;  // voxels; as high as the voxel, roughly
-    const Vec3 c{scene_.vertices(v, 0), scene_.vertices(v, 1), scene_.vertices(v, 2)};
+    const Vec3 c = centroid(v);
     const double height = scene_.plane->signed_distance(point[0], point[1], point[2]);
     const double of_voxel = scene_.plane->signed_distance(c[0], c[1], c[2]);
     if (!(height > 0 && height <= up * (of_voxel + scene_.voxel))) return false;
@@ -309,6 +310,15 @@ class TreeReader {
     for (std::size_t k = 0; k < 3; ++k)
       square += std::pow(point[k] - c[k] - (height - of_voxel) * scene_.plane->normal[k], 2);
     return square <= std::pow(aside * scene_.voxel, 2);
+  }
+
+  /// Whether it may be of the bottom of the vessel whose lowest voxel this is.
+  bool may_be_bottom(const Vec3& point, std::uint32_t v) const {
+    return scene_.plane && scene_.method == Method::surface &&
+           may_be_in_opening(*scene_.plane, point, centroid(v));
+  }
+  Vec3 centroid(std::uint32_t v) const {
+    return {scene_.vertices(v, 0), scene_.vertices(v, 1), scene_.vertices(v, 2)};
   }
 
   const Input& input_;

@@ -141,8 +141,8 @@ TEST_F(Program, AStoredTreeIsAnInput) {
   ASSERT_EQ(run("s.tree --labels b.npy --barcode b.csv --json b.json"), 0) << err();
   EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
   EXPECT_EQ(contents(at("a.csv")), contents(at("b.csv")));
-  EXPECT_NE(contents(at("b.json")).find("\"cut\": {\"value\": 0.01,"), std::string::npos);
-  ASSERT_EQ(run("s.tree --cut 0.01 --labels b.npy --tree again.tree"), 0) << err();
+  EXPECT_NE(contents(at("b.json")).find("\"cut\": {\"value\": 1,"), std::string::npos);
+  ASSERT_EQ(run("s.tree --cut 1 --labels b.npy --tree again.tree"), 0) << err();
   EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
   EXPECT_EQ(contents(at("s.tree")), contents(at("again.tree")));
   ASSERT_EQ(run("- --explain 1,2 <s.tree"), 0) << err();
@@ -169,7 +169,7 @@ TEST_F(Program, WhatAStoredTreeCannotDo) {
 }
 
 TEST_F(Program, ACutOfACloudIsThatOfItsTree) {
-  for (const char* method : {"--method surface --cut 0.3", "--method paper --cut 0.015"}) {
+  for (const char* method : {"--method surface --cut 30", "--method paper --cut 0.015"}) {
     ASSERT_EQ(run(std::string("scene.pcd --labels a.npy --tree s.tree ") + method), 0) << err();
     ASSERT_EQ(run("s.tree --labels b.npy"), 0) << err();
     EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "libsegment/scenery.hpp"
-#include "objects/objects.hpp"
+#include "objects/weak_seams.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/eigen.hpp"
 #include "ph/error.hpp"
@@ -192,27 +192,23 @@ TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {
   }
 }
 
-TEST(Objects, PartsJoinOverARidgeAndNotInAValley) {
-  for (const double angle : {-0.6, 0.6}) {
-    VoxelGrid grid;
-    grid.centroids = valley(angle, 0.005);
-    Surface surface;
-    const std::vector<VoxelPair> pairs = pairs_within(grid.centroids, 0.015);
-    surface.pairs.assign(pairs.begin(), pairs.end());
-    surface.normals = surface_normals(grid.centroids, surface.pairs, 0.012, {0, 0, 10});
-    std::vector<Index> part_of;
+TEST(WeakSeams, AreOnARidgeAndNotInAValley) {
+  for (const double angle : {-0.6, 0.0, 0.6}) {
+    const Points places = valley(angle, 0.005);
+    const std::vector<VoxelPair> pairs = pairs_within(places, 0.015);
+    const Points normals = surface_normals(places, pairs, 0.012, {0, 0, 10});
+    const std::vector<double> hollow = concavity(places, normals, pairs);
+    std::vector<Index> side_of;
     std::array<Index, 2> first = {-1, -1};
-    for (Index v = 0; v < grid.centroids.rows(); ++v) {
-      Index& part = first[grid.centroids(v, 1) < 0 ? 0 : 1];
-      if (part < 0) part = v;
-      part_of.push_back(part);
+    for (Index v = 0; v < places.rows(); ++v) {
+      Index& side = first[places(v, 1) < 0 ? 0 : 1];
+      if (side < 0) side = v;
+      side_of.push_back(side);
     }
-    const std::vector<Index> objects = join_parts(grid, surface, 0.005, part_of, 32);
-    EXPECT_EQ(std::ranges::count(objects, objects[0]),
-              angle < 0 ? std::ssize(part_of) : std::ranges::count(part_of, part_of[0]))
+    const std::vector<Index> basins = join_over_weak_seams(side_of, hollow, pairs, 0.009, 0.04);
+    EXPECT_EQ(std::ranges::count(basins, basins[0]),
+              angle <= 0 ? std::ssize(side_of) : std::ranges::count(side_of, side_of[0]))
         << angle;
-    // Small parts stay by themselves.
-    EXPECT_EQ(join_parts(grid, surface, 0.005, part_of, 1000), part_of);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "libsegment/scenery.hpp"
+#include "libsegment/vessels.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "support/points.hpp"
@@ -69,7 +70,7 @@ TEST(StoredTreeSurface, OtherCutsAreThoseOfAnotherRun) {
   const TableScene scene = stack();
   const CloudView cloud{scene.xyz(), {}};
   const SceneTree tree = read_again(tree_bytes(segment(cloud)));
-  for (const double value : {0.0, 0.02, 0.3, kInfinity}) {
+  for (const double value : {0.0, 2.0, 30.0, kInfinity}) {
     for (const Index min_part : {Index{1}, Index{400}}) {
       for (const bool objects : {true, false}) {
         const SegmentOptions o{
@@ -258,12 +259,75 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                          t.xyz[k] += static_cast<float>(away * n[k]);
                      }),
                      "coordinates"));
-  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.05F; }), "coordinates"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.6F; }), "coordinates"));
+  SceneTree pieces = segment(CloudView{stack().xyz(), {}}, {.method = Method::supervoxels});
+  pieces.xyz[0] += 0.05F;  // too far for a base, and this method knows no openings
+  EXPECT_TRUE(says(refusal(tree_bytes(pieces)), "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
                      for (std::uint32_t& v : t.vertex_of_point)  // all of the first voxel elsewhere
                        if (v == 0) v = static_cast<std::uint32_t>(t.cells.size() - 1);
                    }),
                    "coordinates"));
+}
+
+/// Two vessels whose bottoms are seen 3 cm below the table, and the points that came back through
+/// their openings.
+struct Bottoms {
+  test::VesselScene scene{{{.x = -0.15}, {.x = 0.15, .radius = 0.06, .height = 0.05}}, 0.03};
+  Segmentation s = segment(scene.cloud());
+  std::vector<std::size_t> won_back;  // places in s.points
+
+  Bottoms() {
+    for (std::size_t k = 0; k < s.points.size(); ++k)
+      if (scene.met()[static_cast<std::size_t>(s.points[k])] == test::Met::bottom)
+        won_back.push_back(k);
+  }
+  double height(std::size_t k) const {
+    return s.plane->signed_distance(s.xyz[3 * k], s.xyz[3 * k + 1], s.xyz[3 * k + 2]);
+  }
+};
+
+TEST(StoredTreeOpenings, BottomsBelowTheTableAreReadAgain) {
+  const Bottoms b;
+  EXPECT_GT(b.won_back.size(), 300U);
+  for (const std::size_t k : b.won_back) EXPECT_LT(b.height(k), -0.025);
+  const std::string bytes = tree_bytes(b.s);
+  const SceneTree again = read_again(bytes);
+  EXPECT_EQ(tree_bytes(again), bytes);
+  EXPECT_EQ(again.points, b.s.points);
+  expect_same(cut(again, again.first_cut), b.s);
+}
+
+TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
+  const Bottoms b;
+  ASSERT_FALSE(b.won_back.empty());
+  const std::size_t k = b.won_back[b.won_back.size() / 2];
+  const Vec3 up = b.s.plane->normal;
+  const auto moved = [&](double x, double to_height) {
+    SceneTree tree = b.s;
+    tree.xyz[3 * k] += static_cast<float>(x);
+    for (std::size_t i = 0; i < 3; ++i)
+      tree.xyz[3 * k + i] += static_cast<float>((to_height - b.height(k)) * up[i]);
+    return tree_bytes(tree);
+  };
+  const auto is_refused = [&](double x, double to_height) {
+    return refusal(moved(x, to_height)).find("seen through an opening") != std::string::npos;
+  };
+  const auto v = static_cast<Index>(b.s.vertex_of_point[k]);
+  const double of_voxel =
+      b.s.plane->signed_distance(b.s.vertices(v, 0), b.s.vertices(v, 1), b.s.vertices(v, 2));
+  for (const double height : {-0.049, 0.0, 0.9 * of_voxel})
+    EXPECT_NO_THROW(read_again(moved(0, height))) << height;
+  for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
+  EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
+  for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
+  // Other methods do not look through openings, and without a plane nothing is below it.
+  SceneTree tree = b.s;
+  tree.method = Method::supervoxels;
+  EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);
+  tree = b.s;
+  tree.plane.reset();
+  EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);
 }
 
 // ---- real frames
