@@ -144,11 +144,11 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   return vertices;
 }
 
-/// Pairs of leaves that the program made one object of: of each segment its first part and the
+/// Pairs of leaves that the program made one segment of: of each segment its first part and the
 /// others.
 std::vector<std::uint32_t> joins_of(const Segmentation& s, const ContractedTree& contracted) {
   std::vector<std::uint32_t> joins;
-  if (s.method != Method::surface || !s.first_cut.objects) return joins;
+  if (s.method != Method::surface) return joins;
   const std::vector<Index> part_of = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
   std::vector<std::uint32_t> first_leaf(s.segments.size() + 1, kNone);
   std::vector<bool> seen(part_of.size());

@@ -34,11 +34,13 @@ struct CutArguments {
   std::optional<double> value;
   std::optional<Index> min_part, min_size;
   std::optional<bool> objects;
+  std::optional<double> min_seam;
 
   /// The rest as the tree has it.
   CutOptions over(const CutOptions& tree) const {
     return {value.value_or(tree.value), min_part.value_or(tree.min_part),
-            min_size.value_or(tree.min_size), objects.value_or(tree.objects)};
+            min_size.value_or(tree.min_size), objects.value_or(tree.objects),
+            min_seam.value_or(tree.min_seam)};
   }
 };
 

@@ -39,6 +39,7 @@ constexpr std::array kScopes{
     OptionScope{"steps", kScene | kPaper | kAnyPlane, "--method paper"},
     OptionScope{"no-check", kScene | kAnyMethod | kAnyPlane, kOfScenes},
     OptionScope{"min-part", kAnyInput | kBySurface | kAnyPlane, kOfBoth},
+    OptionScope{"min-seam", kAnyInput | kSurface | kAnyPlane, "--method surface"},
     OptionScope{"objects", kAnyInput | kSurface | kAnyPlane, "--method surface"},
     OptionScope{"parts", kAnyInput | kSurface | kAnyPlane, "--method surface"},
     OptionScope{"output", kScene | kAnyMethod | kAnyPlane, kOfScenes},
@@ -56,8 +57,8 @@ void require_input(std::span<const OptionScope* const> given, Situation input) {
                         : input == kDepthImage
                             ? "a depth image"
                             : "a stored tree, which was made with what it was made with; --cut, "
-                              "--min-part, --min-size, --objects and --parts cut it anew, "
-                              "--labels writes the labels of its points");
+                              "--min-part, --min-size, --min-seam, --objects and --parts cut it "
+                              "anew, --labels writes the labels of its points");
 }
 
 void require_method(std::span<const OptionScope* const> given, Method method) {

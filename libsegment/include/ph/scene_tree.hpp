@@ -136,6 +136,9 @@ struct CutOptions {
       200;  ///< not paper: fewest voxels of a part; a smaller one joins a neighbour, >= 1
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object
+  /// Surface: least strength of a seam between parts, in multiples of `value`; 0: persistence, that
+  /// is the lowest place of a seam, is all that is looked at. >= 0.
+  double min_seam = 2;
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
 

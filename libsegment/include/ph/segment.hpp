@@ -64,6 +64,8 @@ struct SegmentOptions {
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
   bool objects = true;  ///< surface: join the visible parts of an object; false: they stay apart
   std::optional<Index> min_part = {};  ///< fewest voxels of a part; a smaller one joins, >= 1
+  /// Surface: least strength of a seam, in multiples of min_persistence, >= 0; see CutOptions.
+  std::optional<double> min_seam = {};
   /// Supervoxels: how far the surface is from a seed at most, metres, no less than a voxel.
   double spacing = 0.03;
 
@@ -90,7 +92,7 @@ struct SegmentOptions {
       return {part_persistence(), min_part.value_or(8), min_size.value_or(1), false};
     const CutOptions d;
     return {method == Method::paper ? distance : part_persistence(), min_part.value_or(d.min_part),
-            min_size.value_or(d.min_size), objects};
+            min_size.value_or(d.min_size), objects, min_seam.value_or(d.min_seam)};
   }
 };
 

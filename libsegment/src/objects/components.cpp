@@ -114,6 +114,7 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
 
   result.labels.resize(scene.cloud_size());
   result.surface_labels = scene.removed_with;
+  result.surface_labels.resize(scene.cloud_size());
   RawVector<float> x(points), y(points), z(points);
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     const std::uint32_t v = scene.vertex_of_point[k], label = result.vertex_labels[v];

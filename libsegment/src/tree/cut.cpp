@@ -54,10 +54,10 @@ std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
   if (scene.method == Method::paper) return scene.tree.components(options.value);
   std::vector<Index> component_of = scene.tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return component_of;
-  constexpr double strength = 2;  // of a seam, in least persistences
-  component_of =
-      join_over_weak_seams(component_of, scene.tree.births, surface.pairs,
-                           adjacent_radius(scene.voxel), strength * options.value, context);
+  if (options.min_seam > 0)
+    component_of = join_over_weak_seams(component_of, scene.tree.births, surface.pairs,
+                                        adjacent_radius(scene.voxel),
+                                        options.min_seam * options.value, context);
   if (!options.objects) return component_of;
   return join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
 }

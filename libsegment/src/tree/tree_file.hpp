@@ -15,7 +15,7 @@ namespace ph::segment {
 // stored: it cannot contradict it then.
 inline constexpr std::string_view kTreeMagic = "ph-tree\n";
 inline constexpr std::int64_t kTreeVersion = 2;
-inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 28 * kTreeWord;
+inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 29 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
 // Of a point without a vertex, less the number of the removed surface that it is on.
 inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "objects/openings.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
@@ -111,6 +112,7 @@ class TreeReader {
     cut.min_part = integer("fewest voxels of a part", 1, most);
     cut.min_size = integer("fewest voxels of a segment", 1, most);
     cut.objects = integer("whether parts are joined", 0, 1) == 1;
+    cut.min_seam = number("strength of a seam", 0);
     surfaces_ = integer("number of surfaces", has_plane ? 1 : 0,
                         has_plane ? static_cast<std::int64_t>(kMostSurfaces) : 0);
     scene_.removed = integer("number of removed surfaces", has_plane ? 1 : 0, surfaces_);
@@ -297,18 +299,23 @@ class TreeReader {
       if (std::floor(point[k] / scene_.voxel) != cell[k]) return false;
     return true;
   }
-  /// Whether it may have been won back from the plane for this voxel: in the strip below it. Of the
-  /// margin, which the tree does not have, it is known only that the voxel is beyond it.
+  /// Whether it may have been won back from a removed plane for this voxel.
   bool may_be_base(const Vec3& point, std::uint32_t v) const {
-    if (!scene_.plane || scene_.method == Method::paper) return false;
+    if (scene_.method == Method::paper) return false;
+    const auto removed = std::span(scene_.surfaces).first(static_cast<std::size_t>(scene_.removed));
+    return std::ranges::any_of(
+        removed, [&](const SceneSurface& s) { return is_in_strip(s.plane, point, centroid(v)); });
+  }
+  /// Whether it is in the strip of the plane below a voxel. Of the margin, which the tree does not
+  /// have, it is known only that the voxel is beyond it.
+  bool is_in_strip(const Plane& plane, const Vec3& point, const Vec3& of_voxel) const {
     constexpr double aside = 3, up = 4;  // voxels; as high as the voxel, roughly
-    const Vec3 c = centroid(v);
-    const double height = scene_.plane->signed_distance(point[0], point[1], point[2]);
-    const double of_voxel = scene_.plane->signed_distance(c[0], c[1], c[2]);
-    if (!(height > 0 && height <= up * (of_voxel + scene_.voxel))) return false;
+    const double height = plane.signed_distance(point[0], point[1], point[2]);
+    const double voxel_height = plane.signed_distance(of_voxel[0], of_voxel[1], of_voxel[2]);
+    if (!(height > 0 && height <= up * (voxel_height + scene_.voxel))) return false;
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      square += std::pow(point[k] - c[k] - (height - of_voxel) * scene_.plane->normal[k], 2);
+      square += std::pow(point[k] - of_voxel[k] - (height - voxel_height) * plane.normal[k], 2);
     return square <= std::pow(aside * scene_.voxel, 2);
   }
 

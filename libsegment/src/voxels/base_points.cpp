@@ -65,7 +65,7 @@ void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip,
   for (std::size_t k = 0; k < points.size(); ++k) {
     const float* p = point(points[k]);
     const double height = plane.signed_distance(p[0], p[1], p[2]);
-    if (height > margin(cloud, p) + squares_up * side) continue;
+    if (height < 0 || height > margin(cloud, p) + squares_up * side) continue;
     Wall& wall = *walls.try_emplace(square(p)).first;
     if (height < wall.height || (height == wall.height && grid.voxel_of[k] < wall.voxel))
       wall = {height, grid.voxel_of[k]};

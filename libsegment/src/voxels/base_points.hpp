@@ -12,7 +12,8 @@ namespace ph::segment {
 /// stands over the same small square of the plane, if that is just beyond. A wall has such points,
 /// the free plane beside it has none. Centroids and counts of the voxels stay what they are.
 /// @param strip the points within the margin. @param side of a square, metres.
-/// @param points those beyond the margin, which are in the grid; those of the bases are appended.
+/// @param points those beyond the margin, which are in the grid, and any that lie behind the plane;
+/// those of the bases are appended.
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,
                         VoxelGrid& grid);

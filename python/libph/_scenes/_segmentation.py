@@ -168,8 +168,8 @@ class Segmentation:
     # ---- other cuts
 
     def cut(self, value: float | None = None, *, n: int | None = None, min_part: int | None = None,
-            min_size: int | None = None, objects: bool | None = None, **run: Unpack[RunOptions]
-            ) -> Segmentation:
+            min_size: int | None = None, objects: bool | None = None,
+            min_seam: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:
         """A coarser or finer segmentation of the same tree, in milliseconds.
 
         Parameters
@@ -179,8 +179,8 @@ class Segmentation:
             no larger than that of the tree. Default: as it is.
         n : int, optional
             In its place: how many objects there shall be. The cut stays where it is if it gives
-            them.
-        min_part, min_size, objects
+            them; else `min_seam` is 0 unless it is given.
+        min_part, min_size, objects, min_seam
             As of `segment`. Default: as they are.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
@@ -206,6 +206,10 @@ class Segmentation:
             if method != "surface":
                 raise UsageError(f"objects: does nothing for method '{method}'")
             objects = _options.flag("objects", objects)
+        if min_seam is not None:
+            if method != "surface":
+                raise UsageError(f"min_seam: does nothing for method '{method}'")
+            min_seam = _options.real("min_seam", min_seam, "a number, at least 0", 0)
         if value is not None:
             value = _options.real("value", value, "a number, at least 0", 0)
             if n is not None:
@@ -215,13 +219,15 @@ class Segmentation:
                                       "distance up to which the tree was made")
 
         def found_at(value: float | None) -> _core.Segmentation:
-            return _run.run(self._found.cut, value, min_part, min_size, objects,
+            return _run.run(self._found.cut, value, min_part, min_size, objects, min_seam,
                             options=dict(run))
 
         found = found_at(value)
         if n is not None:
             n = _options.whole("n", n, 0)
             if len(found.segments) != n:
+                if method == "surface" and min_seam is None:
+                    min_seam = 0.0  # the levels between which nothing changes are those of the tree
                 found = found_at(self._value_of(n, min_part, min_size, found_at))
             if len(found.segments) != n:
                 raise _no_cut(n, [str(len(found.segments))])

@@ -74,10 +74,12 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
 /// Another cut; what is not given stays as it is.
 SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
-                   std::optional<bool> objects, const RunOptions& options) {
+                   std::optional<bool> objects, std::optional<double> min_seam,
+                   const RunOptions& options) {
   const segment::CutOptions& old = scene.result.first_cut;
   const segment::CutOptions asked{value.value_or(old.value), min_part.value_or(old.min_part),
-                                  min_size.value_or(old.min_size), objects.value_or(old.objects)};
+                                  min_size.value_or(old.min_size), objects.value_or(old.objects),
+                                  min_seam.value_or(old.min_seam)};
   SegmentedScene other{scene.input};
   run_task(options, scene.result.points.size() < kFewPoints, [&](const SharedContext& context) {
     segment::SceneCut found = segment::cut(scene.result, asked, *context);
@@ -167,7 +169,10 @@ py::dict facts(const SegmentedScene& scene) {
   meta["cut"] = s.first_cut.value;
   if (s.method != segment::Method::paper) meta["min_part"] = s.first_cut.min_part;
   meta["min_size"] = s.first_cut.min_size;
-  if (s.method == segment::Method::surface) meta["objects"] = s.first_cut.objects;
+  if (s.method == segment::Method::surface) {
+    meta["objects"] = s.first_cut.objects;
+    meta["min_seam"] = s.first_cut.min_seam;
+  }
   meta["checked"] = s.checked;
   return meta;
 }
@@ -245,7 +250,8 @@ void bind_segmentations(py::module_& m) {
                        const std::optional<std::array<double, 5>>& plane_guess,
                        std::optional<Vec3> viewpoint, bool check,
                        std::optional<double> min_persistence, bool objects,
-                       std::optional<Index> min_part, double spacing, double distance, int steps) {
+                       std::optional<Index> min_part, std::optional<double> min_seam,
+                       double spacing, double distance, int steps) {
              SegmentOptions o;
              const auto named = std::ranges::find(segment::kMethodNames, method);
              if (named == segment::kMethodNames.end())
@@ -267,6 +273,7 @@ void bind_segmentations(py::module_& m) {
              o.min_persistence = min_persistence;
              o.objects = objects;
              o.min_part = min_part;
+             o.min_seam = min_seam;
              o.spacing = spacing;
              o.distance = distance;
              o.steps = steps;
@@ -275,8 +282,8 @@ void bind_segmentations(py::module_& m) {
            py::kw_only(), py::arg("method"), py::arg("voxel"), py::arg("min_size"),
            py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("plane_distance"),
            py::arg("plane_noise"), py::arg("plane_guess"), py::arg("viewpoint"), py::arg("check"),
-           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("spacing"),
-           py::arg("distance"), py::arg("steps"));
+           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("min_seam"),
+           py::arg("spacing"), py::arg("distance"), py::arg("steps"));
   py::class_<SegmentedScene>(m, "Segmentation")
       .def_property_readonly("has_cloud",
                              [](const SegmentedScene& s) { return s.cloud() != nullptr; })
@@ -304,7 +311,7 @@ void bind_segmentations(py::module_& m) {
       .def_property_readonly("tree", [](const SegmentedScene& s) { return s.result.tree; })
       .def_property_readonly("barcode", &barcode)
       .def("cut", &cut, py::arg("value"), py::arg("min_part"), py::arg("min_size"),
-           py::arg("objects"), py::arg("run"))
+           py::arg("objects"), py::arg("min_seam"), py::arg("run"))
       .def("signature", &signature, py::arg("labels"), py::arg("run"))
       .def("first_meeting", &first_meeting, py::arg("a"), py::arg("b"))
       .def("save", &save, py::arg("path"), py::arg("format"), py::arg("run"))

@@ -187,7 +187,13 @@ TEST(DamagedTree, EveryByteCounts) {
 TEST(DamagedTree, HeadersThatLie) {
   const std::string bytes = tree_bytes(segment(CloudView{stack().xyz(), {}}));
   const double nan = std::nan("");
-  EXPECT_NE(refusal(with_word(bytes, 1, std::int64_t{2})).find("version"), std::string::npos);
+  for (const std::int64_t version : {1, 3})
+    EXPECT_NE(refusal(with_word(bytes, 1, version)).find("version"), std::string::npos);
+  // Times of a seam; numbers of surfaces, of removed ones, of noises.
+  EXPECT_NE(refusal(with_word(bytes, 25, -1.0)).find("seam"), std::string::npos);
+  for (const std::size_t word : {26U, 27U, 28U})
+    for (const std::int64_t lie : {std::int64_t{-1}, std::int64_t{2}, std::int64_t{1} << 40})
+      EXPECT_NE(refusal(with_word(bytes, word, lie)), "") << word << ' ' << lie;
   for (const std::int64_t lie : {std::int64_t{-1}, std::int64_t{1} << 62, std::int64_t{1} << 32}) {
     for (const std::size_t word : {3U, 4U, 5U, 6U, 7U})  // width, height, vertices, merges, points
       EXPECT_NE(refusal(with_word(bytes, word, lie)), "") << word << ' ' << lie;
@@ -232,12 +238,20 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
                      t.method = Method::paper;  // whose voxels enter at 0
                      t.normals = Points(0, 3);
+                     t.noise.clear();
                      t.distance = 1;
                    }),
                    "birth"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].value = kInfinity; }), "merge"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].role = Role::wall; }), "role"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.offset += 1; }), "surface"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.normal[0] += 1; }), "surface"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.push_back({1, -1}); }), "noise"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.assign({{2, 1}, {1, 1}}); }), "noise"));
   // A tree with such a merge is not written either.
-  const std::size_t first_merge = kTreeHeader / kTreeWord + 11 * s.cells.size();
+  const std::size_t first_merge =
+      (kTreeHeader + s.surfaces.size() * kTreeSurface + s.noise.size() * kTreeNoise) / kTreeWord +
+      11 * s.cells.size();
   EXPECT_TRUE(
       says(refusal(with_word(tree_bytes(s), first_merge + 2 * 9 + 1, std::int64_t{1} << 30)),
            "vertices"));
@@ -327,6 +341,10 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);
   tree = b.s;
   tree.plane.reset();
+  tree.surfaces.clear();
+  tree.noise.clear();
+  tree.removed = 0;
+  tree.removed_with.assign(tree.removed_with.size(), 0);
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);
 }
 
