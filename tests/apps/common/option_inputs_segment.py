@@ -42,7 +42,7 @@ def rows(Row, name="x"):
         "--method": row("--method", "paper"),
         "--supervoxels": row("--supervoxels", "0.06"),
         "--voxel": row("--voxel", "0.02"),
-        "--min-persistence": row("--min-persistence", "1.5"),
+        "--min-persistence": row("--min-persistence", "150"),
         "--distance": row("--distance", "0.012"),
         "--steps": row("--steps", "3"),
         "--no-check": row("--no-check", lost=", checked"),
@@ -147,12 +147,12 @@ def inputs(Input, program):
         "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, 
         "other.png": depth_png(other),
         "colour.png": files.png(WIDTH, HEIGHT, 8, files.RGB, [bytes([90, 160, 30]) * WIDTH] * HEIGHT)}
-    streams = {**rows(Row, "*"), "--cut": Row("--cut", "1.5", beside=OF_FRAMES)}
+    streams = {**rows(Row, "*"), "--cut": Row("--cut", "150", beside=OF_FRAMES)}
     moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",
                                                               "--max-range", "1.02"])}
     supervoxels = {**moved, "--min-persistence": Row("--min-persistence", "0.05", beside=RESULTS),
                    "--cut": Row("--cut", "0.05", beside=RESULTS)}
-    shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
+    shape = {"--cut": Row("--cut", "150", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
              "--parts": Row("--parts", default=["--objects"], beside=RESULTS), **shape}
     paper = {**moved, "--method": Row("--method", "supervoxels", beside=RESULTS)}

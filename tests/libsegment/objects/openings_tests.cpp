@@ -97,11 +97,15 @@ TEST(Openings, EachVesselHasItsOwn) {
 }
 
 TEST(Openings, ARimMayHaveAHandle) {
-  VesselScene scene(Vessel{.radius = 0.05});
-  for (double x = 0.05; x < 0.075; x += 0.001)
-    for (double z = 0.01; z < 0.06; z += 0.001) scene.add(x, 0, z, Met::outside);
-  Found found = find(scene);
-  EXPECT_GT(found.what[Met::bottom], 0.9 * static_cast<double>(scene.count(Met::bottom)));
+  for (const double length : {0.03, 0.06, 0.08}) {
+    VesselScene scene(Vessel{.radius = 0.08});
+    for (double x = 0.08; x < 0.08 + length; x += 0.001)
+      for (double y = -0.006; y < 0.006; y += 0.001) scene.add(x, y, 0.058, Met::outside);
+    Found found = find(scene);
+    EXPECT_GT(found.what[Met::bottom], 0.9 * static_cast<double>(scene.count(Met::bottom)))
+        << length;
+    EXPECT_EQ(found.what[Met::table], 0U);
+  }
 }
 
 TEST(Openings, AreRoundOnMostOfTheCircle) {
