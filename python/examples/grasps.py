@@ -62,9 +62,11 @@ def from_above(centre, axes, size, plane, gripper=Gripper(), towards=(1, 0, 0)):
         raise CannotGrasp(f"{1000 * width:.0f} mm wide, and the gripper opens "
                           f"{1000 * gripper.opening:.0f} mm")
     top = centre + size[2] / 2 * up
-    depth = min(gripper.finger, up @ top + offset - gripper.clearance)
+    height = up @ top + offset
+    if height <= 0:
+        raise CannotGrasp("it lies below the plane; give the plane that it stands on")
+    depth = min(gripper.finger, height - gripper.clearance)
     if depth <= 0:
-        raise CannotGrasp(f"{1000 * (up @ top + offset):.0f} mm high: too flat to be held at its "
-                          "sides")
+        raise CannotGrasp(f"{1000 * height:.0f} mm high: too flat to be held at its sides")
     x = axes[side] if axes[side] @ np.asarray(towards, dtype=float) >= 0 else -axes[side]
     return Grasp(matrix(x, np.cross(-up, x), -up, top - depth * up), width)

@@ -178,12 +178,13 @@ def test_fingers_stay_above_the_plane():
     assert stacked.pose[2, 3] == pytest.approx(0.12 - Gripper().finger)
 
 
-@pytest.mark.parametrize("size, reason", [
-    ((0.1, 0.076, 0.06), "76 mm wide, and the gripper opens 85 mm"),
-    ((0.1, 0.04, 0.004), "4 mm high: too flat")])
-def test_refusals(size, reason):
+@pytest.mark.parametrize("size, bottom, reason", [
+    ((0.1, 0.076, 0.06), 0, "76 mm wide, and the gripper opens 85 mm"),
+    ((0.1, 0.04, 0.004), 0, "4 mm high: too flat"),
+    ((0.1, 0.04, 0.06), -0.7, "it lies below the plane")])
+def test_refusals(size, bottom, reason):
     with pytest.raises(CannotGrasp, match=reason):
-        from_above(*box(size), TABLE)
+        from_above(*box(size, bottom=bottom), TABLE)
 
 
 def test_mistakes():
