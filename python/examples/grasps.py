@@ -58,9 +58,10 @@ def from_above(centre, axes, size, plane, gripper=Gripper(), towards=(1, 0, 0)):
                          "normal")
     side = int(np.argmin(size[:2]))
     width = float(size[side])
-    if width + 2 * gripper.clearance > gripper.opening:
-        raise CannotGrasp(f"{1000 * width:.0f} mm wide, and the gripper opens "
-                          f"{1000 * gripper.opening:.0f} mm")
+    needed = width + 2 * gripper.clearance
+    if needed > gripper.opening:
+        raise CannotGrasp(f"{1000 * width:.0f} mm wide, {1000 * needed:.0f} mm with clearance, and "
+                          f"the gripper opens {1000 * gripper.opening:.0f} mm")
     top = centre + size[2] / 2 * up
     height = up @ top + offset
     if height <= 0:
