@@ -6,7 +6,7 @@ In a block ```console, a line `$ command` is run in a folder of the page's own, 
 examples/, and with the programs of the folders BIN on the path; a backslash at its end continues it
 in the next line. The lines after it are what it prints. `…` stands for anything within a line, a
 line `…` for any number of lines. Commands that write a report are skipped, aloud, where the
-programs have no page.
+programs have no page, and commands that use jq where there is none.
 
 A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write;
 docs/images/make.py copies it. It has to be the same, byte for byte.
@@ -51,9 +51,13 @@ def matches(expected, printed):
     return re.fullmatch("".join(parts), printed) is not None
 
 
-def is_left_out(command, path):
-    """Whether it writes a report, which its program cannot."""
-    return "--report" in command and not has_page(shutil.which(command.split()[0], path=path))
+def why_left_out(command, path):
+    """If it writes a report, which its program cannot, or needs a program that is not there."""
+    if "--report" in command and not has_page(shutil.which(command.split()[0], path=path)):
+        return "reports are not built in"
+    if "| jq " in command and not shutil.which("jq", path=path):
+        return "jq is missing"
+    return ""
 
 
 def pages_with_commands():
@@ -70,9 +74,9 @@ def failures_of(page, path):
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "examples", pathlib.Path(folder) / "examples")
         for command, expected in commands:
-            if is_left_out(command, path):
+            if reason := why_left_out(command, path):
                 skipped += 1
-                print(f"skipped, for reports are not built in: {page.relative_to(ROOT)}: $ {command}")
+                print(f"skipped, for {reason}: {page.relative_to(ROOT)}: $ {command}")
                 continue
             run = subprocess.run(command, shell=True, cwd=folder, env={**os.environ, "PATH": path}, text=True,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)

@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Reads what ph-segment --json - writes of a stream, and says of each frame what is nearest:
+ph-segment recording/ --json - | 16_frames.py"""
+import json
+import math
+import sys
+
+
+def distance(segment, viewpoint):
+    return math.dist(segment["oriented_box"]["centre"], viewpoint)
+
+
+for line in sys.stdin:  # a frame, as soon as it is done
+    frame = json.loads(line)
+    path = frame["input"]["path"]
+    if "exit_code" in frame:  # the others go on
+        print(f"{path}: failed", flush=True)
+    elif not frame["segments"]:
+        print(f"{path}: nothing", flush=True)
+    else:
+        nearest = min(frame["segments"], key=lambda s: distance(s, frame["viewpoint"]))
+        print(f"{path}: {len(frame['segments'])} objects, number {nearest['label']} is nearest, "
+              f"{distance(nearest, frame['viewpoint']):.2f} m away", flush=True)
