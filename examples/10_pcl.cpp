@@ -35,6 +35,6 @@ int main(int argc, char** argv) {
               << centre.transpose() << "\n";
   }
   // A coarser cut of the same tree: plane, voxels and normals are not looked for again.
-  segmentation.cut(1, clusters);
-  std::cout << clusters.size() << " segments when cut at 1\n";
+  segmentation.cut(30, clusters);
+  std::cout << clusters.size() << " segments when cut at 30\n";
 }

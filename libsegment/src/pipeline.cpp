@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "methods.hpp"
-#include "objects/openings.hpp"
+#include "vessels/openings.hpp"
 #include "options.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"

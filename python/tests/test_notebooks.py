@@ -125,10 +125,10 @@ FACTS = {
         ("a point in space for each of 120 × 160 pixels", "scene.labels.shape == (120, 160)"),
         ("finds 2 objects", "len(scene.objects) == 2"),
         ("that of its object, or 0", "set(np.unique(scene.labels)) == {0, 1, 2}"),
-        ("by default 0.01", "stack.meta['cut'] == 0.01"),
-        ("The short bar here is 0.23 long.",
-         "round(bars[0].persistence, 2) == 0.23 == round(value, 2) and np.isinf(bars[1].death)"),
-        ("All others are shorter than 0.001", "len(bars) == 2"),
+        ("by default 1: the noise", "stack.meta['cut'] == 1"),
+        ("The short bar here is 23 long.",
+         "round(bars[0].persistence) == 23 == round(value) and np.isinf(bars[1].death)"),
+        ("All others are shorter than 0.1", "len(bars) == 2"),
         ("a table 0.9 m away", "abs(np.median(depth) - 0.9) < 0.001"),
         ("Only the ring has one.", "[len(own.signature(k).filter(dim=1)) for k in (1, 2, 3)] =="
          " [1, 0, 0] and own.labels[from_ring < 0.02].min() == own.labels[from_ring < 0.02].max()"

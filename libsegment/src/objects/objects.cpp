@@ -10,7 +10,7 @@
 
 #include "objects/close_boxes.hpp"
 #include "objects/parts.hpp"
-#include "objects/rims.hpp"
+#include "vessels/rims.hpp"
 #include "objects/view.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"

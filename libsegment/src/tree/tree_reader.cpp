@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "objects/openings.hpp"
+#include "vessels/openings.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/scene_tree.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/rims.hpp"
+#include "vessels/rims.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "objects/circle.hpp"
+#include "vessels/circle.hpp"
 #include "objects/close_boxes.hpp"
 #include "ph/eigen.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/circle.hpp"
+#include "vessels/circle.hpp"
 
 #include <gtest/gtest.h>
 

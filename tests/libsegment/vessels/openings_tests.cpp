@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/openings.hpp"
+#include "vessels/openings.hpp"
 
 #include <gtest/gtest.h>
 

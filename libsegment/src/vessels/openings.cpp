@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "objects/openings.hpp"
+#include "vessels/openings.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "objects/circle.hpp"
+#include "vessels/circle.hpp"
 #include "objects/parts.hpp"
 #include "ph/eigen.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/rims.hpp"
+#include "vessels/rims.hpp"
 
 #include <gtest/gtest.h>
 
