@@ -43,8 +43,11 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
   for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
 }
 
-/// What stands on the floor below a table is as good as what stands on the table.
+/// What stands on the floor below a table is as good as what stands on the table. Not if the table
+/// should hide much of it: then the viewpoint is wrong, and below is above.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
+  constexpr double much_hidden = 0.1;  // in their own frames scenes have up to 0.03
+  if (result.plane_sight.hidden >= much_hidden) return;
   const CloudView& cloud = scene.cloud;
   scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);
   if (!scene.lower) return;
