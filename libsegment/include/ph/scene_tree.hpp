@@ -56,7 +56,7 @@ enum class Role {
   object = 0,
   support = 1,  ///< a plane that objects stand on: a table, a board, the floor
   wall = 2,     ///< a plane behind which nothing is seen: a wall, the back or the side of a cabinet
-  unknown = 3   ///< it may be an object; too little of it, or of what it stands on, is seen
+  unknown = 3   ///< it may be an object; it is cut off, and what it stands on is not seen
 };
 /// What they are called, by number.
 inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",

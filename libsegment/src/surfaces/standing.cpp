@@ -3,28 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "objects/view.hpp"
-
 namespace ph::segment {
 namespace {
 
-double dot(const Vec3& a, std::span<const double> b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// How many points of each segment lie at the height of a support.
+/// How many points of each segment lie as low as a support: within the margin that it has at least,
+/// which grows with the square of the range, and two voxels.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
-  constexpr double low = 2;  // voxels
+  constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
+  const auto& [vx, vy, vz] = scene.viewpoint;
   std::vector<Index> count(cut.segments.size() + 1);
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     const float* p = &scene.xyz[3 * k];
+    const double x = p[0] - vx, y = p[1] - vy, z = p[2] - vz;
+    const double low = margin * std::max(1.0, x * x + y * y + z * z) + voxels * scene.voxel;
     const double height = support.signed_distance(p[0], p[1], p[2]);
-    count[cut.vertex_labels[scene.vertex_of_point[k]]] +=
-        std::abs(height) < low * scene.voxel ? 1 : 0;
+    count[cut.vertex_labels[scene.vertex_of_point[k]]] += std::abs(height) < low ? 1 : 0;
   }
   return count;
 }
@@ -43,44 +41,67 @@ std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut)
 /// Where one segment touches another one.
 struct Contact {
   Index pairs = 0;
-  double up_of_first = 0, up_of_second = 0;  // sums of cosines of the normals with the vertical
+  double heights = 0;  // their sum
 };
 
-/// What is seen to stand on something is an object, and so is that of which the lower end is hidden
-/// by something nearer. All else is cut off by the border of what is seen, or hangs.
-void set_roles(const SceneTree& scene, SceneCut& cut) {
-  const auto stands = [](const Segment& s) { return s.on.surface != 0 || s.on.segment != 0; };
-  for (Segment& s : cut.segments) s.role = stands(s) ? Role::object : Role::unknown;
-  if (std::ranges::all_of(cut.segments, stands)) return;
-  constexpr int fewest = 5;     // voxels beside what is nearer
-  constexpr double nearer = 2;  // voxels
-  const Plane& support = scene.surfaces.front().plane;
-  const auto height = [&](std::size_t v) {
-    const auto p = scene.vertices.row(static_cast<Index>(v));
-    return support.signed_distance(p[0], p[1], p[2]);
-  };
-  const View view(scene.vertices, scene.voxel, scene.viewpoint);
-  std::vector<int> hidden(cut.segments.size() + 1);
-  for (std::uint32_t v = 0; v < cut.vertex_labels.size(); ++v) {
-    const std::uint32_t label = cut.vertex_labels[v];
-    if (label == 0 || stands(cut.segments[label - 1])) continue;
-    const Vec3& middle = cut.segments[label - 1].centroid;
-    if (height(v) < support.signed_distance(middle[0], middle[1], middle[2]) &&
-        view.is_at_occluder(v, nearer * scene.voxel,
-                            [&](std::uint32_t u) { return cut.vertex_labels[u]; }))
-      ++hidden[label];
+/// The height of the lower end of each segment: but for one voxel in fifty, which may be wrong.
+std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& heights) {
+  constexpr std::size_t outliers = 50;
+  std::vector<std::vector<double>> of(cut.segments.size() + 1);
+  for (std::size_t v = 0; v < heights.size(); ++v) of[cut.vertex_labels[v]].push_back(heights[v]);
+  std::vector<double> ends(of.size());
+  for (std::size_t label = 1; label < of.size(); ++label) {
+    const auto low = of[label].begin() + static_cast<std::ptrdiff_t>(of[label].size() / outliers);
+    std::ranges::nth_element(of[label], low);
+    ends[label] = *low;
   }
+  return ends;
+}
+
+/// How many points of each segment lie at the border of what is seen: in the outermost rows and
+/// columns that have points of segments or surfaces. None of a cloud that is not organised.
+std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
+  constexpr Index width = 2;  // pixels
+  std::vector<Index> count(cut.segments.size() + 1);
+  if (scene.height < 2) return count;
+  Index left = scene.width, right = -1, top = scene.height, bottom = -1;
+  const auto is_seen = [&](std::size_t i) {
+    return cut.labels[i] != 0 || cut.surface_labels[i] != 0;
+  };
+  std::size_t i = 0;
+  for (Index row = 0; row < scene.height; ++row)
+    for (Index column = 0; column < scene.width; ++column, ++i) {
+      if (!is_seen(i)) continue;
+      left = std::min(left, column), right = std::max(right, column);
+      top = std::min(top, row), bottom = std::max(bottom, row);
+    }
+  i = 0;
+  for (Index row = 0; row < scene.height; ++row)
+    for (Index column = 0; column < scene.width; ++column, ++i)
+      if (cut.labels[i] != 0 && (column < left + width || column > right - width ||
+                                 row < top + width || row > bottom - width))
+        ++count[cut.labels[i]];
+  return count;
+}
+
+/// What is seen to stand on something is an object. What stands on nothing that is seen and is cut
+/// off by the border of the view may be one.
+void set_roles(const SceneTree& scene, SceneCut& cut) {
+  constexpr Index fewest = 10;  // points at the border
+  const auto stands = [](const Segment& s) { return s.on.surface != 0 || s.on.segment != 0; };
+  for (Segment& s : cut.segments) s.role = Role::object;
+  if (std::ranges::all_of(cut.segments, stands)) return;
+  const std::vector<Index> at_border = points_at_border(scene, cut);
   for (Segment& s : cut.segments)
-    if (hidden[s.label] >= fewest) s.role = Role::object;
+    if (!stands(s) && at_border[s.label] >= fewest) s.role = Role::unknown;
 }
 
 }  // namespace
 
-void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs, double radius,
+void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
   if (scene.surfaces.empty()) return;
   constexpr Index fewest = 10;  // points, or pairs of voxels
-  const Vec3& up = scene.surfaces.front().plane.normal;
   for (Index s = scene.removed; s-- > 0;) {
     const auto number = static_cast<std::uint32_t>(s + 1);
     const std::vector<Index> count =
@@ -88,42 +109,43 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
     for (Segment& segment : cut.segments)
       if (count[segment.label] >= fewest) segment.on = {number, 0};
   }
+  const Plane& support = scene.surfaces.front().plane;
+  std::vector<double> heights;
+  for (Index v = 0; v < scene.vertices.rows(); ++v) {
+    const auto p = scene.vertices.row(v);
+    heights.push_back(support.signed_distance(p[0], p[1], p[2]));
+  }
   const std::vector<std::uint8_t> boards = boards_of(scene, cut);
   std::map<std::pair<std::uint32_t, std::uint8_t>, Index> at_boards;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
   for (const VoxelPair& pair : pairs) {
     const std::uint32_t a = cut.vertex_labels[pair.u], b = cut.vertex_labels[pair.v];
-    if (a == b || !(pair.distance < radius)) continue;
+    if (a == b) continue;
     if (a == 0 || b == 0) {
       const std::uint8_t board = a == 0 ? boards[pair.u] : boards[pair.v];
       if (board != 0) ++at_boards[{a + b, board}];
       continue;
     }
-    const double up_u = dot(up, scene.normals.row(pair.u));
-    const double up_v = dot(up, scene.normals.row(pair.v));
-    if (!std::isfinite(up_u + up_v)) continue;
     Contact& contact = contacts[std::minmax(a, b)];
     ++contact.pairs;
-    contact.up_of_first += a < b ? up_u : up_v;
-    contact.up_of_second += a < b ? up_v : up_u;
+    contact.heights += (heights[pair.u] + heights[pair.v]) / 2;
   }
   for (const auto& [both, count] : at_boards)
     if (count >= fewest) cut.segments[both.first - 1].on = {both.second, 0};
-  constexpr double faces_up = 0.7, more = 0.2;  // cosines
+  const double reach = 3 * scene.voxel;
+  const std::vector<double> ends = lower_ends(cut, heights);
   std::vector<Index> most(cut.segments.size() + 1);
-  const auto stands_on = [&](std::uint32_t upper, std::uint32_t lower, double up_of_upper,
-                             double up_of_lower, Index count) {
+  const auto stands_on = [&](std::uint32_t upper, std::uint32_t lower, const Contact& contact) {
     Segment& segment = cut.segments[upper - 1];
-    if (segment.on.surface != 0 || count < fewest || count <= most[upper]) return;
-    if (up_of_lower < faces_up || up_of_lower < up_of_upper + more) return;
-    most[upper] = count;
+    if (segment.on.surface != 0 || contact.pairs < fewest || contact.pairs <= most[upper]) return;
+    const double height = contact.heights / static_cast<double>(contact.pairs);
+    if (height > ends[upper] + reach || height < ends[lower] + reach) return;
+    most[upper] = contact.pairs;
     segment.on.segment = lower;
   };
   for (const auto& [both, contact] : contacts) {
-    const auto n = static_cast<double>(contact.pairs);
-    const double first = contact.up_of_first / n, second = contact.up_of_second / n;
-    stands_on(both.first, both.second, first, second, contact.pairs);
-    stands_on(both.second, both.first, second, first, contact.pairs);
+    stands_on(both.first, both.second, contact);
+    stands_on(both.second, both.first, contact);
   }
   set_roles(scene, cut);
 }

@@ -66,7 +66,7 @@ SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of
                   const Surface& surface, const CutOptions& options, const RunContext& context) {
   SceneCut result = extract_components(scene, component_of, options.min_size);
   find_neighbours(scene.tree, contacts_of(scene, surface, options, result, context), result);
-  find_what_it_stands_on(scene, surface.pairs, adjacent_radius(scene.voxel), result);
+  find_what_it_stands_on(scene, surface.pairs, result);
   return result;
 }
 

@@ -43,7 +43,8 @@ class Segment(NamedTuple):
         The labels of the objects that it touches, the first met first, with the values at which
         they meet.
     role : str
-        "object", or "unknown": it stands on nothing that is seen, and nothing hides its lower end.
+        "object", or "unknown": it stands on nothing that is seen, and the border of the image cuts
+        it off; or there is no support at all.
     on : tuple of (str, int) or None
         What it stands on: ("surface", i), the i-th of `Segmentation.surfaces` from 0, or
         ("object", label). None: that is not seen.

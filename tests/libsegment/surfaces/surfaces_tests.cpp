@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "libsegment/scenery.hpp"
+#include "ph/error.hpp"
+#include "ph/label_tracker.hpp"
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+namespace {
+
+using test::Block;
+
+/// Blocks as a sensor sees them from (0, -0.9, 0.9), looking down at 45 degrees. x is right, y
+/// away, z up; the points are in these coordinates. Depth has noise of half a millimetre at one
+/// metre.
+class Room {
+ public:
+  static constexpr Index kWidth = 640, kHeight = 480;
+
+  explicit Room(const std::vector<Block>& blocks) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> gauss;
+    const double c = std::sqrt(0.5), focal = 340;
+    for (Index v = 0; v < kHeight; ++v) {
+      for (Index u = 0; u < kWidth; ++u) {
+        const double px = (static_cast<double>(u) - kWidth / 2.0 + 0.5) / focal;
+        const double py = (static_cast<double>(v) - kHeight / 2.0 + 0.5) / focal;
+        const Vec3 ray{px, c - c * py, -c - c * py};
+        double depth = kInfinity;
+        int met = -1;
+        for (std::size_t b = 0; b < blocks.size(); ++b)
+          if (const double at = entry(blocks[b], ray); at < depth) {
+            depth = at;
+            met = static_cast<int>(b);
+          }
+        depth += 0.0005 * depth * depth * gauss(random);
+        met_.push_back(met);
+        for (std::size_t k = 0; k < 3; ++k)
+          xyz_.push_back(met < 0 ? test::kHole : static_cast<float>(kEye[k] + depth * ray[k]));
+      }
+    }
+  }
+  CloudView view() const { return {xyz_, kEye, kWidth, kHeight}; }
+  Segmentation segmented(SegmentOptions options = {}) const {
+    options.max_range = 4;
+    options.viewpoint = kEye;
+    return segment(view(), options);
+  }
+  /// The label that most points of a block have.
+  std::uint32_t label_of(const Segmentation& s, int block) const {
+    std::vector<int> count(s.segments.size() + 1);
+    for (std::size_t i = 0; i < met_.size(); ++i)
+      if (met_[i] == block) ++count[s.labels[i]];
+    return static_cast<std::uint32_t>(std::ranges::max_element(count) - count.begin());
+  }
+  /// The share of the points of a block that are on a surface.
+  double share_on(const Segmentation& s, int block, int surface) const {
+    double all = 0, on = 0;
+    for (std::size_t i = 0; i < met_.size(); ++i) {
+      if (met_[i] != block) continue;
+      ++all;
+      on += s.surface_labels[i] == surface ? 1 : 0;
+    }
+    return on / all;
+  }
+
+ private:
+  static constexpr Vec3 kEye{0, -0.9, 0.9};
+
+  /// Where a ray enters a block.
+  static double entry(const Block& block, const Vec3& ray) {
+    double near = 0, far = kInfinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double a = (block.min[k] - kEye[k]) / ray[k], b = (block.max[k] - kEye[k]) / ray[k];
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    return near > 0 && near < far ? near : kInfinity;
+  }
+
+  std::vector<float> xyz_;
+  std::vector<int> met_;  // the block of each pixel; -1: none
+};
+
+const Block kTable{{-0.6, -0.5, -0.02}, {0.6, 0.5, 0}};
+const Block kLeft{{-0.09, -0.05, 0}, {0.03, 0.07, 0.12}}, kRight{{0.1, -0.05, 0}, {0.2, 0.05, 0.1}};
+const Block kWall{{-0.4, 0.6, -0.1}, {0.4, 0.62, 1.5}};  // higher than the sensor
+
+void expect_direction(const Vec3& found, const Vec3& expected) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 0.02) << k;
+}
+
+TEST(Surfaces, AWallIsNoObject) {
+  const Room room({kTable, kLeft, kRight, kWall});
+  const Segmentation s = room.segmented();
+  ASSERT_EQ(s.surfaces.size(), 2U);
+  EXPECT_EQ(s.removed, 1);
+  EXPECT_EQ(s.surfaces[0].role, Role::support);
+  EXPECT_EQ(s.surfaces[0].plane, *s.plane);
+  EXPECT_EQ(s.surfaces[1].role, Role::wall);
+  expect_direction(s.surfaces[1].plane.normal, {0, -1, 0});
+  EXPECT_NEAR(s.surfaces[1].plane.offset, 0.6, 0.005);
+  ASSERT_EQ(s.segments.size(), 2U);
+  EXPECT_GT(room.share_on(s, 0, 1), 0.9);
+  EXPECT_GT(room.share_on(s, 3, 2), 0.9);
+  for (const Segment& segment : s.segments) {
+    EXPECT_EQ(segment.role, Role::object);
+    EXPECT_EQ(segment.on, (StandsOn{1, 0}));
+  }
+  // What is a wall in one cut is none of the segments of another.
+  const std::string tree = tree_bytes(s);
+  const SceneTree again = read_tree(Input::view(tree, "tree"));
+  EXPECT_EQ(again.surfaces, s.surfaces);
+  for (const double value : {0.3, 1.0, 4.0})
+    EXPECT_EQ(cut(again, {.value = value, .objects = false}).segments.size(), 2U) << value;
+  EXPECT_EQ(cut(again, again.first_cut).surface_labels, s.surface_labels);
+}
+
+TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
+  // A sheet that stands on the table: the table is seen behind it.
+  const Block sheet{{-0.4, 0.2, 0}, {0.4, 0.21, 0.25}};
+  const Room room({kTable, kLeft, sheet, {{-0.5, 1.2, -0.1}, {0.5, 1.22, 0.6}}});
+  const Segmentation s = room.segmented();
+  EXPECT_NE(room.label_of(s, 2), 0U);
+  EXPECT_EQ(std::ranges::count(s.surfaces, Role::wall, &SceneSurface::role), 1) << "far behind";
+  EXPECT_EQ(room.label_of(s, 3), 0U);
+}
+
+TEST(Surfaces, OnlyTheSurfaceMethodHasWalls) {
+  const Room room({kTable, kLeft, kWall});
+  EXPECT_EQ(room.segmented({.method = Method::supervoxels}).surfaces.size(), 1U);
+  EXPECT_EQ(room.segmented({.method = Method::paper}).surfaces.size(), 1U);
+  const Segmentation all = room.segmented({.plane = false});
+  EXPECT_TRUE(all.surfaces.empty());
+  EXPECT_EQ(std::ranges::count(all.surface_labels, 0), std::ssize(all.surface_labels));
+  for (const Segment& segment : all.segments) EXPECT_EQ(segment.role, Role::unknown);
+}
+
+TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
+  const Block floor{{-3, -3, -0.42}, {3, 3, -0.4}}, table{{-0.3, -0.3, -0.02}, {0.3, 0.3, 0}};
+  const Block crate{{0.55, 0.1, -0.4}, {0.75, 0.3, -0.15}};
+  const Room room({floor, table, crate, {{-0.1, -0.1, 0}, {0.05, 0.05, 0.1}}});
+  const Segmentation s = room.segmented();
+  ASSERT_GE(s.surfaces.size(), 1U);
+  const std::uint32_t low = room.label_of(s, 2), high = room.label_of(s, 3);
+  ASSERT_NE(low, 0U);
+  ASSERT_NE(high, 0U);
+  EXPECT_NE(low, high);
+  // Whichever of the two has more points is the first.
+  for (const auto& [block, label] : {std::pair{0, low}, std::pair{1, high}}) {
+    const std::uint32_t number = s.segments[label - 1].on.surface;
+    ASSERT_GE(number, 1U) << block;
+    EXPECT_EQ(s.surfaces[number - 1].role, Role::support);
+    EXPECT_GT(room.share_on(s, block, static_cast<int>(number)), 0.8) << block;
+  }
+}
+
+TEST(Surfaces, ALowerTableIsASecondSupport) {
+  const Block lower{{0.35, -0.4, -0.17}, {0.8, 0.3, -0.15}},
+      table{{-0.6, -0.5, -0.02}, {0.3, 0.5, 0}};
+  const Block box{{0.5, -0.1, -0.15}, {0.62, 0.02, -0.05}};
+  const Room room({table, kLeft, lower, box});
+  const Segmentation s = room.segmented();
+  ASSERT_EQ(s.surfaces.size(), 2U);
+  EXPECT_EQ(s.removed, 2);
+  EXPECT_NEAR(s.surfaces[1].plane.offset, 0.15, 0.005);
+  EXPECT_GT(room.share_on(s, 2, 2), 0.8);
+  const std::uint32_t label = room.label_of(s, 3);
+  ASSERT_NE(label, 0U);
+  EXPECT_EQ(s.segments[label - 1].on, (StandsOn{2, 0}));
+  EXPECT_EQ(s.segments[room.label_of(s, 1) - 1].on, (StandsOn{1, 0}));
+  const std::string tree = tree_bytes(s);
+  const SceneTree again = read_tree(Input::view(tree, "tree"));
+  EXPECT_EQ(tree_bytes(again), tree);
+  EXPECT_EQ(cut(again, again.first_cut).segments, s.segments);
+}
+
+TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
+  for (const double width : {0.3, 0.7}) {
+    const Block board{{-width / 2, 0.02, 0.13}, {width / 2, 0.42, 0.15}};
+    const Block box{{-0.08, 0.15, 0.15}, {0.04, 0.27, 0.25}};
+    const Room room({kTable, board, box});
+    const Segmentation s = room.segmented();
+    const std::uint32_t of_board = room.label_of(s, 1), of_box = room.label_of(s, 2);
+    ASSERT_NE(of_box, 0U) << width;
+    const StandsOn on = s.segments[of_box - 1].on;
+    if (width > 0.5) {
+      EXPECT_EQ(of_board, 0U);
+      ASSERT_EQ(s.surfaces.size(), 2U);
+      EXPECT_EQ(s.surfaces[1].role, Role::support);
+      EXPECT_EQ(on, (StandsOn{2, 0}));
+    } else {
+      EXPECT_EQ(s.surfaces.size(), 1U);
+      EXPECT_EQ(on, (StandsOn{0, of_board}));
+    }
+  }
+}
+
+TEST(Surfaces, AStackStandsOnItsLowestBox) {
+  const Block large{{-0.15, 0, 0}, {0.15, 0.25, 0.15}},
+      small{{-0.06, 0.08, 0.15}, {0.06, 0.2, 0.25}};
+  const Room room({kTable, large, small});
+  const Segmentation s = room.segmented();
+  const std::uint32_t below = room.label_of(s, 1), above = room.label_of(s, 2);
+  ASSERT_EQ(s.segments.size(), 2U);
+  EXPECT_EQ(s.segments[below - 1].on, (StandsOn{1, 0}));
+  EXPECT_EQ(s.segments[above - 1].on, (StandsOn{0, below}));
+  EXPECT_EQ(s.segments[above - 1].role, Role::object);
+}
+
+TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
+  const Block hanging{{-0.25, 0.1, 0.3}, {-0.1, 0.2, 0.42}},
+      beside{{0.7, -0.3, 0.1}, {1.5, 0.0, 0.3}};
+  const Block front{{0.05, -0.2, 0}, {0.45, -0.12, 0.25}},
+      behind{{0.15, 0.0, 0}, {0.35, 0.12, 0.36}};
+  const Room room({kTable, hanging, front, behind, beside});
+  const Segmentation s = room.segmented();
+  const auto segment = [&](int block) { return s.segments.at(room.label_of(s, block) - 1); };
+  for (const int block : {1, 2, 3}) EXPECT_EQ(segment(block).role, Role::object) << block;
+  EXPECT_EQ(segment(1).on, StandsOn());
+  EXPECT_EQ(segment(4).on, StandsOn());
+  EXPECT_EQ(segment(4).role, Role::unknown);
+}
+
+// ---- from frame to frame
+
+TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
+  const Room room({kTable, kLeft, kRight});
+  const Segmentation alone = room.segmented();
+  Plane guess = *alone.plane;
+  guess.offset += 0.001;  // as far as noise moves it
+  const Segmentation next = room.segmented({.plane_guess = guess});
+  EXPECT_EQ(next.labels, alone.labels);
+  EXPECT_NEAR(next.plane->offset, alone.plane->offset, 1e-4) << "it is fitted again";
+  // Somewhere else, it is looked for anew.
+  guess.offset += 0.3;
+  EXPECT_EQ(room.segmented({.plane_guess = guess}).plane, alone.plane);
+  guess.normal = {1, 1, 0};
+  EXPECT_THROW(room.segmented({.plane_guess = guess}), Error);
+}
+
+TEST(CameraMotion, IsToldFromThePlane) {
+  SceneTree before, after;
+  EXPECT_FALSE(camera_motion(before, after));
+  before.plane = Plane{{0, 0, 1}, -0.9};
+  before.viewpoint = {0, 0, 1.9};  // one metre above it
+  EXPECT_FALSE(camera_motion(before, after)) << "one has no plane";
+  after = before;
+  EXPECT_FALSE(camera_motion(before, after));
+  const auto turned = [&](double degrees) {
+    const double a = degrees * std::acos(-1.0) / 180;
+    SceneTree scene = before;  // about the foot of the viewpoint: the distance stays
+    scene.plane = Plane{{std::sin(a), 0, std::cos(a)}, 1 - 1.9 * std::cos(a)};
+    return camera_motion(before, scene);
+  };
+  EXPECT_FALSE(turned(0.4));
+  ASSERT_TRUE(turned(0.6));
+  EXPECT_NEAR(turned(30)->turn, 30, 1e-9);
+  EXPECT_NEAR(turned(30)->shift, 0, 1e-9);
+  EXPECT_NEAR(turned(180)->turn, 180, 1e-9);
+  after.viewpoint[2] -= 0.02;
+  ASSERT_TRUE(camera_motion(before, after));
+  EXPECT_NEAR(camera_motion(before, after)->shift, -0.02, 1e-12);
+  after.viewpoint[2] += 0.016;  // 4 mm in all
+  EXPECT_FALSE(camera_motion(before, after));
+  before.viewpoint[2] += 2, after = before;  // at three metres noise is nine times as large
+  after.viewpoint[2] += 0.04;
+  EXPECT_FALSE(camera_motion(before, after));
+}
+
+}  // namespace
+}  // namespace ph::segment
