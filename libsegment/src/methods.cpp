@@ -61,7 +61,7 @@ Relief relief_of(const VoxelGrid& grid, const VoxelPairs& pairs, double voxel,
   return relief;
 }
 
-double distance_between(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
+double range_of(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
   const auto row = centroids.row(static_cast<Index>(v));
   return std::hypot(row[0] - viewpoint[0], row[1] - viewpoint[1], row[2] - viewpoint[2]);
 }
@@ -75,7 +75,7 @@ void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief)
     const auto normal = relief.normals.row(static_cast<Index>(v));
     double product = 0;
     for (std::size_t k = 0; k < 3; ++k) product += normal[k] * (viewpoint[k] - place[k]);
-    const double cosine = product / distance_between(centroids, v, viewpoint);
+    const double cosine = product / range_of(centroids, v, viewpoint);
     if (cosine < largest_cosine) relief.concavity[v] += weight * (1 - cosine / largest_cosine);
   }
 }
@@ -98,7 +98,7 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   std::vector<double> ranges, values;
   for (std::size_t v = 0; v < near.size(); ++v) {
     if (near[v] < fewest_near) continue;
-    ranges.push_back(distance_between(grid.centroids, v, scene.cloud.viewpoint));
+    ranges.push_back(range_of(grid.centroids, v, scene.cloud.viewpoint));
     values.push_back(relief.concavity[v]);
   }
   return {ranges, values};
@@ -146,7 +146,7 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
   if (options.method == Method::surface) {
     noise = noise_of(scene, voxel, context);
     for (std::size_t v = 0; v < values.size(); ++v)
-      values[v] /= noise.at(distance_between(grid.centroids, v, scene.cloud.viewpoint));
+      values[v] /= noise.at(range_of(grid.centroids, v, scene.cloud.viewpoint));
     clock.finish("noise", voxels);
   }
   std::vector<WeightedEdge> edges;

@@ -8,7 +8,7 @@
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/segment.hpp"
 #include "plane/plane.hpp"
-#include "surfaces/lower_support.hpp"
+#include "supports/lower_support.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {

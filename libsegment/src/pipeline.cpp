@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "methods.hpp"
-#include "vessels/openings.hpp"
 #include "options.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
@@ -14,19 +13,20 @@
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/range_filter.hpp"
-#include "surfaces/bounds.hpp"
+#include "supports/bounds.hpp"
 #include "tree/cross_check.hpp"
 #include "tree/cut.hpp"
 #include "tree/tree_barcode.hpp"
+#include "vessels/openings.hpp"
 
 namespace ph::segment {
 namespace {
 
-/// What all stages hold of a cloud at once, at most: of each point its number in three lists of
+/// What all stages hold of a cloud at once, at most: of each point its number in four lists of
 /// those that are left, its voxel, its number, its vertex and its coordinates as the tree has them,
-/// these sorted by segment, its label.
+/// these sorted by segment, its label, what surfaces it is on.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 4 * 8 + 4 + 4 + 12 + 12 + 4;
+  constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;
 }
 

@@ -61,11 +61,11 @@ from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
-    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "Loop", "Matching",
-    "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn", "Objects",
-    "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report", "SceneSurface", "Segment",
-    "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface", "Timeout", "UsageError",
-    "Voxels", "__version__",
+    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "Loop",
+    "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
+    "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
+    "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
+    "Timeout", "UsageError", "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre",
     "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
     "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",

@@ -133,8 +133,8 @@ Known add_method_options(CLI::App& app, SegmentOptions& o) {
   known.min_persistence = add_value(
       app, "--min-persistence", "X",
       fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
-                  "first. surface: a mean concavity from 0 to 2 (default: {}); supervoxels: metres "
-                  "(default: {})",
+                  "first. surface: in units of the noise, how hollow a flat table looks (default: "
+                  "{}); supervoxels: metres (default: {})",
                   d.cut().value, SegmentOptions{.method = Method::supervoxels}.cut().value),
       [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
   app.option_defaults()->group("methods");

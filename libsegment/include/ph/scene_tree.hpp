@@ -111,7 +111,8 @@ struct Segment {
   Index points = 0;
   Index voxels = 0;
   /// How much higher than where it was born it first touches another segment: in metres (paper,
-  /// supervoxels) or as a concavity (surface). Infinite if it touches none. The confidence in it.
+  /// supervoxels) or in units of the noise (surface). Infinite if it touches none. The confidence
+  /// in it.
   double persistence = kInfinity;
   std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
   double meets_at = kInfinity;  ///< value of the filtration at which it does
@@ -129,7 +130,7 @@ struct Segment {
 
 /// Where to cut a merge tree.
 struct CutOptions {
-  /// Least persistence of a part: a mean concavity, 0…2 (surface), or metres (supervoxels). Method
+  /// Least persistence of a part, in units of the noise (surface) or metres (supervoxels). Method
   /// paper: components at this distance, metres, at most that of the tree. >= 0.
   double value = 1;
   Index min_part =
@@ -202,7 +203,7 @@ SceneCut cut(const SceneTree& scene, const CutOptions& options,
 
 /// Where two segments meet first as the filtration grows.
 struct Meeting {
-  double value = 0;  ///< of the filtration: metres (paper, supervoxels), a concavity (surface)
+  double value = 0;  ///< of the filtration: metres (paper, supervoxels) or noise (surface)
   Vec3 at{};         ///< between the two voxels whose edge joins them
 };
 /// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two

@@ -126,7 +126,8 @@ struct Segmentation : SceneTree, SceneCut {
 /// Segments a cloud: range filter, supporting plane, voxel grid, a filtered graph on the voxels,
 /// its H0 persistence, and the components that are there to stay.
 ///
-/// Method surface: the voxels enter with the concavity of the surface around them, the darkest
+/// Method surface: the voxels enter with the concavity of the surface around them, in units of
+/// the noise that a flat surface shows at that range, the darkest
 /// seams last; objects are basins between seams. Method paper: the Vietoris-Rips complex of the
 /// voxels; objects are components of infinite persistence. Method supervoxels: the voxels enter
 /// with their distance to the nearest seed; each basin is a supervoxel. Deterministic: the result

@@ -10,11 +10,11 @@
 
 #include "objects/close_boxes.hpp"
 #include "objects/parts.hpp"
-#include "vessels/rims.hpp"
 #include "objects/view.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
 #include "surface/concavity.hpp"
+#include "vessels/rims.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "plane/hidden_points.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "plane/squares.hpp"
 
 namespace ph::segment {
 namespace {
@@ -12,23 +14,6 @@ namespace {
 constexpr std::size_t kMostLookedAt = 20000;
 constexpr double kCell = 4;         // margins: a square of the plane that a point stands for
 constexpr double kFewBehind = 0.1;  // with fewer nothing else is looked at
-
-/// The squares of a plane.
-class Squares {
- public:
-  Squares(const Plane& plane, double edge) : edge_(edge) {
-    const Eigen::Vector3d n(plane.normal[0], plane.normal[1], plane.normal[2]);
-    across_ = n.unitOrthogonal();
-    along_ = n.cross(across_);
-  }
-  std::array<double, 2> of(const Eigen::Vector3d& p) const {
-    return {std::floor(across_.dot(p) / edge_), std::floor(along_.dot(p) / edge_)};
-  }
-
- private:
-  double edge_;
-  Eigen::Vector3d across_, along_;
-};
 
 }  // namespace
 

@@ -268,4 +268,19 @@ std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& p
   return on;
 }
 
+double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin) {
+  std::size_t all = 0, behind = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float* p = cloud.point(i);
+    const double limit = margin(cloud, p), height = plane.signed_distance(p[0], p[1], p[2]);
+    all += std::isfinite(height) ? 1U : 0U;
+    behind += height < -limit ? 1U : 0U;  // not of a hole
+  }
+  return all == 0 ? 0 : static_cast<double>(behind) / static_cast<double>(all);
+}
+
+double cosine_between(const Plane& a, const Plane& b) {
+  return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
+}
+
 }  // namespace ph::segment

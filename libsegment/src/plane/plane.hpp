@@ -61,4 +61,10 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
 std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& points,
                              const Plane& plane, const PlaneMargin& margin);
 
+/// The share of all points of a cloud, holes aside, that lie behind a plane and beyond the margin.
+double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
+
+/// The cosine of the angle between two planes, below zero if they face each other.
+double cosine_between(const Plane& a, const Plane& b);
+
 }  // namespace ph::segment

@@ -9,7 +9,7 @@
 #include "objects/meetings.hpp"
 #include "objects/weak_seams.hpp"
 #include "options.hpp"
-#include "surfaces/standing.hpp"
+#include "supports/standing.hpp"
 #include "voxels/rips_graph.hpp"
 
 namespace ph::segment {

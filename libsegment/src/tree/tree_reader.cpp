@@ -7,11 +7,11 @@
 #include <limits>
 #include <span>
 
-#include "vessels/openings.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/scene_tree.hpp"
 #include "tree/tree_file.hpp"
+#include "vessels/openings.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "vessels/circle.hpp"
 #include "objects/parts.hpp"
 #include "ph/eigen.hpp"
+#include "vessels/circle.hpp"
+#include "vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {
@@ -53,13 +54,7 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
   constexpr double least_radius = 0.02, most_radius = 0.25;
   constexpr std::size_t fewest_sectors = 20;  // of 36
   constexpr double middle = 0.6, most_in_middle = 0.03;
-  std::vector<double> heights;
-  for (const auto& p : object) heights.push_back(p.z());
-  const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);
-  std::ranges::nth_element(heights, top, std::greater<>());
-  std::vector<Eigen::Vector2d> upper;
-  for (const auto& p : object)
-    if (p.z() > *top - depth * voxel) upper.emplace_back(p.head<2>());
+  const auto [top, upper] = upper_end_of(object, depth * voxel);
   if (upper.size() < fewest) return std::nullopt;
   std::vector<Eigen::Vector2d> rim = upper;
   const Circle circle = fit_without_outliers(rim, voxel);
@@ -78,7 +73,7 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
   };
   for (std::size_t k = 1; k < object.size(); ++k)
     if (cost(k) < cost(lowest)) lowest = k;
-  return Opening{circle, *top, numbers[lowest]};
+  return Opening{circle, top, numbers[lowest]};
 }
 
 }  // namespace
@@ -95,13 +90,9 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid) {
   constexpr double of_radius = 0.97;  // the rim itself is smeared
-  const Eigen::Vector3d normal(plane.normal.data());
-  Eigen::Matrix3d upright;
-  upright.row(0) = normal.unitOrthogonal();
-  upright.row(1) = normal.cross(upright.row(0));
-  upright.row(2) = normal;
+  const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-    return upright * p + Eigen::Vector3d(0, 0, plane.offset);
+    return turn * p + Eigen::Vector3d(0, 0, plane.offset);
   };
   const Parts objects = number_parts(object_of, min_size);
   std::vector<std::vector<Eigen::Vector3d>> places(objects.count());

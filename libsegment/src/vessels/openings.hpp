@@ -16,6 +16,7 @@ bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel)
 /// taken for the plane: what the sensor sees through the opening of a rim is inside the vessel. A
 /// rim is the upper end of an object if that lies on a circle, on most of it, and the middle of the
 /// circle is free.
+/// What is won back goes with its voxel in any other cut; openings are not looked for again.
 /// @param object_of each voxel: one of the voxels of its object. @param min_size fewest voxels of
 /// an object. @param in_range all points of which some may be inside. @param points those in the
 /// grid; those of bottoms are appended, and `grid.voxel_of` says to which voxel of the object they

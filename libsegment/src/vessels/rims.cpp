@@ -7,41 +7,24 @@
 #include <optional>
 #include <vector>
 
-#include "vessels/circle.hpp"
 #include "objects/close_boxes.hpp"
 #include "ph/eigen.hpp"
+#include "vessels/circle.hpp"
+#include "vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {
 
-/// The upper end of a part, seen from above.
-struct Rim {
-  double top = 0;                       // height
-  std::vector<Eigen::Vector2d> points;  // within a few voxels of the top
-};
-
-Rim rim_of(const std::vector<Eigen::Vector3d>& part, double depth) {
-  constexpr std::size_t outliers = 50;  // one of so many may be higher
-  std::vector<double> heights;
-  for (const auto& p : part) heights.push_back(p.z());
-  const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);
-  std::ranges::nth_element(heights, top, std::greater<>());
-  Rim rim{*top, {}};
-  for (const auto& p : part)
-    if (p.z() > rim.top - depth) rim.points.emplace_back(p.head<2>());
-  return rim;
-}
-
 constexpr std::size_t kFewestOfEach = 9;  // sectors
 
 /// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
-std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double tolerance) {
+std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
   // Not "larger than": a circle through points on a line is not a number.
   if (!(deviation(circle, rim.points) <= tolerance)) return std::nullopt;
   return sectors_of(circle, rim.points);
 }
 
-bool share_a_rim(const Rim& a, const Rim& b, double voxel) {
+bool share_a_rim(const UpperEnd& a, const UpperEnd& b, double voxel) {
   constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
   constexpr std::size_t all = 26, of_both = 2;  // sectors of 10 degrees
   if (std::abs(a.top - b.top) > height * voxel) return false;
@@ -58,20 +41,16 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
                       const std::function<void(std::uint32_t, std::uint32_t)>& join,
                       const RunContext& context) {
   constexpr double depth = 2.4;  // voxels
-  const Eigen::Vector3d normal(up[0], up[1], up[2]);
-  Eigen::Matrix3d upright;
-  upright.row(0) = normal.unitOrthogonal();
-  upright.row(1) = normal.cross(upright.row(0));
-  upright.row(2) = normal;
+  const Eigen::Matrix3d turn = upright(up);
   std::vector<std::vector<Eigen::Vector3d>> points(parts.count());
   for (std::size_t v = 0; v < parts.of.size(); ++v)
     if (parts.of[v] != Parts::kSmall)
-      points[parts.of[v]].emplace_back(upright *
+      points[parts.of[v]].emplace_back(turn *
                                        as_matrix(centroids).row(static_cast<Index>(v)).transpose());
-  std::vector<Rim> rims;
+  std::vector<UpperEnd> rims;
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
-    rims.push_back(rim_of(points[p], depth * voxel));
+    rims.push_back(upper_end_of(points[p], depth * voxel));
     if (rims[p].points.size() < kFewestOfEach) continue;  // in so many sectors there are none
     boxes.push_back({p, {}});
     for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);

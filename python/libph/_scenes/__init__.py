@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Point clouds and depth images, segmented into objects."""
-from ._objects import Objects, Segment
+from ._objects import Objects, SceneSurface, Segment
 from ._segment import segment
-from ._segmentation import SceneSurface, Segmentation, Voxels
+from ._segmentation import Segmentation, Voxels
 
 __all__ = ["Objects", "SceneSurface", "Segment", "Segmentation", "Voxels", "segment"]

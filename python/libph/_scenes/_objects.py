@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The objects of a scene, as a table."""
+"""The objects of a scene, as a table, and the surfaces that bound it."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
@@ -71,6 +71,22 @@ class Segment(NamedTuple):
 
     def __ne__(self, other: object) -> bool:
         return not self == other
+
+
+class SceneSurface(NamedTuple):
+    """A plane that bounds a scene; it is no object.
+
+    Attributes
+    ----------
+    role : str
+        "support": objects stand on it, as a table, a board, the floor. "wall": nothing is seen
+        behind it.
+    plane : tuple of float
+        (a, b, c, d) of ax + by + cz + d = 0, above 0 on the side of the camera.
+    """
+
+    role: str
+    plane: tuple[float, float, float, float]
 
 
 class Objects(Sequence[Segment]):

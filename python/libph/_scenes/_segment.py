@@ -37,7 +37,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
             min_seam: float | None = None,
             objects: bool | None = None, max_range: float = 2.0, crop: ArrayLike | None = None,
             plane: bool = True, plane_distance: float | None = None,
-            plane_noise: float | None = None, previous: Segmentation | None = None, viewpoint: Sequence[float] | None = None,
+            plane_noise: float | None = None, previous: Segmentation | None = None,
+            viewpoint: Sequence[float] | None = None,
             distance: float | None = None, steps: int | str | None = None, check: bool = True,
             colours: Any = None, intrinsics: ArrayLike | None = None, camera: Any = None,
             depth_scale: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:

@@ -18,7 +18,7 @@ from .._errors import UsageError
 from .._files import path_of
 from .._report import Report, require_page
 from .._trees import MergeTree
-from ._objects import Objects, segment_of
+from ._objects import Objects, SceneSurface, segment_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -52,22 +52,6 @@ class Voxels(NamedTuple):
     points: NDArray[np.int64]
     labels: NDArray[np.uint32]
     of_point: NDArray[np.int64]
-
-
-class SceneSurface(NamedTuple):
-    """A plane that bounds a scene; it is no object.
-
-    Attributes
-    ----------
-    role : str
-        "support": objects stand on it, as a table, a board, the floor. "wall": nothing is seen
-        behind it.
-    plane : tuple of float
-        (a, b, c, d) of ax + by + cz + d = 0, above 0 on the side of the camera.
-    """
-
-    role: str
-    plane: tuple[float, float, float, float]
 
 
 class Segmentation:

@@ -10,7 +10,7 @@
 #include <iostream>
 
 #include "libsegment/scenery.hpp"
-#include "libsegment/vessels.hpp"
+#include "libsegment/vessel_scene.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "support/points.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libsegment/scenery.hpp"
-#include "libsegment/vessels.hpp"
+#include "libsegment/vessel_scene.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surfaces/standing.hpp"
+#include "supports/standing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -16,8 +16,8 @@ struct LowerSupport {
 
 /// The largest plane below a support if it is parallel to it and nothing of the whole frame is seen
 /// below it.
-/// @param points in range, none of them a hole. @param margin_of_upper what is nearer to the upper
-/// support, a few times, is its edge.
+/// @param points in range, none of them a hole. @param least_margin of the plane that is found, as
+/// PlaneMargin::noise.
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin);

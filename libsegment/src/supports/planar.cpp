@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surfaces/planar.hpp"
+#include "supports/planar.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

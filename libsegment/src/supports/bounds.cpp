@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "supports/bounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "objects/parts.hpp"
+#include "ph/eigen.hpp"
+#include "plane/plane.hpp"
+#include "plane/squares.hpp"
+#include "supports/planar.hpp"
+
+namespace ph::segment {
+namespace {
+
+constexpr double kLeastShare = 0.85;  // of a surface on its plane
+
+using Voxels = std::vector<Index>;
+
+/// The voxels of each part.
+std::vector<Voxels> voxels_of(const Parts& parts) {
+  std::vector<Voxels> voxels(parts.count());
+  for (std::size_t v = 0; v < parts.of.size(); ++v)
+    if (parts.of[v] != Parts::kSmall) voxels[parts.of[v]].push_back(static_cast<Index>(v));
+  return voxels;
+}
+
+/// Whether all that is seen lies on the viewpoint's side of a plane.
+bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
+  constexpr PlaneMargin margin{0.02, 0.02};  // some times the noise
+  constexpr double most_behind = 0.01;       // of all points: reflections, flying pixels
+  return share_behind(cloud, plane, margin) <= most_behind;
+}
+
+/// How much of a plane some voxels cover, square metres.
+double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
+                    double voxel) {
+  const double side = 2 * voxel;  // no gaps
+  const Squares paper(plane, side);
+  std::vector<std::array<double, 2>> squares;
+  for (const Index v : voxels) squares.push_back(paper.of(as_matrix(centroids).row(v).transpose()));
+  std::ranges::sort(squares);
+  const auto same = std::ranges::unique(squares);
+  squares.erase(same.begin(), same.end());
+  return static_cast<double>(squares.size()) * side * side;
+}
+
+}  // namespace
+
+std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
+                                      const SceneTree& scene,
+                                      const std::vector<Index>& component_of, Index min_size) {
+  constexpr double most_of_a_wall = 0.5, least_of_a_board = 0.98;  // cosines with the support
+  constexpr double least_area = 0.2;  // square metres of a board: twice a large board game
+  std::vector<SceneSurface> found;
+  for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
+    const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);
+    if (!plane || plane->share < kLeastShare) continue;
+    const double cosine = cosine_between(*plane, support);
+    if (std::abs(cosine) < most_of_a_wall && bounds_the_view(*plane, cloud))
+      found.push_back({Role::wall, *plane});
+    else if (cosine > least_of_a_board &&
+             covered_area(*plane, scene.vertices, voxels, scene.voxel) >= least_area)
+      found.push_back({Role::support, *plane});
+    if (found.size() == kMostSurfaces / 2) break;
+  }
+  return found;
+}
+
+std::vector<std::uint8_t> surfaces_of(const SceneTree& scene,
+                                      const std::vector<Index>& component_of, Index min_size) {
+  std::vector<std::uint8_t> surfaces(component_of.size());
+  // No component is on the supports that were removed.
+  const auto first = static_cast<std::size_t>(scene.removed);
+  if (scene.surfaces.size() == first) return surfaces;
+  const Parts parts = number_parts(component_of, min_size);
+  const std::vector<Voxels> voxels = voxels_of(parts);
+  for (std::size_t p = 0; p < parts.count(); ++p) {
+    std::uint8_t& surface = surfaces[static_cast<std::size_t>(component_of[parts.example[p]])];
+    for (std::size_t s = first; s < scene.surfaces.size() && surface == 0; ++s)
+      if (share_on(scene.surfaces[s].plane, scene.vertices, voxels[p], scene.viewpoint) >=
+          kLeastShare)
+        surface = static_cast<std::uint8_t>(s + 1);
+  }
+  return surfaces;
+}
+
+}  // namespace ph::segment

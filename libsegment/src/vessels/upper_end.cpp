@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "vessels/upper_end.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <functional>
+
+namespace ph::segment {
+
+Eigen::Matrix3d upright(const Vec3& up) {
+  const Eigen::Vector3d normal(up.data());
+  Eigen::Matrix3d turn;
+  turn.row(0) = normal.unitOrthogonal();
+  turn.row(1) = normal.cross(turn.row(0));
+  turn.row(2) = normal;
+  return turn;
+}
+
+UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth) {
+  constexpr std::size_t outliers = 50;  // one of so many may be higher
+  std::vector<double> heights;
+  for (const auto& p : points) heights.push_back(p.z());
+  const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);
+  std::ranges::nth_element(heights, top, std::greater<>());
+  UpperEnd end{*top, {}};
+  for (const auto& p : points)
+    if (p.z() > end.top - depth) end.points.emplace_back(p.head<2>());
+  return end;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "ph/scene_tree.hpp"
+
+namespace ph::segment {
+
+/// Turns coordinates so that z is along `up`, a unit vector; x and y are any.
+Eigen::Matrix3d upright(const Vec3& up);
+
+/// The upper end of a thing, seen from above.
+struct UpperEnd {
+  double top = 0;                       ///< height; one point in fifty may be higher
+  std::vector<Eigen::Vector2d> points;  ///< x, y of those less than a depth below the top
+};
+
+/// @param points upright, metres, at least one. @param depth metres.
+UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth);
+
+}  // namespace ph::segment
