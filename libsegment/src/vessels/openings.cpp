@@ -44,10 +44,9 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
   return circle;
 }
 
-/// @param upright of the object: x, y along the plane, z above it.
+/// @param object its voxels: x, y along the plane, z above it. @param numbers of them in the grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
-  constexpr std::size_t outliers = 50;                // one of so many may be higher
   constexpr std::size_t fewest = 20;                  // voxels of a rim
   constexpr double depth = 3;                         // voxels
   constexpr double of_voxel = 1.6, of_radius = 0.12;  // that a rim may deviate
