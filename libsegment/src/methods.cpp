@@ -86,7 +86,7 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   constexpr int fewest_near = 16;  // voxels: the surface is whole there
   if (!scene.plane) return {};
   const std::vector<Index> points =
-      free_patches(scene.cloud, scene.on_plane, scene.points.beyond, *scene.plane, side * voxel);
+      free_patches(scene.cloud, scene.points.on, scene.points.beyond, *scene.plane, side * voxel);
   const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
   const VoxelPairs pairs = near_voxels(grid, voxel, context);
   const Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);

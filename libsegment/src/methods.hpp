@@ -33,7 +33,6 @@ struct Scene {
   std::optional<Plane> plane;
   PlaneMargin margin;
   std::vector<Index> in_range;  ///< all points in range, if there is a plane
-  std::vector<Index> on_plane;  ///< those that count as part of it
   Cleared points;
   std::optional<LowerSupport> lower;  ///< below the plane, if there is one
   std::vector<Index> lower_strip;     ///< of it, as of the plane

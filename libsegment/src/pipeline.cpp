@@ -56,8 +56,7 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
   std::vector<Index> both;
   std::ranges::merge(scene.points.beyond, below.beyond, std::back_inserter(both));
   scene.points.beyond = std::move(both);
-  mark(points_on(cloud, scene.lower->points, scene.lower->plane, scene.lower->margin), 2,
-       result.removed_with);
+  mark(below.on, 2, result.removed_with);
   result.surfaces.push_back({Role::support, scene.lower->plane});
 }
 
@@ -91,8 +90,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-    scene.on_plane = points_on(cloud, in_range, *scene.plane, scene.margin);
-    mark(scene.on_plane, 1, result.removed_with);
+    mark(scene.points.on, 1, result.removed_with);
     result.surfaces.push_back({Role::support, *scene.plane});
     if (options.method == Method::surface) clear_lower_support(in_range, scene, result);
     result.removed = std::ssize(result.surfaces);

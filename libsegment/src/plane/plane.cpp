@@ -237,35 +237,20 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin) {
   constexpr double lowest_share = 0.2;  // of the margin
-  const double lowest = lowest_share * margin.distance;
-  Cleared cleared{std::vector<Index>(points.size()), {}};
-  std::size_t beyond = 0;
+  Cleared cleared;
+  cleared.on.reserve(points.size());  // no more of it is touched than what is written
   for (const Index i : points) {
     const float* p = cloud.point(static_cast<std::size_t>(i));
     const double height = plane.signed_distance(p[0], p[1], p[2]);
-    if (height <= lowest) continue;  // most points, and those that come next, too
     const double limit = margin(cloud, p);
-    if (height > limit)
-      cleared.beyond[beyond++] = i;
-    else if (height > lowest_share * limit)
-      cleared.strip.push_back(i);
+    if (height > limit) {
+      cleared.beyond.push_back(i);
+    } else if (height >= -limit) {
+      cleared.on.push_back(i);
+      if (height > lowest_share * limit) cleared.strip.push_back(i);
+    }
   }
-  cleared.beyond.resize(beyond);
   return cleared;
-}
-
-std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& points,
-                             const Plane& plane, const PlaneMargin& margin) {
-  std::vector<Index> on(points.size());
-  std::size_t count = 0;
-  for (const Index i : points) {
-    const float* p = cloud.point(static_cast<std::size_t>(i));
-    const double height = plane.signed_distance(p[0], p[1], p[2]);
-    on[count] = i;  // written always, kept sometimes: no branch to mispredict
-    count += std::abs(height) <= margin(cloud, p) ? 1U : 0U;
-  }
-  on.resize(count);
-  return on;
 }
 
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin) {

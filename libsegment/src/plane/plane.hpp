@@ -48,18 +48,15 @@ struct PlaneMargin {
 /// Points in range, sorted out by a plane.
 struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
-  std::vector<Index> strip;   ///< on that side and within the margin, but not in its lowest fifth,
-                              ///< where nothing can be told from the plane
+  std::vector<Index> on;      ///< within the margin, on either side: part of the plane
+  std::vector<Index> strip;  ///< those of `on` that are on the sensor's side, but not in the lowest
+                             ///< fifth of the margin, where nothing can be told from the plane
 };
 
 /// Removes what lies on the plane or behind it (the floor beyond a table's edge, reflections): it
-/// stands on nothing.
+/// stands on nothing. All lists are in the order of `points`.
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin);
-
-/// The points that count as part of a plane, in their order.
-std::vector<Index> points_on(const CloudView& cloud, const std::vector<Index>& points,
-                             const Plane& plane, const PlaneMargin& margin);
 
 /// The share of all points of a cloud, holes aside, that lie behind a plane and beyond the margin.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);

@@ -11,18 +11,15 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
   const auto& [vx, vy, vz] = cloud.viewpoint;
   // Doubles hold the square of any float distance, so nothing overflows on the way.
   const double limit = max_range * max_range;
-  std::vector<Index> kept(size);
-  std::size_t count = 0;
+  std::vector<Index> kept;
+  kept.reserve(size);  // no more of it is touched than what is written
   for (std::size_t i = 0; i < size; ++i) {
     const float* p = cloud.point(i);
     const double dx = p[0] - vx, dy = p[1] - vy, dz = p[2] - vz;
     const double square = dx * dx + dy * dy + dz * dz;
     // A coordinate that is not finite makes the sum NaN or infinite: one test for all three.
-    const bool inside = std::isfinite(square) && square <= limit;
-    kept[count] = static_cast<Index>(i);  // written always, kept sometimes: no branch to mispredict
-    count += static_cast<std::size_t>(inside);
+    if (std::isfinite(square) && square <= limit) kept.push_back(static_cast<Index>(i));
   }
-  kept.resize(count);
   if (crop) {
     std::erase_if(kept, [&](Index i) {
       const float* p = cloud.point(static_cast<std::size_t>(i));
