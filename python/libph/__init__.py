@@ -38,6 +38,7 @@ except ModuleNotFoundError as _error:
 
 from . import gradients
 from ._barcodes import Bar, Barcode, Chain, Loop
+from ._batch import batch
 from ._compute import alpha, boundary, cubical, filtered, lower_star, rips
 from ._distances import (Barycentre, Matching, barycentre, bottleneck, bottleneck_matching,
                          diagram_distances, sliced_wasserstein, wasserstein, wasserstein_matching)
@@ -66,7 +67,7 @@ __all__ = [
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
     "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
     "Timeout", "UsageError", "Voxels", "__version__",
-    "alpha", "alpha_shape", "barycentre",
+    "alpha", "alpha_shape", "barycentre", "batch",
     "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
     "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",

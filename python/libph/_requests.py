@@ -56,16 +56,15 @@ class Request(NamedTuple):
         try:
             return _run.run(function, *arguments, options=self.options,
                             slab_layers=self.slab_layers)
-        except DataError as error:
-            raise DataError(self._in_words(str(error))) from None
-        except MemoryLimitError as error:
-            if self.meta["complex"] != "rips":
-                raise
-            raise MemoryLimitError(f"{error}; a smaller max_dim or threshold, subsample or "
-                                   "approximation takes less, ph.estimate says how much") from None
+        except (DataError, MemoryLimitError) as error:
+            raise type(error)(self.in_words(error)) from None
 
-    def _in_words(self, message: str) -> str:
-        """What is wrong with the data, with a way out where a keyword is one."""
+    def in_words(self, error: Exception) -> str:
+        """What is wrong, with a way out where a keyword is one."""
+        message = str(error)
+        if isinstance(error, MemoryLimitError) and self.meta["complex"] == "rips":
+            return (f"{message}; a smaller max_dim or threshold, subsample or approximation takes "
+                    "less, ph.estimate says how much")
         if re.match(r"point \d+, coordinate \d+: found nan", message):
             return f"{message}; nan='drop' leaves such points out"
         voxel = re.match(r"voxel (\d+): found nan", message)

@@ -47,6 +47,18 @@ Bars barcode(const Recipe& recipe, const Task& task, const RunOptions& options) 
              [&](const RunContext& context) { return compute(recipe, task, context); });
 }
 
+/// Of each recipe its barcode; recipes and tasks belong together.
+std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
+                           const std::vector<Task>& tasks, const RunOptions& options) {
+  return run(options, false, [&](const RunContext& context) {
+    std::vector<Bars> all(recipes.size());
+    for_each_input(recipes.size(), context, [&](std::size_t i, const RunContext& of_input) {
+      all[i] = compute(*recipes[i], tasks[i], of_input);
+    });
+    return all;
+  });
+}
+
 Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& options) {
   return run(options, recipe.is_short(task.options), [&](const RunContext& context) {
     const Built built = recipe.build(task.options, context);
@@ -129,6 +141,7 @@ void bind_computations(py::module_& m) {
     return engine ? std::optional(std::string(engine->name())) : std::nullopt;
   });
   m.def("barcode", &barcode, py::arg("recipe"), py::arg("task"), py::arg("run"));
+  m.def("barcodes", &barcodes, py::arg("recipes"), py::arg("tasks"), py::arg("run"));
   m.def("estimate", &estimate_of, py::arg("recipe"), py::arg("task"), py::arg("run"));
   m.def("collapsed_edges", &collapsed_edges, py::arg("recipe"), py::arg("run"));
 }

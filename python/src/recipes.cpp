@@ -15,8 +15,10 @@
 namespace ph::python {
 namespace {
 
-// Cells that any engine is through with in milliseconds.
-constexpr double kFewCells = 50'000;
+// Cells that the engine which is chosen is through with in milliseconds, whatever the input: to
+// start a thread takes a tenth of one, more on a busy machine. 215 points up to H1, 80 up to H2.
+constexpr double kFewSimplices = 1e7;
+constexpr double kFewCubes = 1e5;
 
 Rips rips_of(const PointSet& set, RipsOptions options, const RunContext& context) {
   options.distance = set.distance;
@@ -122,7 +124,7 @@ Built RipsRecipe::build(const Data& data, RipsOptions options, const RunContext&
 bool RipsRecipe::is_short(const Options& task) const {
   // A simplex that is listed has max_dim + 2 vertices at most.
   return task.engine == Engine::automatic &&
-         std::pow(static_cast<double>(space_->size()), task.max_dim.value_or(1) + 2) < kFewCells;
+         std::pow(static_cast<double>(space_->size()), task.max_dim.value_or(1) + 2) < kFewSimplices;
 }
 
 Rips RipsRecipe::collapsed(const RunContext& context) const {
@@ -164,7 +166,7 @@ Built CubicalRecipe::build(const Options&, const RunContext& context) const {
 
 bool CubicalRecipe::is_short(const Options& task) const {
   return task.engine == Engine::automatic &&
-         std::ldexp(static_cast<double>(array_.size), static_cast<int>(array_.ndim)) < kFewCells;
+         std::ldexp(static_cast<double>(array_.size), static_cast<int>(array_.ndim)) < kFewCubes;
 }
 
 Built ListedRecipe::build(const Options&, const RunContext& context) const {

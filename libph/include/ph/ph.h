@@ -116,6 +116,20 @@ PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes
                                   const int64_t* extents, const int64_t* strides,
                                   const ph_options* options, ph_barcode** out);
 
+/** ph_rips_points of many clouds, several at a time: many small inputs are faster so than by a call
+ * for each. ph_options::threads and memory_limit are of all together.
+ * @param clouds where each begins: rows[i] points of `columns` numbers, row after row.
+ * @param out an array of `count`, set on PH_OK only. Otherwise ph_last_error() names the input,
+ * counted from 0. */
+PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
+                                      int64_t columns, size_t count, const ph_options* options,
+                                      ph_barcode** out);
+
+/** ph_cubical_image of many images of the same extents, each in C order; as above. */
+PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number type, int32_t axes,
+                                        const int64_t* extents, size_t count,
+                                        const ph_options* options, ph_barcode** out);
+
 /** Bars are ordered by dimension, birth, death and birth cell. */
 PH_API size_t ph_barcode_size(const ph_barcode* bars);
 /** An array of all bars, which lives as long as the handle. */

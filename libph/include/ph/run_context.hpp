@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory_resource>
 #include <stop_token>
+#include <string>
 #include <string_view>
+
+#include "ph/error.hpp"
 
 namespace ph {
 
@@ -127,5 +131,33 @@ class Ticker {
   std::uint64_t interval_ = 1;  // steps between polls: fewer where a step takes long
   std::chrono::steady_clock::time_point last_poll_;
 };
+
+/// What went wrong with one input of many. `what()` is "input I: " and the reason.
+class InputError : public Error {
+ public:
+  InputError(std::size_t input, const Error& error)
+      : Error(error.kind(), "input " + std::to_string(input) + ": " + error.what()),
+        input_(input),
+        reason_(error.what()) {}
+  std::size_t input() const noexcept { return input_; }
+  const std::string& reason() const noexcept { return reason_; }
+
+ private:
+  std::size_t input_;
+  std::string reason_;
+};
+
+/// Calls `work(i, of_input)` for i = 0 … count - 1, on as many threads as `context` allows, one
+/// input on each: of many small ones that is faster than all threads on one. With fewer inputs than
+/// threads each input gets several.
+///
+/// Which thread takes which input is left open: what `work` writes must depend on i alone. The
+/// context it is given stops with `context`, has what is left of its memory limit for all inputs
+/// together, and reports no progress: `context` is told how many inputs are done.
+/// @throws InputError for an Error in `work`, anything else as it is. It stops the other inputs; of
+///         several that have failed by then the first one counts. Error (cancelled) on a stop
+///         request.
+void for_each_input(std::size_t count, const RunContext& context,
+                    const std::function<void(std::size_t, const RunContext&)>& work);
 
 }  // namespace ph

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <future>
+#include <memory>
 #include <new>
 #include <stop_token>
 #include <string>
@@ -129,18 +130,18 @@ std::optional<double> threshold_of(const ph_options& given) {
 
 /// Runs `compute` on a thread of its own while the caller's thread asks whether to stop.
 template <class Compute>
-Barcode watched(const ph_options& options, std::stop_source& stop, const Compute& compute) {
+void watched(const ph_options& options, std::stop_source& stop, const Compute& compute) {
   if (options.cancel == nullptr) return compute();
   constexpr std::chrono::milliseconds interval(20);
-  std::future<Barcode> bars = std::async(std::launch::async, compute);
-  while (bars.wait_for(interval) != std::future_status::ready)
+  std::future<void> computed = std::async(std::launch::async, compute);
+  while (computed.wait_for(interval) != std::future_status::ready)
     if (options.cancel(options.cancel_user) != 0) stop.request_stop();
-  return bars.get();
+  computed.get();
 }
 
-/// @param make(options, context) the complex.
-template <class Make>
-ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
+/// @param compute(options, context) @param out where the result will be.
+template <class Out, class Compute>
+ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   return guarded([&] {
     require(out != nullptr, "out: found NULL");
     const ph_options options = complete(given);
@@ -150,9 +151,30 @@ ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make
     require(options.threads >= 0, "ph_options::threads: found less than 0");
     context.threads = options.threads;
     if (options.memory_limit != 0) context.memory.set_limit(options.memory_limit);
-    *out = new ph_barcode(watched(options, stop, [&] {
-      return persistence(make(options, context), task_of(options), context);
-    }));
+    watched(options, stop, [&] { compute(options, context); });
+  });
+}
+
+/// @param make(options, context) the complex.
+template <class Make>
+ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
+  return run(given, out, [&](const ph_options& options, const RunContext& context) {
+    *out = new ph_barcode(persistence(make(options, context), task_of(options), context));
+  });
+}
+
+/// @param make(i, options, context) the complex of input i.
+template <class Make>
+ph_status barcodes_of(const ph_options* given, std::size_t count, ph_barcode** out,
+                      const Make& make) {
+  return run(given, out, [&](const ph_options& options, const RunContext& context) {
+    const Options task = task_of(options);
+    std::vector<std::unique_ptr<ph_barcode>> bars(count);
+    for_each_input(count, context, [&](std::size_t i, const RunContext& of_input) {
+      bars[i] =
+          std::make_unique<ph_barcode>(persistence(make(i, options, of_input), task, of_input));
+    });
+    for (std::size_t i = 0; i < count; ++i) out[i] = bars[i].release();
   });
 }
 
@@ -162,6 +184,17 @@ RipsOptions rips_options(const ph_options& given) {
   options.distance = choice(given.distance, PointDistance::hamming, "distance");
   options.minkowski_p = given.minkowski_p;
   return options;
+}
+
+Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
+  return Rips(points, rips_options(options), context);
+}
+
+PointsView points_of(const double* data, std::int64_t rows, std::int64_t columns,
+                     std::int64_t row_stride, std::int64_t column_stride) {
+  require(rows >= 0 && columns >= 0, "points: found a negative number of rows or columns");
+  require(data != nullptr || rows == 0 || columns == 0, "data: found NULL");
+  return {data, rows, columns, row_stride, column_stride};
 }
 
 Image image_of(const void* data, ph_number type, std::int32_t axes, const std::int64_t* extents,
@@ -186,6 +219,21 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
   std::vector<std::ptrdiff_t> steps;
   if (strides != nullptr) steps.assign(strides, strides + axes);
   return image_of_array(voxel, data, std::vector<Index>(extents, extents + axes), steps);
+}
+
+Cubical cubical_of(const void* data, ph_number type, std::int32_t axes, const std::int64_t* extents,
+                   const std::int64_t* strides, const ph_options& options,
+                   const RunContext& context) {
+  Image image = image_of(data, type, axes, extents, strides, context);
+  image.masked = options.masked != 0;
+  CubicalOptions cubes;
+  cubes.construction =
+      choice(options.construction, CubicalOptions::Construction::cells, "construction");
+  cubes.superlevel = options.superlevel != 0;
+  cubes.threshold = threshold_of(options);
+  if (options.periodic != nullptr)
+    for (std::int32_t k = 0; k < axes; ++k) cubes.periodic.push_back(options.periodic[k] != 0);
+  return Cubical(image, cubes, context);
 }
 
 std::size_t numbers_of(std::optional<InputCell> cell, const std::int64_t** numbers) {
@@ -214,11 +262,17 @@ void ph_options_init_sized(ph_options* options, size_t size) {
 ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns, int64_t row_stride,
                          int64_t column_stride, const ph_options* options, ph_barcode** out) {
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
-    require(rows >= 0 && columns >= 0, "points: found a negative number of rows or columns");
-    require(data != nullptr || rows == 0 || columns == 0, "data: found NULL");
-    return Rips(PointsView(data, rows, columns, row_stride, column_stride), rips_options(o),
-                context);
+    return rips_of(points_of(data, rows, columns, row_stride, column_stride), o, context);
   });
+}
+
+ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows, int64_t columns,
+                               size_t count, const ph_options* options, ph_barcode** out) {
+  return barcodes_of(
+      options, count, out, [&](std::size_t i, const ph_options& o, const RunContext& context) {
+        require(clouds != nullptr && rows != nullptr, "clouds or rows: found NULL");
+        return rips_of(points_of(clouds[i], rows[i], columns, columns, 1), o, context);
+      });
 }
 
 ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
@@ -238,17 +292,18 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
 ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes, const int64_t* extents,
                            const int64_t* strides, const ph_options* options, ph_barcode** out) {
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
-    Image image = image_of(data, type, axes, extents, strides, context);
-    image.masked = o.masked != 0;
-    CubicalOptions cubes;
-    cubes.construction =
-        choice(o.construction, CubicalOptions::Construction::cells, "construction");
-    cubes.superlevel = o.superlevel != 0;
-    cubes.threshold = threshold_of(o);
-    if (o.periodic != nullptr)
-      for (std::int32_t k = 0; k < axes; ++k) cubes.periodic.push_back(o.periodic[k] != 0);
-    return Cubical(image, cubes, context);
+    return cubical_of(data, type, axes, extents, strides, o, context);
   });
+}
+
+ph_status ph_cubical_image_batch(const void* const* images, ph_number type, int32_t axes,
+                                 const int64_t* extents, size_t count, const ph_options* options,
+                                 ph_barcode** out) {
+  return barcodes_of(options, count, out,
+                     [&](std::size_t i, const ph_options& o, const RunContext& context) {
+                       require(images != nullptr, "images: found NULL");
+                       return cubical_of(images[i], type, axes, extents, nullptr, o, context);
+                     });
 }
 
 size_t ph_barcode_size(const ph_barcode* bars) { return bars == nullptr ? 0 : bars->bars.size(); }

@@ -15,6 +15,7 @@ bool has_walks(const Barcode& cycles, std::size_t i) {
 
 std::vector<BarLoops> plain_loops(const Barcode& cycles, const Options& options,
                                   std::span<const Index> periods, const RunContext& context) {
+  if (cycles.size() == 0) return {};
   if (cycles.representatives() != Representatives::cycles &&
       cycles.representatives() != Representatives::voxels)
     throw Error(ErrorKind::usage, "loops: found a barcode without cycles, expected one with them");

@@ -3,50 +3,23 @@
 from __future__ import annotations
 
 import math
-import threading
 from collections.abc import Callable, Iterable, Sequence
-from contextvars import copy_context
 from typing import Any
 
 import numpy as np
-from joblib import Parallel, delayed, effective_n_jobs
+from joblib import effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.base import TransformerMixin
 
 from .. import _arrays, _options
 from .._barcodes import Barcode
+from .._batch import computed
 from .._compute import alpha, cubical, rips
-from .._errors import Cancelled, DataError, MemoryLimitError, UsageError
+from .._errors import UsageError
 from .._vectors import checked_infinity, settled
 from ._base import MakesTables, TakesLists
 
 _OUTPUTS = ["list", "giotto", "barcode"]
-
-
-class _Batch:
-    """Samples that are computed at a time: an error in one of them stops the others."""
-
-    def __init__(self) -> None:
-        self.stop = threading.Event()
-        self._errors: list[tuple[int, Exception]] = []
-
-    def run(self, i: int, function: Callable[..., Barcode], *arguments: Any, **how: Any) -> Barcode:
-        """The errors say of which sample."""
-        try:
-            return function(*arguments, stop=self.stop, **how)
-        except Exception as error:
-            if isinstance(error, (DataError, UsageError, MemoryLimitError)):
-                named: Exception = type(error)(f"sample {i}: {error}")
-                named.__cause__ = error
-                error = named
-            if not (isinstance(error, Cancelled) and self.stop.is_set()):
-                self._errors.append((i, error))
-                self.stop.set()
-            raise error
-
-    def first_error(self) -> Exception:
-        """The one that stopped the others."""
-        return min(self._errors, key=lambda pair: pair[0])[1]
 
 
 class _Persistence(MakesTables, TransformerMixin, TakesLists):
@@ -57,6 +30,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
     infinity: Any
     reduced: Any
     n_jobs: Any
+    _function: Callable[..., Barcode]
 
     def fit(self, X: Any, y: Any = None) -> Any:
         """Checks the parameters. There is nothing to learn.
@@ -90,21 +64,9 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         """
         dims = self._checked()
         samples = self._samples(X)
-        jobs = effective_n_jobs(self.n_jobs)
-        workers = max(1, min(jobs, len(samples)))
-        threads = max(1, jobs // workers)
-        batch = _Batch()
-        try:
-            # Threads of joblib would not know of `ph.limits`: they get the context with the sample.
-            bars: list[Barcode] = Parallel(n_jobs=workers, require="sharedmem")(
-                delayed(copy_context().run)(batch.run, i, self._barcode, sample, max(dims),
-                                            min_dim=min(dims), threads=threads,
-                                            cells=self.output == "barcode")
-                for i, sample in enumerate(samples))
-        except Cancelled:
-            raise batch.first_error() from None
-        finally:
-            batch.stop.set()  # after Ctrl-C, for those that still run
+        bars = computed(self._function, samples, {
+            **self._options(), "max_dim": max(dims), "min_dim": min(dims),
+            "cells": self.output == "barcode", "threads": effective_n_jobs(self.n_jobs)}, "sample")
         if self.output == "barcode":
             return self._in_table(X, bars)
         rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
@@ -149,7 +111,8 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
     def _samples(self, X: Any) -> Sequence[Any]:
         raise NotImplementedError
 
-    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
+    def _options(self) -> dict[str, Any]:
+        """Keywords of the function, but for the dimensions."""
         raise NotImplementedError
 
     def _diagram(self, bars: Barcode, dim: int) -> NDArray[np.float64]:
@@ -158,6 +121,10 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
             endless = np.flatnonzero(dgm[:, 1] == math.inf)
             dgm = np.delete(dgm, endless[:1], axis=0)
         return dgm if self.infinity is None else settled(dgm, self.infinity, f"H{dim}")
+
+
+def _own(transformer: Any, names: list[str]) -> dict[str, Any]:
+    return {name: getattr(transformer, name) for name in names}
 
 
 def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[np.float64]:
@@ -220,6 +187,8 @@ class RipsPersistence(_Persistence):
     [array([[1.        , 1.41421356]])]
     """
 
+    _function = staticmethod(rips)
+
     def __init__(self, homology_dimensions: Any = (0, 1), metric: Any = "euclidean",
                  minkowski_p: float = 2.0, threshold: float | None = None, weights: Any = None,
                  dtm_neighbors: int | None = None, field: int = 2, collapse: Any = "auto",
@@ -245,12 +214,9 @@ class RipsPersistence(_Persistence):
     def _samples(self, X: Any) -> Sequence[Any]:
         return list_of(X, "distances" if self.metric == "precomputed" else "clouds", 2)
 
-    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
-        return rips(sample, max_dim=max_dim, metric=self.metric,
-                    minkowski_p=self.minkowski_p, threshold=self.threshold, weights=self.weights,
-                    dtm_neighbors=self.dtm_neighbors, field=self.field, collapse=self.collapse,
-                    subsample=self.subsample, approximation=self.approximation,
-                    min_persistence=self.min_persistence, **how)
+    def _options(self) -> dict[str, Any]:
+        return _own(self, ["metric", "minkowski_p", "threshold", "weights", "dtm_neighbors", "field",
+                           "collapse", "subsample", "approximation", "min_persistence"])
 
 
 class AlphaPersistence(_Persistence):
@@ -276,6 +242,8 @@ class AlphaPersistence(_Persistence):
     [array([[0.5       , 0.70710678]])]
     """
 
+    _function = staticmethod(alpha)
+
     def __init__(self, homology_dimensions: Any = (0, 1), values: str = "alpha",
                  squared: bool = False, threshold: float | None = None, field: int = 2,
                  min_persistence: float = 0.0, output: str = "list", infinity: Any = None,
@@ -294,10 +262,8 @@ class AlphaPersistence(_Persistence):
     def _samples(self, X: Any) -> Sequence[Any]:
         return list_of(X, "clouds", 2)
 
-    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
-        return alpha(sample, max_dim=max_dim, values=self.values, squared=self.squared,
-                     threshold=self.threshold, field=self.field,
-                     min_persistence=self.min_persistence, **how)
+    def _options(self) -> dict[str, Any]:
+        return _own(self, ["values", "squared", "threshold", "field", "min_persistence"])
 
 
 class CubicalPersistence(_Persistence):
@@ -324,6 +290,8 @@ class CubicalPersistence(_Persistence):
     [[array([[ 1., inf]]), array([[1., 7.]])]]
     """
 
+    _function = staticmethod(cubical)
+
     def __init__(self, homology_dimensions: Any = (0, 1), construction: str = "vertices",
                  superlevel: bool = False, periodic: Any = (), threshold: float | None = None,
                  field: int = 2, nan: str = "error", min_persistence: float = 0.0,
@@ -343,14 +311,15 @@ class CubicalPersistence(_Persistence):
         self.n_jobs = n_jobs
 
     def _samples(self, X: Any) -> Sequence[Any]:
-        return list_of(X, "images", 1)
+        samples = list_of(X, "images", 1)
+        most = max(np.atleast_1d(self.homology_dimensions))
+        for i, sample in enumerate(samples):
+            axes = np.ndim(sample)
+            if most > axes or (most == axes and not self.periodic):
+                raise UsageError(f"sample {i}: homology_dimensions: found {most}, expected less "
+                                 f"than the {axes} axes of the image; [X] is a list of one image")
+        return samples
 
-    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
-        axes = np.ndim(sample)
-        if max_dim > axes or (max_dim == axes and not self.periodic):
-            raise UsageError(f"homology_dimensions: found {max_dim}, expected less than the "
-                             f"{axes} axes of the image; [X] is a list of one image")
-        return cubical(sample, max_dim=max_dim, construction=self.construction,
-                       superlevel=self.superlevel, periodic=self.periodic,
-                       threshold=self.threshold, field=self.field, nan=self.nan,
-                       min_persistence=self.min_persistence, **how)
+    def _options(self) -> dict[str, Any]:
+        return _own(self, ["construction", "superlevel", "periodic", "threshold", "field", "nan",
+                           "min_persistence"])

@@ -105,6 +105,58 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
   });
 }
 
+TEST(CInterface, TakesManyAtATime) {
+  Generator random(7);
+  std::vector<Points> clouds;
+  std::vector<std::vector<float>> images;
+  for (int i = 0; i < 60; ++i) {
+    clouds.push_back(random.points(random.integer(0, 9), 2, i % 2 == 0));
+    images.emplace_back(20);
+    for (float& v : images.back()) v = static_cast<float>(random.value(i % 2 == 0));
+  }
+  std::vector<const double*> begins;
+  std::vector<std::int64_t> rows;
+  for (Points& cloud : clouds) {
+    begins.push_back(cloud.rows() == 0 ? nullptr : &cloud(0, 0));
+    rows.push_back(cloud.rows());
+  }
+  std::vector<const void*> voxels;
+  for (const auto& image : images) voxels.push_back(image.data());
+  for (const int threads : {1, 2, 4}) {
+    ph_options options = defaults();
+    options.threads = threads;
+    options.cancel = threads == 2 ? [](void*) { return 0; } : ph_cancel{};
+    std::vector<ph_barcode*> bars(clouds.size());
+    ASSERT_EQ(
+        ph_rips_points_batch(begins.data(), rows.data(), 2, bars.size(), &options, bars.data()),
+        PH_OK)
+        << ph_last_error();
+    for (std::size_t i = 0; i < bars.size(); ++i)
+      expect_same(bars[i], persistence(Rips(clouds[i])));
+    const std::int64_t extents[] = {4, 5};
+    ASSERT_EQ(ph_cubical_image_batch(voxels.data(), PH_FLOAT32, 2, extents, bars.size(), &options,
+                                     bars.data()),
+              PH_OK)
+        << ph_last_error();
+    for (std::size_t i = 0; i < bars.size(); ++i)
+      expect_same(bars[i], persistence(Cubical(Image{{4, 5}, images[i]})));
+  }
+  // An error leaves nothing behind, and says of which input.
+  std::vector<ph_barcode*> none(clouds.size(), nullptr);
+  images[42][3] = std::nanf("");
+  const std::int64_t extents[] = {4, 5};
+  EXPECT_EQ(ph_cubical_image_batch(voxels.data(), PH_FLOAT32, 2, extents, none.size(), nullptr,
+                                   none.data()),
+            PH_BAD_DATA);
+  EXPECT_EQ(std::strstr(ph_last_error(), "input 42: "), ph_last_error()) << ph_last_error();
+  EXPECT_EQ(ph_rips_points_batch(nullptr, rows.data(), 2, 2, nullptr, none.data()), PH_USAGE);
+  EXPECT_EQ(ph_rips_points_batch(begins.data(), rows.data(), 2, 2, nullptr, nullptr), PH_USAGE);
+  EXPECT_EQ(ph_cubical_image_batch(nullptr, PH_FLOAT32, 2, extents, 2, nullptr, none.data()),
+            PH_USAGE);
+  EXPECT_EQ(ph_rips_points_batch(nullptr, nullptr, 2, 0, nullptr, none.data()), PH_OK);
+  for (const ph_barcode* bars : none) EXPECT_EQ(bars, nullptr);
+}
+
 TEST(CInterface, SaysWhatIsWrong) {
   const double points[] = {0, 1, std::nan("")};
   ph_barcode* bars = nullptr;

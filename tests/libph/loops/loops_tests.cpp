@@ -265,6 +265,8 @@ TEST(Loops, NeedCycles) {
   expect_error(ErrorKind::usage, "without cycles", [&] { loops(rips, cocycles); });
   const Barcode cycles = persistence(rips, {.representatives = Representatives::cycles});
   const Rips other(Points(random.points(2, 2, false)));
+  // Of no points there is no bar that could have one.
+  EXPECT_TRUE(loops(Rips(Points(0, 2)), persistence(Rips(Points(0, 2)))).empty());
   if (!cycles.bars(1).empty())
     expect_error(ErrorKind::usage, "another complex", [&] { loops(other, cycles); });
 }

@@ -2,15 +2,17 @@
 """GUDHI's classes for scikit-learn: lists of clouds or images in, lists of diagrams out."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from joblib import Parallel, delayed, effective_n_jobs
+from joblib import effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, TransformerMixin
 
 from ... import _arrays, _options
+from ..._barcodes import Barcode
+from ..._batch import computed
 from ..._compute import cubical, rips
 from ..._errors import UsageError
 
@@ -24,7 +26,9 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     """Takes samples one by one, in threads."""
 
     homology_dimensions: int | Sequence[int]
+    homology_coeff_field: int
     n_jobs: int | None
+    _function: Callable[..., Barcode]
 
     def fit(self, X: Any, y: Any = None) -> Any:
         """Looks at the parameters; there is nothing to learn."""
@@ -34,9 +38,12 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     def transform(self, X: Any, y: Any = None) -> list[Any]:
         """The diagrams of each sample: one, or a list if `homology_dimensions` is a list."""
         dims = self._dims()
-        options: dict[str, Any] = {"threads": 1} if effective_n_jobs(self.n_jobs) > 1 else {}
-        found: list[Any] = Parallel(n_jobs=self.n_jobs, prefer="threads")(
-            delayed(self._diagrams)(x, dims, options) for x in X)
+        inputs = [self._input(x) for x in X]
+        bars = computed(self._function, inputs, {
+            **self._keywords(), "max_dim": max(dims), "field": self.homology_coeff_field,
+            "threads": effective_n_jobs(self.n_jobs)}, "sample")
+        found: list[Any] = [[_by_death(b.dgm(dim)).astype(self._type(x), copy=False) for dim in dims]
+                            for b, x in zip(bars, inputs)]
         return [dgms[0] for dgms in found] if np.ndim(self.homology_dimensions) == 0 else found
 
     def _dims(self) -> list[int]:
@@ -46,9 +53,16 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
         return [_options.whole("homology_dimensions", dim, 0)
                 for dim in np.atleast_1d(np.asarray(self.homology_dimensions)).tolist()]
 
-    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]
-                  ) -> list[NDArray[Any]]:
+    def _input(self, x: Any) -> Any:
+        """What the function takes."""
         raise NotImplementedError
+
+    def _keywords(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def _type(self, x: Any) -> type[np.floating[Any]]:
+        """Of the numbers of its diagrams."""
+        return np.float64
 
     def get_feature_names_out(self, input_features: Any = None) -> list[str]:
         """Names of columns: H0, H1, ..."""
@@ -81,6 +95,8 @@ class RipsPersistence(_DiagramsOfEach):
         Samples at a time, as of joblib.
     """
 
+    _function = staticmethod(rips)
+
     def __init__(self, homology_dimensions: int | Sequence[int] = 0, threshold: float = np.inf,
                  input_type: str = "point cloud", num_collapses: int | str = "auto",
                  homology_coeff_field: int = 11, n_jobs: int | None = None) -> None:
@@ -91,20 +107,21 @@ class RipsPersistence(_DiagramsOfEach):
         self.homology_coeff_field = homology_coeff_field
         self.n_jobs = n_jobs
 
-    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]) -> list[NDArray[Any]]:
+    def _input(self, x: Any) -> Any:
+        if self.input_type == "point cloud":
+            return _arrays.as_points(x)
+        return _lower(x) if self.input_type == "lower distance matrix" else x
+
+    def _keywords(self) -> dict[str, Any]:
         kind = _options.choice("input_type", self.input_type, _RIPS_INPUTS)
+        keywords: dict[str, Any] = {}
         if kind != "distance coo_matrix" and self.threshold != np.inf:
-            options = {**options, "threshold": self.threshold}
-        if kind == "point cloud":
-            x = _arrays.as_points(x)
-        else:
-            options = {**options, "metric": "precomputed"}
-            if kind == "lower distance matrix":
-                x = _lower(x)
+            keywords["threshold"] = self.threshold
+        if kind != "point cloud":
+            keywords["metric"] = "precomputed"
         if self.num_collapses != "auto":
-            options["collapse"] = _options.whole("num_collapses", self.num_collapses, 0) > 0
-        barcode = rips(x, max_dim=max(dims), field=self.homology_coeff_field, **options)
-        return [_by_death(barcode.dgm(dim)) for dim in dims]
+            keywords["collapse"] = _options.whole("num_collapses", self.num_collapses, 0) > 0
+        return keywords
 
 
 def _lower(x: Any) -> NDArray[np.float64]:
@@ -135,6 +152,8 @@ class CubicalPersistence(_DiagramsOfEach):
         Samples at a time, as of joblib.
     """
 
+    _function = staticmethod(cubical)
+
     def __init__(self, homology_dimensions: int | Sequence[int] = 0,
                  input_type: str = "top_dimensional_cells", homology_coeff_field: int = 11,
                  min_persistence: float = 0.0, n_jobs: int | None = None) -> None:
@@ -144,11 +163,13 @@ class CubicalPersistence(_DiagramsOfEach):
         self.min_persistence = min_persistence
         self.n_jobs = n_jobs
 
-    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]) -> list[NDArray[Any]]:
+    def _input(self, x: Any) -> Any:
+        return _arrays.as_image(x, "X")
+
+    def _keywords(self) -> dict[str, Any]:
         kind = _options.choice("input_type", self.input_type, ["top_dimensional_cells", "vertices"])
-        image = _arrays.as_image(x, "X")
-        barcode = cubical(image, construction="vertices" if kind == "vertices" else "cells",
-                          max_dim=max(dims), field=self.homology_coeff_field,
-                          min_persistence=self.min_persistence, cells=False, **options)
-        dtype = np.float32 if image.dtype == np.float32 else np.float64
-        return [_by_death(barcode.dgm(dim)).astype(dtype, copy=False) for dim in dims]
+        return {"construction": "vertices" if kind == "vertices" else "cells", "cells": False,
+                "min_persistence": self.min_persistence}
+
+    def _type(self, x: Any) -> type[np.floating[Any]]:
+        return np.float32 if x.dtype == np.float32 else np.float64
