@@ -47,7 +47,8 @@ from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitErr
 from ._estimate import Estimate, estimate
 from ._files import Boundary, Mesh, Simplices, read, read_barcode
 from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
-from ._points import Subsample, collapse, distance_to_measure, farthest_points, point_image
+from ._points import (Subsample, collapse, delay_embedding, distance_to_measure, farthest_points,
+                      point_image)
 from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
@@ -69,7 +70,8 @@ __all__ = [
     "Timeout", "UsageError", "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre", "batch",
     "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
-    "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",
+    "confidence_radius", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",
+    "distance_to_measure",
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",
     "join_parts", "limits", "lower_star",
     "merge_tree", "p_values", "permutation_test", "point_image", "read", "read_barcode", "report",

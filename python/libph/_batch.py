@@ -53,8 +53,8 @@ def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: An
     --------
     >>> clouds = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[0], [3]]]
     >>> ph.batch(ph.rips, clouds, max_dim=0, threads=2)
-    [Barcode(rips of 4 points in R^2, field 2: 4 bars of H0, longest [0, inf)), \
-Barcode(rips of 2 points in R^1, field 2: 2 bars of H0, longest [0, inf))]
+    [Barcode(rips of 4 points in R^2, field 2: 4 bars of H0), \
+Barcode(rips of 2 points in R^1, field 2: 2 bars of H0)]
     """
     return computed(function, inputs, options, "input")
 
@@ -79,7 +79,8 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     if not requests:
         return []
     try:
-        bars = _run.run(_core.barcodes, [r.recipe for r in requests], [r.task for r in requests],
+        bars = _run.run(_core.barcodes, [r.recipe for r in requests],
+                        [r.task for r in requests if r.task is not None],  # none has no task
                         options=run, slab_layers=requests[0].slab_layers)
     except Cancelled:
         raise

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
-from ._errors import UsageError
+from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
 from ._sources import source_of
 
@@ -71,6 +71,65 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
         _core.point_image, _arrays.as_points(X), edge, getattr(_core.VoxelValue, name),
         _options.whole("margin", margin, 0, 2**31), options=dict(run))
     return PointImage(np.asarray(image), np.asarray(first), edge)
+
+
+def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
+                    window: int | None = None, step: int | None = None) -> NDArray[np.float64]:
+    """The points that a time series runs through: its values at several times each.
+
+    If the series repeats itself, they run around a loop (F. Takens, Detecting strange attractors in
+    turbulence, 1981). What `ph-barcode --delay` makes of a table.
+
+    Parameters
+    ----------
+    series : array_like
+        Values, one a time, shape (times,); or several quantities, shape (times, quantities).
+    dimension : int
+        Times that a point has.
+    delay : int
+        Steps from one of them to the next one.
+    window : int, optional
+        The points of so many times in a row are a cloud of their own, for `batch`: how the shape
+        of the series changes.
+    step : int, optional
+        Times from the begin of a window to that of the next one. Default: 1.
+
+    Returns
+    -------
+    ndarray
+        Shape (points, dimension * quantities), where points = times - (dimension - 1) * delay: all
+        quantities of the first time, then those of the next one. With `window` of shape (windows,
+        points of each, dimension * quantities). It may be a view of `series`.
+
+    Examples
+    --------
+    >>> ph.delay_embedding([0, 1, 2, 3, 4, 5], 3, delay=2)
+    array([[0., 2., 4.],
+           [1., 3., 5.]])
+    >>> ph.delay_embedding([0, 1, 2, 3, 4, 5], 2, window=4, step=2).shape
+    (2, 3, 2)
+    """
+    values = _arrays.as_float64(_arrays.as_array(series, "series"), "series")
+    if values.ndim not in (1, 2):
+        raise UsageError(f"series: found an array of shape {values.shape}, expected (times,) or "
+                         "(times, quantities)")
+    dimension = _options.whole("dimension", dimension, 1)
+    span = (dimension - 1) * _options.whole("delay", delay, 1) + 1
+    if len(values) < span:
+        raise DataError(f"series: found {len(values)} times, expected at least {span} for a "
+                        f"dimension of {dimension} and a delay of {delay}")
+    if step is not None and window is None:
+        raise UsageError("step: does nothing without window")
+    of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
+    if values.ndim == 2:  # quantities before times
+        of_points = np.swapaxes(of_points, 1, 2).reshape(len(of_points), -1)
+    points: NDArray[np.float64] = of_points
+    if window is None:
+        return points
+    window = _options.whole("window", window, span, len(values))
+    step = 1 if step is None else _options.whole("step", step, 1)
+    windows = np.lib.stride_tricks.sliding_window_view(points, window - span + 1, axis=0)[::step]
+    return np.swapaxes(windows, 1, 2)
 
 
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,

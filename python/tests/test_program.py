@@ -120,6 +120,24 @@ def test_options_of_rips(ph_barcode, seed, options, arguments):
 
 
 @pytest.mark.parametrize("seed", ROUNDS)
+def test_delays(ph_barcode, seed):
+    rng = np.random.default_rng(seed)
+    dimension, delay = int(rng.integers(1, 5)), int(rng.integers(1, 4))
+    one, two = rng.normal(size=40).round(1), rng.normal(size=(40, 2)).round(1)
+    option = f"{dimension},{delay}" if delay > 1 else str(dimension)
+    table = ph_barcode.file("two.csv", "t,a,b\n" + "".join(
+        f"x{i},{a},{b}\n" for i, (a, b) in enumerate(two)))
+    for series, path, arguments in (
+            (one, ph_barcode.file("one.npy", one), []),
+            (one, ph_barcode.file("one.txt", "".join(f"{x}\n" for x in one)), []),
+            (two, ph_barcode.file("two.npy", two), []),
+            (two, ph_barcode.file("points.npy", two), ["--format", "points"]),
+            (two[:, 1], table, ["--columns", "b"]), (two, table, ["--columns", "a,b"])):
+        points = ph.delay_embedding(series, dimension, delay)
+        check(ph.rips(points), ph_barcode(path, "--delay", option, *arguments))
+
+
+@pytest.mark.parametrize("seed", ROUNDS)
 def test_given_weights(ph_barcode, seed):
     rng = np.random.default_rng(seed)
     points, weights = rng.normal(size=(25, 2)), rng.uniform(0, 1, size=25).round(2)

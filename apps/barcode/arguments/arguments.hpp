@@ -57,6 +57,10 @@ struct Arguments {
   Format format = Format::automatic;
   ReadOptions read;
   std::string values;  // path; empty: none
+  struct Delay {
+    Index dimension, delay;
+  };
+  std::optional<Delay> delay;  // the input is a time series, its windows are the points
 
   // Which complex is built of it.
   ComplexKind complex = ComplexKind::automatic;

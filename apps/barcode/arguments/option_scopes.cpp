@@ -41,6 +41,7 @@ constexpr std::array kScopes{
     OptionScope{"loops", kComputed, kOfInputs},
     OptionScope{"complex", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
     OptionScope{"threshold", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
+    OptionScope{"delay", kPoints | kAlpha | kOwn, "Rips and alpha complexes of time series"},
     OptionScope{"metric", kPoints | kSomeBlocks, "Rips complexes of points"},
     OptionScope{"construction", kCubical | kSomeLayers, "images"},
     OptionScope{"superlevel", kCubical | kSomeLayers, "images"},

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
 
 namespace ph::barcode {
 
@@ -35,6 +38,14 @@ void take_columns(Arguments& a, const std::string& text) {
   }
 }
 
+void take_delay(Arguments& a, const std::string& text) {
+  const std::vector<std::int64_t> numbers = app::parse_integers("--delay", text, 1);
+  if (numbers.size() > 2)
+    throw Error(ErrorKind::usage,
+                fmt::format("--delay: found '{}', expected D or D,TAU", printable(text, 80)));
+  a.delay = {numbers[0], numbers.size() == 2 ? numbers[1] : 1};
+}
+
 }  // namespace
 
 void add_table_options(CLI::App& app, Arguments& a) {
@@ -43,6 +54,10 @@ void add_table_options(CLI::App& app, Arguments& a) {
             "columns of a table that are read, by the names in its header or by numbers from 1: "
             "x,y or 2-4 or 1,3 (default: all but an index)",
             [&a](const std::string& text) { take_columns(a, text); });
+  add_value(app, "--delay", "D,TAU",
+            "the input is a time series, a row for each time: points are its values at D times, "
+            "TAU rows apart (default TAU 1)",
+            [&a](const std::string& text) { take_delay(a, text); });
   add_choice(app, "--channel", {"grey", "red", "green", "blue", "alpha"},
              "what of a colour picture is read (default: its grey, if it has no colours); grey of "
              "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
@@ -55,6 +70,12 @@ void add_table_options(CLI::App& app, Arguments& a) {
 
 void check_table_arguments(Arguments& a) {
   ArrayMeaning& meaning = a.read.array;
+  if (a.delay) {
+    if (a.read.nan == NanPolicy::drop)
+      throw Error(ErrorKind::usage,
+                  "--delay: excludes --nan drop: no time may be missing in a time series");
+    if (a.format == Format::automatic) meaning = ArrayMeaning::image;  // of one or two axes
+  }
   if (a.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
   // An option that does something for one kind of input only says what the input is.

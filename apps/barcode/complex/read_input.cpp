@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,6 +27,46 @@ std::string note_on_mesh(const ReadResult& read, const Arguments& a) {
       mesh->faces());
 }
 
+/// A row for each time, of what was read. @throws Error (bad_data) if it is no table.
+Points series_of(const std::string& name, ReadResult& read) {
+  if (auto* const points = std::get_if<Points>(&read.data)) return std::move(*points);
+  const auto* const image = std::get_if<Image>(&read.data);
+  if (image == nullptr || image->extents.size() > 2)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: found {}, expected a time series for --delay: a table of numbers, "
+                            "a row for each time",
+                            name, read.description));
+  Points series(image->extents[0], image->extents.size() == 2 ? image->extents[1] : 1);
+  for (std::size_t i = 0; i < image->values.size(); ++i) series.data()[i] = image->values[i];
+  return series;
+}
+
+/// Puts the windows of a time series in the place of what was read.
+void embed(const std::string& name, const Arguments::Delay& delay, std::size_t dropped,
+           const RunContext& context, ReadResult& read) {
+  if (dropped > 0)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: found {} rows with NaN, expected numbers: no time may be missing "
+                            "for --delay",
+                            name, dropped));
+  const Points series = series_of(name, read);
+  const auto [dimension, lag] = delay;
+  // A point has the numbers of `dimension` rows.
+  const double bytes =
+      static_cast<double>(series.size()) * static_cast<double>(dimension) * sizeof(double);
+  context.memory.require(
+      static_cast<std::size_t>(std::min(bytes, static_cast<double>(PTRDIFF_MAX / 2))));
+  Points points;
+  try {
+    points = delay_embedding(series, dimension, lag);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+  read.description = fmt::format("time series of {} x {} values, {} windows as points in R^{}",
+                                 series.rows(), series.cols(), points.rows(), points.cols());
+  read.data = std::move(points);
+}
+
 }  // namespace
 
 NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context) {
@@ -33,6 +75,7 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
   options.context = &context;
   options.dropped = &dropped;
   ReadResult read = read_any(input, arguments.format, options, files::path_of(arguments.values));
+  if (arguments.delay) embed(input.name(), *arguments.delay, dropped.size(), context, read);
   if (std::string note = note_on_mesh(read, arguments); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;

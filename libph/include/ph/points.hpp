@@ -161,6 +161,16 @@ class WholeRows {
   PointsView view_;
 };
 
+/// The delay embedding of a time series: point i has its values at times i, i + delay,
+/// i + 2 delay, … (F. Takens, Detecting strange attractors in turbulence, 1981).
+/// @param series one time a row, one quantity a column.
+/// @param dimension times that a point has, > 0. @param delay rows between two of them, > 0.
+/// @return rows - (dimension - 1) * delay points of dimension * columns coordinates: all quantities
+///         of the first time, then those of the next one. Linear in their number.
+/// @throws Error (usage) on a dimension or delay below 1; Error (bad_data) if the series is too
+///         short for one point.
+Points delay_embedding(PointsView series, Index dimension, Index delay = 1);
+
 /// The largest absolute value of a coordinate; 0 if there is none, ignores NaN.
 double largest_coordinate(PointsView points);
 

@@ -45,6 +45,23 @@ void Points::keep_rows(Index rows) {
   }
 }
 
+Points delay_embedding(PointsView series, Index dimension, Index delay) {
+  for (const auto& [name, value] : {std::pair("dimension", dimension), std::pair("delay", delay)})
+    if (value < 1)
+      throw Error(ErrorKind::usage,
+                  fmt::format("delay embedding: {}: found {}, expected at least 1", name, value));
+  if (series.rows() == 0 || dimension - 1 > (series.rows() - 1) / delay)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("delay embedding: found a series of {} times, expected more than "
+                            "({} - 1) * {}",
+                            series.rows(), dimension, delay));
+  Points points(series.rows() - (dimension - 1) * delay, dimension * series.cols());
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index k = 0; k < points.cols(); ++k)
+      points(i, k) = series(i + k / series.cols() * delay, k % series.cols());
+  return points;
+}
+
 double largest_coordinate(PointsView points) {
   double largest = 0;
   for (Index i = 0; i < points.rows(); ++i)

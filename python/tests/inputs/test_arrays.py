@@ -289,3 +289,37 @@ def test_rounding_is_accepted():
     clean[5, 6] = clean[6, 5] = 0
     assert np.allclose(ph.rips(matrix, metric="precomputed").deaths,
                        ph.rips(clean, metric="precomputed").deaths)
+
+
+def test_delay_embedding():
+    rng = np.random.default_rng(3)
+    for quantities in (None, 1, 3):
+        series = rng.random(23 if quantities is None else (23, quantities))
+        rows = series.reshape(23, -1)
+        for dimension, delay in ((1, 1), (2, 5), (4, 1), (3, 11), (23, 1)):
+            expected = [np.concatenate([rows[i + k * delay] for k in range(dimension)])
+                        for i in range(23 - (dimension - 1) * delay)]
+            assert np.array_equal(ph.delay_embedding(series, dimension, delay), expected)
+            span = (dimension - 1) * delay + 1
+            for window in range(span, 24, 5):
+                clouds = ph.delay_embedding(series, dimension, delay, window=window, step=4)
+                assert np.array_equal(clouds, [expected[b:b + window - span + 1]
+                                               for b in range(0, 23 - window + 1, 4)])
+                assert ph.batch(ph.rips, clouds) == [ph.rips(np.array(c)) for c in clouds]
+
+
+@pytest.mark.parametrize("series, arguments, options, error, words", [
+    (np.zeros(5), (0,), {}, ph.UsageError, "dimension: found 0"),
+    (np.zeros(5), (2, 0), {}, ph.UsageError, "delay: found 0"),
+    (np.zeros(5), (3, 2.5), {}, ph.UsageError, "delay: found 2.5"),
+    (np.zeros(5), (4, 2), {}, ph.DataError, "series: found 5 times, expected at least 7"),
+    (np.zeros((2, 2, 2)), (1,), {}, ph.UsageError, "series: found an array of shape"),
+    (["a"], (1,), {}, ph.Error, "series"),
+    (np.zeros(5), (2,), {"step": 2}, ph.UsageError, "step: does nothing without window"),
+    (np.zeros(5), (3,), {"window": 2}, ph.UsageError, "window: found 2"),
+    (np.zeros(5), (3,), {"window": 6}, ph.UsageError, "window: found 6"),
+    (np.zeros(5), (3,), {"window": 5, "step": 0}, ph.UsageError, "step: found 0"),
+])
+def test_delay_embedding_refuses(series, arguments, options, error, words):
+    with pytest.raises(error, match=words):
+        ph.delay_embedding(series, *arguments, **options)

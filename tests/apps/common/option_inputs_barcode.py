@@ -38,6 +38,8 @@ def rows(Row):
         "--diagonal": Row("--diagonal", "births", variant="births"),
         "--nan": Row("--nan", "drop", variant="nan"),
         "--columns": Row("--columns", "1", variant="labelled", unfit="as many as columns|ragged row|a point a row"),
+        "--delay": Row("--delay", "2", unfit="expected a time series|an image has rows|points of R.4, expected"
+                       "|found more than 13|for images only, found points"),
         "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),
         "--raw-shape": Row("--raw-shape", "5,4", unfit="for shape|found raw"),
         "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),

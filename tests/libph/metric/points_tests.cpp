@@ -126,5 +126,49 @@ TEST(PointsViews, OfEigenTakeNoCopy) {
   EXPECT_EQ(to_points(matrix * 2), (Points{{0, 2}, {14, 6}}));
 }
 
+TEST(DelayEmbedding, HasTheValuesOfLaterTimes) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
+    const Points series = random.points(random.integer(1, 30), random.integer(1, 3), ties);
+    const Index dimension = random.integer(1, 5), delay = random.integer(1, 4);
+    const Index most = series.rows() - (dimension - 1) * delay;
+    if (most <= 0) {
+      expect_error(ErrorKind::bad_data, "expected more than",
+                   [&] { static_cast<void>(delay_embedding(series, dimension, delay)); });
+      return;
+    }
+    // The same from a view whose quantities lie apart.
+    std::vector<double> by_columns;
+    for (Index k = 0; k < series.cols(); ++k)
+      for (Index t = 0; t < series.rows(); ++t) by_columns.push_back(series(t, k));
+    const PointsView columns(by_columns.data(), series.rows(), series.cols(), 1, series.rows());
+    const Points points = delay_embedding(series, dimension, delay);
+    EXPECT_EQ(points, delay_embedding(columns, dimension, delay));
+    ASSERT_EQ(points.rows(), most);
+    ASSERT_EQ(points.cols(), dimension * series.cols());
+    for (Index i = 0; i < most; ++i) {
+      std::vector<double> expected;
+      for (Index d = 0; d < dimension; ++d)
+        for (Index k = 0; k < series.cols(); ++k) expected.push_back(series(i + d * delay, k));
+      EXPECT_TRUE(std::ranges::equal(points.row(i), expected));
+    }
+  });
+}
+
+TEST(DelayEmbedding, RefusesWhatMakesNoSense) {
+  const Points series(9, 1);
+  const auto embed = [&](Index dimension, Index delay) {
+    return [&series, dimension, delay] {
+      static_cast<void>(delay_embedding(series, dimension, delay));
+    };
+  };
+  expect_error(ErrorKind::usage, "dimension", embed(0, 1));
+  expect_error(ErrorKind::usage, "delay", embed(2, 0));
+  expect_error(ErrorKind::bad_data, "9 times", embed(2, 9));
+  expect_error(ErrorKind::bad_data, "9 times", embed(INT64_MAX, INT64_MAX));
+  expect_error(ErrorKind::bad_data, "0 times",
+               [] { static_cast<void>(delay_embedding(Points(0, 1), 1)); });
+  EXPECT_EQ(delay_embedding(series, 2, 8).rows(), 1);
+}
+
 }  // namespace
 }  // namespace ph::test

@@ -60,7 +60,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     def _keywords(self) -> dict[str, Any]:
         raise NotImplementedError
 
-    def _type(self, x: Any) -> type[np.floating[Any]]:
+    def _type(self, x: Any) -> Any:
         """Of the numbers of its diagrams."""
         return np.float64
 
@@ -171,5 +171,5 @@ class CubicalPersistence(_DiagramsOfEach):
         return {"construction": "vertices" if kind == "vertices" else "cells", "cells": False,
                 "min_persistence": self.min_persistence}
 
-    def _type(self, x: Any) -> type[np.floating[Any]]:
+    def _type(self, x: Any) -> Any:
         return np.float32 if x.dtype == np.float32 else np.float64
