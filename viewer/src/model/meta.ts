@@ -30,7 +30,7 @@ export interface SegmentMeta {
   number: number; // what it is called
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  role: "object" | "unknown";
+  role: "object" | "unknown" | "support" | "wall"; // the last two: of a stream, in which it was one
   on_surface?: number;
   on_segment?: number; // by its number
 }

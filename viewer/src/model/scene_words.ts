@@ -10,16 +10,20 @@ export function nameOfSurface({ surfaces }: SceneMeta, number: number): string {
   return `${role === "support" || role === "wall" ? role : "surface"} ${number}`;
 }
 
-/// "on support 1", "on 3", "unknown"; of an object that is not seen to stand on anything "object".
+/// "on support 1", "on 3"; of what is not seen to stand on anything its role.
 export function standing(scene: SceneMeta, segment: SegmentMeta): string {
   if (segment.on_surface) return `on ${nameOfSurface(scene, segment.on_surface)}`;
   if (segment.on_segment) return `on ${segment.on_segment}`;
-  return segment.role === "unknown" ? "unknown" : "object";
+  return roleOf(segment);
+}
+
+function roleOf({ role }: SegmentMeta): string {
+  return ["unknown", "support", "wall"].includes(role) ? role : "object";
 }
 
 /// "object on support 1, confidence 4.2"
 export function factsOf(scene: SceneMeta, segment: SegmentMeta): string {
-  const role = segment.role === "unknown" ? "unknown" : "object";
+  const role = roleOf(segment);
   const on = standing(scene, segment);
   const confidence =
     segment.persistence === null ? "touches no other" : `confidence ${short(segment.persistence, 3)}`;
