@@ -63,7 +63,8 @@ class LabelTracker {
     int times = 0;       // so many in a row
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
-  std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t segments);
+  std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t things,
+                                   std::size_t segments);
   void settle(const SceneTree& scene, const SceneCut& cut,
               const std::vector<std::uint32_t>& numbers);
   Object& object(std::uint32_t number);

@@ -65,7 +65,7 @@ std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> l
                       static_cast<std::uint32_t>(index_of(labels[i]))});
   }
   standings_.clear();
-  const std::vector<std::uint32_t> numbers = match(std::move(places), known.size());
+  const std::vector<std::uint32_t> numbers = match(std::move(places), known.size(), known.size());
   std::vector<std::uint32_t> result(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (labels[i] != 0) result[i] = numbers[index_of(labels[i])];
@@ -85,7 +85,8 @@ std::vector<std::uint32_t> LabelTracker::update(const SceneTree& scene, const Sc
   } else {
     places = cubes(scene, cut);
   }
-  std::vector<std::uint32_t> numbers = match(std::move(places), things_in(scene, cut));
+  std::vector<std::uint32_t> numbers =
+      match(std::move(places), things_in(scene, cut), cut.segments.size());
   settle(scene, cut, numbers);
   numbers.resize(cut.segments.size());
   return numbers;
@@ -108,6 +109,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
       now.role =
           scene.surfaces[i - cut.segments.size() + static_cast<std::size_t>(scene.removed)].role;
     }
+    if (numbers[i] == 0) continue;
     Object& known = object(numbers[i]);
     if (now == known.is) {
       known.times = 0;
@@ -159,15 +161,17 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// @param places of segments, by key.
-std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t segments) {
+/// @param places of things, by key. @param segments so many of the things have a number whether
+/// they have places or not. @return by thing its number; 0: none.
+std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
+                                               std::size_t segments) {
   constexpr double least = 0.25;  // of the smaller one
-  std::vector<double> size_of_segment(segments), size_of_object(objects_.size());
+  std::vector<double> size_of_thing(things), size_of_object(objects_.size());
   const auto index_of = [&](std::uint32_t number) {
     return static_cast<std::size_t>(
         std::ranges::lower_bound(objects_, number, {}, &Object::number) - objects_.begin());
   };
-  for (const Place& p : places) ++size_of_segment[p.number];
+  for (const Place& p : places) ++size_of_thing[p.number];
   for (const Place& p : places_) ++size_of_object[index_of(p.number)];
 
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
@@ -183,13 +187,13 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   }
   std::vector<Overlap> overlaps;
   for (const auto& [both, count] : shared) {
-    const double a = size_of_segment[both.first], b = size_of_object[both.second];
+    const double a = size_of_thing[both.first], b = size_of_object[both.second];
     if (count > least * std::min(a, b))
       overlaps.push_back({count / (a + b - count), both.first, both.second});
   }
   std::ranges::stable_sort(overlaps, std::ranges::greater(), &Overlap::share);
 
-  std::vector<std::uint32_t> numbers(segments, 0);
+  std::vector<std::uint32_t> numbers(things, 0);
   std::vector<bool> taken(objects_.size());
   for (const Overlap& o : overlaps) {
     if (numbers[o.segment] != 0 || taken[o.object]) continue;
@@ -197,8 +201,8 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
     taken[o.object] = true;
   }
   const std::uint32_t first_new = next_;
-  for (std::uint32_t& number : numbers)
-    if (number == 0) number = next_++;
+  for (std::size_t i = 0; i < things; ++i)
+    if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
   // What is remembered: the segments, and what was seen not long ago and is not covered.
   std::vector<Object> remembered;

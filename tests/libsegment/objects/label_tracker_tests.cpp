@@ -119,6 +119,17 @@ TEST(LabelTracker, AWallThatIsASegmentForAFrameIsStillAWall) {
   EXPECT_EQ(role_of_second(), Role::unknown);
 }
 
+TEST(LabelTracker, WhatAnObjectStandsOnIsKnownByItsNumber) {
+  const Frame other({0, 0, 0, 1, 0, 0, 0, 1}, kNoWall, {kOnTable});
+  const Frame all({1, 1, 2, 3, 1, 1, 2, 3}, kNoWall, {kOnTable, {Role::object, {0, 1}}, kOnTable});
+  const Frame swapped({2, 2, 1, 3, 2, 2, 1, 3}, kNoWall, {kNowhere, kOnTable, kOnTable});
+  LabelTracker tracker;
+  tracker.update(other, other);
+  EXPECT_EQ(tracker.update(all, all), (Labels{2, 3, 1}));
+  EXPECT_EQ(tracker.update(swapped, swapped), (Labels{3, 2, 1}));
+  EXPECT_EQ(tracker.standings().front(), (Standing{Role::object, {0, 2}}));
+}
+
 TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Labels stack = {1, 1, 2, 0, 1, 1, 2, 0}, swapped = {2, 2, 1, 0, 2, 2, 1, 0};
   const Standing on_first{Role::object, {0, 1}}, on_second{Role::object, {0, 2}};
