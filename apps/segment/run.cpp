@@ -212,9 +212,9 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   if (!stream) require_separate(arguments, session);
   Outputs outputs(arguments);
   Remembered* const remembered = stream ? stream->remembered : nullptr;
-  const Result result =
+  Result result =
       result_of(arguments, remembered ? remembered->last.plane : std::nullopt, outputs, session);
-  const Segmentation& s = result.segmentation;
+  Segmentation& s = result.segmentation;
   std::vector<std::string> warned = notes_on(result, arguments);
   if (remembered) remember(s, *remembered, warned);
   for (const std::string& text : warned) session.note(text);
@@ -232,7 +232,14 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
                .from_tree = !result.cloud,
                .sha256 = result.sha256,
                .warnings = std::move(warned)};
-  if (remembered) info.numbers = remembered->tracker.update(s, s);
+  if (remembered) {
+    info.numbers = remembered->tracker.update(s, s);
+    for (Segment& segment : s.segments) {
+      const Standing& standing = remembered->tracker.standings()[segment.label - 1];
+      segment.role = standing.role;
+      segment.on = standing.on;
+    }
+  }
   if (arguments.signatures) info.signatures = signatures_of(s, session);
   const app::BarHold results_are_written(session);
   outputs.write(result.cloud ? &*result.cloud : nullptr, s, info, session.context());

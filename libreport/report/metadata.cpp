@@ -52,6 +52,25 @@ std::string tree(const TreeMeta& meta) {
                  {"command", texts(meta.command)}});
 }
 
+std::string scene(const SceneMeta& meta) {
+  const auto segment = [](const SegmentMeta& s) {
+    const auto number_of = [](std::uint32_t n) { return n == 0 ? "" : integer(n); };
+    return object({{"number", integer(s.number)},
+                   {"colour", json::string(fmt::format("#{:06x}", s.colour))},
+                   {"persistence", number(s.persistence)},
+                   {"role", json::string(s.role)},
+                   {"on_surface", number_of(s.on_surface)},
+                   {"on_segment", number_of(s.on_segment)}});
+  };
+  const auto surface = [](std::string_view role) { return object({{"role", json::string(role)}}); };
+  return object({{"segments", json::array(meta.segments, segment)},
+                 {"surfaces", json::array(meta.surface_roles, surface)},
+                 {"removed", integer(meta.removed)},
+                 {"flat", number(meta.flat)},
+                 {"min_seam", number(meta.min_seam)},
+                 {"objects", meta.objects ? "true" : "false"}});
+}
+
 std::string distance(const Distance& d) {
   return object({{"dim", integer(d.dim)}, {"bottleneck", number(d.bottleneck)}});
 }
@@ -115,6 +134,7 @@ std::string metadata_json(const Metadata& m) {
                               {"cloud", m.cloud ? cloud(*m.cloud) : ""},
                               {"image", m.construction.empty() ? "" : image(m)},
                               {"tree", m.tree ? tree(*m.tree) : ""},
+                              {"scene", m.scene ? scene(*m.scene) : ""},
                               {"distances", list(m.distances, distance)},
                               {"provenance", provenance(m.provenance)}}));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,25 @@ struct CloudMeta {
   std::string projection = {};                 ///< "first 3 of 10 coordinates"
 };
 
+/// A segment of the segmentation that a page shows first.
+struct SegmentMeta {
+  std::uint32_t number = 0;  ///< what it is called
+  std::uint32_t colour = 0;  ///< 0x00RRGGBB
+  double persistence = 0;    ///< the confidence; may be infinite
+  std::string_view role;
+  std::uint32_t on_surface = 0, on_segment = 0;  ///< what it stands on, by number; 0: not that
+};
+
+/// What a segmentation says besides the labels.
+struct SceneMeta {
+  std::vector<SegmentMeta> segments;            ///< by label
+  std::vector<std::string_view> surface_roles;  ///< of the surfaces, by number
+  Index removed = 0;     ///< how many of these were removed: no leaf of the tree is on them
+  double flat = 0;       ///< least share on the plane of a surface of what is one
+  double min_seam = 0;   ///< what other cuts leave out: weak seams are joined
+  bool objects = false;  ///< and parts of an object are
+};
+
 /// Of the bars of one dimension in the two barcodes of a comparison.
 struct Distance {
   int dim = 0;
@@ -46,6 +66,7 @@ struct Metadata {
   std::string construction = {};       ///< of an image: "vertices" or "cells"
   std::vector<std::string> axes = {};  ///< of a volume in space, in the order of the array: x, y, z
   std::optional<TreeMeta> tree = {};
+  std::optional<SceneMeta> scene = {};
   std::vector<Distance> distances = {};  ///< of a comparison
   Provenance provenance;
 };

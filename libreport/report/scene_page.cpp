@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 
+#include "pictures/colouring.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/touching_leaves.hpp"
 #include "report/arrays/tree_arrays.hpp"
 #include "report/report_file.hpp"
+#include "supports/bounds.hpp"
 
 namespace ph::report {
 namespace {
@@ -91,6 +92,11 @@ void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
   if (points.index.size() != s.cloud_size())
     report.add("points/index", points.index, {.delta = true});
   add_labels(report, "points/leaf", leaves, true);
+  if (cloud && s.removed > 0) {
+    std::vector<std::uint8_t> surfaces;
+    for (const std::uint32_t i : points.index) surfaces.push_back(s.removed_with[i]);
+    report.add("points/surface", surfaces, {.delta = true});
+  }
   if (s.normals.rows() > 0) {
     std::vector<std::int8_t> normals;
     for (const std::uint32_t v : points.vertex) {
@@ -144,25 +150,44 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   return vertices;
 }
 
-/// Pairs of leaves that the program made one segment of: of each segment its first part and the
-/// others.
-std::vector<std::uint32_t> joins_of(const Segmentation& s, const ContractedTree& contracted) {
-  std::vector<std::uint32_t> joins;
-  if (s.method != Method::surface) return joins;
-  const std::vector<Index> part_of = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
-  std::vector<std::uint32_t> first_leaf(s.segments.size() + 1, kNone);
-  std::vector<bool> seen(part_of.size());
-  for (std::size_t v = 0; v < part_of.size(); ++v) {
-    const std::uint32_t label = s.vertex_labels[v];
-    if (label == 0 || seen[static_cast<std::size_t>(part_of[v])]) continue;
-    seen[static_cast<std::size_t>(part_of[v])] = true;
-    const std::uint32_t leaf = contracted.leaf_of[v];
-    if (first_leaf[label] == kNone)
-      first_leaf[label] = leaf;
-    else
-      joins.insert(joins.end(), {first_leaf[label], leaf});
-  }
-  return joins;
+/// The segments and surfaces of the segmentation: the label and the surface of each leaf, and how
+/// many voxels of a leaf lie on each surface that was found, for other cuts.
+void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree& contracted) {
+  const std::size_t leaves = contracted.leaf_birth.size();
+  std::vector<std::uint32_t> labels(leaves);
+  std::vector<std::uint8_t> surfaces(leaves);
+  const auto is_leaf = [&](std::uint32_t leaf) { return leaf != kNone; };
+  for (std::size_t v = 0; v < s.vertex_labels.size(); ++v)
+    if (is_leaf(contracted.leaf_of[v])) labels[contracted.leaf_of[v]] = s.vertex_labels[v];
+  for (std::size_t k = 0; k < s.points.size(); ++k)
+    if (const auto leaf = contracted.leaf_of[s.vertex_of_point[k]]; is_leaf(leaf))
+      surfaces[leaf] = s.surface_labels[static_cast<std::size_t>(s.points[k])];
+  report.add("tree/leaf_label", labels, {.delta = true});
+  report.add("tree/leaf_surface", surfaces);
+  const std::size_t found = s.surfaces.size() - static_cast<std::size_t>(s.removed);
+  if (found == 0) return;
+  report.add("tree/leaf_on", segment::voxels_on_surfaces(s, contracted.leaf_of, leaves),
+             {.shape = {leaves, found}});
+}
+
+SceneMeta scene_meta(const ScenePage& page) {
+  const Segmentation& s = page.segmentation;
+  const std::vector<std::uint32_t> colours = segment::shown_colours(page.cloud, s, page.numbers);
+  const auto number_of = [&](std::uint32_t label) {
+    return label == 0 || page.numbers.empty() ? label : page.numbers[label - 1];
+  };
+  SceneMeta meta;
+  for (const segment::Segment& g : s.segments)
+    meta.segments.push_back({number_of(g.label), colours[g.label - 1], g.persistence,
+                             segment::role_name(g.role), g.on.surface, number_of(g.on.segment)});
+  for (const segment::SceneSurface& surface : s.surfaces)
+    meta.surface_roles.push_back(segment::role_name(surface.role));
+  meta.removed = s.removed;
+  meta.flat = segment::kLeastShareOnSurface;
+  if (s.method != Method::surface) return meta;
+  meta.min_seam = s.first_cut.min_seam;
+  meta.objects = s.first_cut.objects;
+  return meta;
 }
 
 TreeMeta tree_meta(const Segmentation& s, const ScenePage& page) {
@@ -195,6 +220,7 @@ Metadata metadata_of(const ScenePage& page) {
     cloud.up = s.plane->normal;
   meta.cloud = cloud;
   meta.tree = tree_meta(s, page);
+  meta.scene = scene_meta(page);
   Provenance& p = meta.provenance = page.provenance;
   p.run.input_description =
       s.height > 1 ? fmt::format("{} points, {} x {}", s.cloud_size(), s.width, s.height)
@@ -230,8 +256,7 @@ void write_page(const Sink& sink, const ScenePage& page, const RunContext& conte
   add_pictures(report, std::span(&bars, 1), meta);
   add_bars(report, bars);
   add_tree(report, s.tree, kept, linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
-  const std::vector<std::uint32_t> joins = joins_of(s, kept);
-  report.add("tree/joins", joins, {.shape = {joins.size() / 2, 2}});
+  add_answer(report, s, kept);
   std::vector<std::uint32_t> leaves;
   leaves.reserve(points.vertex.size());
   for (const std::uint32_t v : points.vertex)

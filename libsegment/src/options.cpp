@@ -140,6 +140,18 @@ void validate(const SceneTree& scene, const SceneCut& cut) {
       if (label > cut.segments.size())
         throw Error(ErrorKind::bad_data, fmt::format("cut: label: found {}, expected at most {}",
                                                      label, cut.segments.size()));
+  const auto require_surface = [&](std::uint32_t number) {
+    if (number > scene.surfaces.size())
+      throw Error(ErrorKind::bad_data, fmt::format("cut: surface: found {}, expected at most {}",
+                                                   number, scene.surfaces.size()));
+  };
+  for (const std::uint8_t surface : cut.surface_labels) require_surface(surface);
+  for (const Segment& segment : cut.segments) {
+    require_surface(segment.on.surface);
+    if (segment.on.segment > cut.segments.size())
+      throw Error(ErrorKind::bad_data, fmt::format("cut: on: found segment {}, expected at most {}",
+                                                   segment.on.segment, cut.segments.size()));
+  }
 }
 
 void validate(const SceneTree& scene, const CutOptions& o) {

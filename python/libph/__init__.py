@@ -52,7 +52,8 @@ from ._points import (Subsample, collapse, delay_embedding, distance_to_measure,
 from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
-from ._scenes import Objects, SceneSurface, Segment, Segmentation, Voxels, segment
+from ._scenes import (LabelTracker, Objects, SceneSurface, Segment, Segmentation, Tracked, Voxels,
+                      segment)
 from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
                             permutation_test)
 from ._surfaces import Surface, alpha_shape
@@ -63,11 +64,11 @@ from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
-    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "Loop",
+    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker", "Loop",
     "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
     "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
-    "Timeout", "UsageError", "Voxels", "__version__",
+    "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre", "batch",
     "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
     "confidence_radius", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",

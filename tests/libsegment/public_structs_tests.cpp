@@ -116,6 +116,13 @@ TEST(PublicStructs, ScenesAndCuts) {
       [](auto& s) { s.vertex_labels.pop_back(); },
       [](auto& s) { s.labels.back() = 3; },
       [](auto& s) { s.vertex_labels.front() = 3; },
+      [](auto& s) { s.surface_labels.front() = 2; },
+      [](auto& s) {
+        s.segments.front().on = {2, 0};
+      },
+      [](auto& s) {
+        s.segments.front().on = {0, 3};
+      },
   };
   for (const auto& spoil : cut_faults) {
     SCOPED_TRACE(number++);

@@ -209,6 +209,7 @@ function sessionOf(barcodes, { selection = [], focus = -1, tints = [], numbers =
     isSelected: (bar) => selection.includes(bar),
     tintedBars: () => tinted,
     numbers: () => new Map(numbers),
+    numberOf: (label) => label,
     colourOfBar: (bar) => tinted.get(bar) ?? "colour",
   };
 }

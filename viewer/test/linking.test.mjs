@@ -13,8 +13,10 @@ import {
   launch,
   open,
   picture,
+  pixelsOf,
   setSlider,
   tintedPixels,
+  vividPixels,
 } from "./support/browser.mjs";
 
 const reading = (page) => page.textContent(".status .reading");
@@ -195,16 +197,68 @@ async function cutOfAScene(t, browser) {
   const { page, problems, close } = await open(browser, report);
   await picture(page, "scene");
 
-  await t.test("first the program's own cut, with its joins", async () => {
-    const parts = cutOf(report.tree, report.vertexOfPoint, {
-      ...report.options,
-      cut: report.joinedAt,
-    });
-    assert.equal(await page.textContent(".cut .outcome"), `${parts.segments.length - 2} segments`);
-    assert.match(await page.textContent(".cut .note"), /parts of one object are joined/);
+  const countsInLegend = () =>
+    page.$$eval(".legend button.row .count", (rows) =>
+      rows.map((r) => Number(r.textContent.replaceAll(",", ""))),
+    );
+
+  await t.test("first the program's answer, with what it says of it", async () => {
+    const { points } = report.answer;
+    assert.equal(await page.textContent(".cut .outcome"), `${points.length} segments`);
+    assert.deepEqual(await countsInLegend(), points);
+    assert.match(
+      await page.textContent(".cut .note"),
+      /the program's answer: at 0\.05 it joins basins over weak seams \(--min-seam 2\) and parts of one/,
+    );
+    const rows = page.locator(".legend button.row");
+    const says = await rows.locator(".says").allTextContents();
+    assert.deepEqual(says.slice(0, 5), ["on support 1", "on support 1", "unknown", "on 1", "on support 1"]);
+    assert.equal(await rows.nth(0).getAttribute("title"), "object on support 1, touches no other");
+    assert.equal(await rows.nth(2).getAttribute("title"), "unknown, confidence 3");
+    assert.equal(await rows.nth(3).getAttribute("title"), "object on 1, confidence 4.5");
+    assert.match(await page.textContent(".finding span"), /Besides: 1 support and 1 wall\.$/);
+    await rows.nth(3).hover();
+    await frame(page);
+    assert.match(await reading(page), /^segment 4, [\d,]+ points {2}· {2}object on 1, confidence 4\.5/);
+    const json = JSON.parse((await downloaded(page, "JSON")).toString());
+    assert.deepEqual(
+      json.segments[3],
+      { label: 4, points: points[3], vertices: points[3], persistence: 4.5, role: "object", on: { segment: 1 } },
+    );
+    assert.deepEqual(json.surfaces, [{ number: 1, role: "support" }, { number: 2, role: "wall" }]);
   });
 
-  await t.test("every cut has the program's segments", async () => {
+  await t.test("surfaces are listed apart, and can be switched off", async () => {
+    const rows = page.locator(".legend .surface");
+    assert.deepEqual(await rows.locator(".name").allTextContents(), ["support 1", "wall 2"]);
+    const [support, wall] = (await rows.locator(".count").allTextContents()).map((text) =>
+      Number(text.replaceAll(",", "")),
+    );
+    const none = report.vertexOfPoint.filter((v) => v === 0xffffffff).length;
+    assert.equal(support, none);
+    const all = report.answer.points.reduce((a, b) => a + b, 0) + support + wall;
+    assert.ok(all <= report.vertexOfPoint.length && all > 0.99 * report.vertexOfPoint.length);
+    await page.mouse.move(2, 2);
+    // Paler than any segment: what is vivid, too, is taken off.
+    const tints = async () => {
+      const pixels = await pixelsOf(page, ".stage");
+      const pale = (colour) => vividPixels(pixels, 10, colour) - vividPixels(pixels, 40, colour);
+      return [pale([147, 164, 185]), pale([185, 172, 147])];
+    };
+    await frame(page);
+    const before = await tints();
+    await rows.nth(1).locator("input").uncheck();
+    await frame(page);
+    const without = await tints();
+    await picture(page, "scene_without_wall");
+    assert.ok(before[0] > 500 && without[0] < before[0] / 4, `wall: ${before[0]}, ${without[0]}`);
+    assert.ok(without[1] > before[1] / 2, `support: ${before[1]}, ${without[1]}`);
+    await rows.nth(1).locator("input").check();
+    await frame(page);
+    assert.deepEqual(await tints(), before);
+  });
+
+  await t.test("every other cut has the program's segments, and says what it is", async () => {
     for (const cut of [0, 0.01, 0.08, 0.2, 0.3, 0.5]) {
       await page.fill(".cut input[type=number]", String(cut));
       await page.keyboard.press("Enter");
@@ -215,18 +269,20 @@ async function cutOfAScene(t, browser) {
         text,
         `${expected.segments.length} segment${expected.segments.length === 1 ? "" : "s"}`,
       );
-      const counts = await page.$$eval(".legend button.row .count", (rows) =>
-        rows.map((r) => Number(r.textContent.replaceAll(",", ""))),
+      assert.match(
+        await page.textContent(".cut .note"),
+        /^Not the program's answer: .* persistence alone, as with --min-seam 0 --parts\./,
       );
+      assert.equal(await page.locator(".legend .says").count(), 0);
       assert.deepEqual(
-        counts,
+        await countsInLegend(),
         expected.segments.slice(0, 200).map((s) => s.points),
       );
     }
     const json = JSON.parse((await downloaded(page, "JSON")).toString());
     assert.equal(
       json.command,
-      "ph-segment desk.pcd --min-persistence 0.5 --parts --labels labels.npy",
+      "ph-segment desk.pcd --min-persistence 0.5 --min-seam 0 --parts --labels labels.npy",
     );
   });
 

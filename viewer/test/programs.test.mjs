@@ -198,7 +198,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       writeFileSync(join(folder, "table.xyz"), tableScene());
       input = "table.xyz";
     }
-    run(segment, input, "--report", "scene.html", "--json", "scene.json");
+    run(segment, input, "--report", "scene.html", "--json", "scene.json", "--surfaces", "scene.csv");
     // Points of each segment, the largest first.
     const sizes = (json) => JSON.parse(written(json)).segments.map(({ points }) => points);
     const legend = (page) =>
@@ -207,9 +207,20 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       );
     await look(browser, "scene.html", [...kCharts, ".stage", ...kTree], async (page) => {
       assert.deepEqual(await legend(page), sizes("scene.json"), "the program's own cut");
+      const { segments, surfaces } = JSON.parse(written("scene.json"));
+      const titles = await page.$$eval(".legend button.row", (rows) => rows.map((r) => r.title));
+      assert.deepEqual(titles.map((title) => title.split(/[ ,]/)[0]), segments.map(({ role }) => role));
+      const onSurface = written("scene.csv").trim().split("\n").map(Number);
+      assert.deepEqual(
+        await page.$$eval(".legend .surface", (rows) => rows.map((r) => r.textContent.replaceAll(",", ""))),
+        surfaces.map(({ number, role }) => {
+          const points = onSurface.filter((surface) => surface === number).length;
+          return `${role} ${number}${points}`;
+        }),
+      );
       const counts = new Set();
       for (const cut of [0, 0.02, 0.1, 0.5]) {
-        run(segment, input, "--cut", String(cut), "--parts", "--json", "cut.json");
+        run(segment, input, "--cut", String(cut), "--min-seam", "0", "--parts", "--json", "cut.json");
         counts.add(await countAt(page, cut));
         assert.deepEqual(await legend(page), sizes("cut.json"), `at ${cut}`);
       }

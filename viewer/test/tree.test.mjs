@@ -56,7 +56,7 @@ for (const rule of ["persistence", "value"])
       const page = pageTree(arrays, rule, minSize);
       for (const cut of [from, 0.25, 0.4, 0.5, 0.75, 1, 2]) {
         const expected = cutOf(tree, vertexOfPoint, { rule, cut, minPart, minSize });
-        const found = page.cut(cut, false);
+        const found = page.cut(cut);
         assert.deepEqual(
           found.segments.map((s) => s.points),
           expected.segments.map((s) => s.points),
@@ -78,7 +78,7 @@ test("one sweep counts the segments of all cuts", () => {
     const cuts = [0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1, 3];
     assert.deepEqual(
       segmentCounts(page, cuts),
-      cuts.map((cut) => page.cut(cut, false).segments.length),
+      cuts.map((cut) => page.cut(cut).segments.length),
       `seed ${seed}`,
     );
   }
@@ -112,13 +112,81 @@ test("branches nest, and no drawing crosses", () => {
   }
 });
 
-test("joins hold where the program made them", () => {
+test("the program's answer is shown as it is", () => {
   const { tree, vertexOfPoint } = scene(1, false);
   const { arrays } = contracted(tree, vertexOfPoint, { rule: "persistence" });
-  const page = pageTree(arrays, "persistence", 1, { joins: Uint32Array.of(0, page0(arrays) - 1) });
-  assert.equal(page.cut(0, true).segments.length, page.cut(0, false).segments.length - 1);
+  const leaves = arrays["tree/leaf_birth"].length;
+  // The first and the last leaf are segment 2, the second one is on surface 3, all others segment 1.
+  const labels = Uint32Array.from({ length: leaves }, (_, i) =>
+    i === 1 ? 0 : i % (leaves - 1) === 0 ? 2 : 1,
+  );
+  const surfaces = Uint8Array.from({ length: leaves }, (_, i) => (i === 1 ? 3 : 0));
+  const answer = { labels, surfaces, segments: 2 };
+  const page = pageTree(arrays, "persistence", 1000, { answer });
+  const { segments, labelOfLeaf, surfaceOfLeaf } = page.answer(0.5);
+  assert.deepEqual([...labelOfLeaf], [...labels]);
+  assert.deepEqual([...surfaceOfLeaf], [...surfaces]);
+  const sum = (name, label) =>
+    arrays[name].reduce((total, n, leaf) => total + (labels[leaf] === label ? n : 0), 0);
+  assert.deepEqual(
+    segments.map((s) => [s.label, s.points, s.vertices]),
+    [1, 2].map((label) => [label, sum("tree/leaf_points", label), sum("tree/leaf_vertices", label)]),
+  );
+  const births = arrays["tree/leaf_birth"];
+  assert.equal(segments[1].oldestLeaf, births[0] <= births[leaves - 1] ? 0 : leaves - 1);
+  for (const wrong of [{ labels: labels.slice(1) }, { surfaces: surfaces.slice(1) }, { segments: 1 }])
+    assert.throws(() => pageTree(arrays, "persistence", 1, { answer: { ...answer, ...wrong } }), /tree:/);
 });
-const page0 = (arrays) => arrays["tree/leaf_birth"].length;
+
+test("what lies on a plane is no segment, at every cut", () => {
+  for (let seed = 0; seed < 200; ++seed) {
+    const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0);
+    const { arrays, leafOf } = contracted(tree, vertexOfPoint, { rule: "persistence" });
+    const next = random(seed + 1000);
+    // Two planes; of each component the first one counts that has enough of it.
+    const on = [0, 1].map(() => Uint8Array.from(tree.births, () => Number(next() < 0.7)));
+    const counts = new Uint32Array(2 * arrays["tree/leaf_birth"].length);
+    leafOf.forEach((leaf, v) => [0, 1].forEach((p) => (counts[2 * leaf + p] += on[p][v])));
+    const flat = { on: counts, planes: 2, first: 2, least: 0.7 };
+    const page = pageTree(arrays, "persistence", 2, { flat });
+    const cuts = [0, 0.25, 0.5, 0.75, 1];
+    for (const cut of cuts) {
+      const plain = cutOf(tree, vertexOfPoint, { rule: "persistence", cut, minSize: 2 });
+      const share = (p, segment) => {
+        const own = [...vertices(tree, cut)].filter(([, root]) => root === segment.root);
+        return own.reduce((sum, [v]) => sum + on[p][v], 0) / own.length;
+      };
+      const kept = plain.segments.filter((s) => share(0, s) < 0.7 && share(1, s) < 0.7);
+      const found = page.cut(cut);
+      assert.deepEqual(
+        found.segments.map((s) => s.points),
+        kept.map((s) => s.points),
+        `seed ${seed} cut ${cut}`,
+      );
+      for (const s of plain.segments) {
+        const expected = share(0, s) >= 0.7 ? 2 : share(1, s) >= 0.7 ? 3 : 0;
+        assert.equal(found.surfaceOfLeaf[leafOf[s.first]], expected, `seed ${seed} cut ${cut}`);
+      }
+    }
+    assert.deepEqual(
+      segmentCounts(page, cuts),
+      cuts.map((cut) => page.cut(cut).segments.length),
+      `seed ${seed}`,
+    );
+  }
+});
+
+/// By vertex the root that cutOf names its component by.
+function vertices(tree, cut) {
+  const parent = [...tree.births.keys()];
+  const find = (v) => {
+    while (parent[v] !== v) v = parent[v];
+    return v;
+  };
+  for (const m of tree.merges)
+    if (!(m.persistence >= cut)) parent[find(m.youngerEnd)] = find(m.elderEnd);
+  return parent.map((_, v) => [v, find(v)]);
+}
 
 test("300 000 leaves are cut at once", (t) => {
   const next = random(4),
@@ -134,10 +202,10 @@ test("300 000 leaves are cut at once", (t) => {
     "value",
     10,
   );
-  page.cut(0.5, false);
+  page.cut(0.5);
   const times = [0.3, 0.5, 0.7].map((cut) => {
     const start = process.cpuUsage(); // of this process: others may keep the machine busy
-    page.cut(cut, false);
+    page.cut(cut);
     const { user, system } = process.cpuUsage(start);
     return (user + system) / 1000;
   });

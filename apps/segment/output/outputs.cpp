@@ -92,18 +92,11 @@ void Outputs::require_suitable(Index height) const {
   if (!f.picture.empty()) refuse("--picture", "use --coloured");
 }
 
-std::vector<std::uint32_t> Outputs::colours(const Cloud* cloud, const Segmentation& segmentation,
-                                            const RunInfo& info) const {
-  if (!info.numbers.empty()) return object_colours(info.numbers);
-  if (!cloud) return label_colours(segmentation);
-  return segment_colours(neighbouring_segments(*cloud, segmentation));
-}
-
 std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
                           const RunInfo& info, const RunContext& context) const {
   PlotOptions options = arguments_.files.look;
   if (plot.kind == "cloud") {
-    const std::vector<std::uint32_t> palette = colours(cloud, s, info);
+    const std::vector<std::uint32_t> palette = shown_colours(cloud, s, info.numbers);
     CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);
     return app::drawn(plot, with_legend(std::move(seen), palette, info.numbers), options, context);
   }
@@ -127,6 +120,7 @@ report::ScenePage Outputs::report_page(const Cloud* cloud, const Segmentation& s
   command.insert(command.end(), {"--cut", "{cut}"});
   if (s.method == Method::surface) command.insert(command.end(), {"--min-seam", "0", "--parts"});
   command.insert(command.end(), {"--labels", "labels.npy"});
+  page.numbers = info.numbers;
   page.provenance.command = a.command;
   page.provenance.sha256 = info.sha256;
   page.provenance.run = barcode_info(s, info);
@@ -159,11 +153,12 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
     case OutputKind::plot:
       return out.write(plot(*file.plot, cloud, s, info, context));
     case OutputKind::coloured:
-      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(cloud, s, info)),
-                                   cloud_format_of(f.coloured)));
+      return out.write(
+          cloud_bytes(coloured_cloud(*cloud, s.labels, shown_colours(cloud, s, info.numbers)),
+                      cloud_format_of(f.coloured)));
     case OutputKind::picture:
       return out.write(text_of([&](std::ostream& o) {
-        write_png(o, ph::segment::picture(*cloud, s.labels, colours(cloud, s, info)));
+        write_png(o, ph::segment::picture(*cloud, s.labels, shown_colours(cloud, s, info.numbers)));
       }));
     case OutputKind::report:
       return report::write_page([&](std::string_view text) { out.write(text); },

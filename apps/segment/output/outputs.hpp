@@ -60,8 +60,6 @@ class Outputs {
                    const RunInfo& info, const RunContext& context) const;
   report::ScenePage report_page(const Cloud* cloud, const Segmentation& s,
                                 const RunInfo& info) const;
-  std::vector<std::uint32_t> colours(const Cloud* cloud, const Segmentation& segmentation,
-                                     const RunInfo& info) const;
 
   const Arguments& arguments_;
   std::vector<File> files_;

@@ -24,7 +24,7 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most);
 LinkedBars linked_bars(const MergeTree& tree, const Barcode& barcode,
                        std::span<const std::uint32_t> birth_vertices);
 
-/// Writes the arrays tree/…, except joins.
+/// Writes the arrays tree/… that any merge tree has.
 void add_tree(ReportFile& report, const MergeTree& tree, const ContractedTree& contracted,
               const LinkedBars& bars, CutRule rule);
 

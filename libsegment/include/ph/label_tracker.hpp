@@ -11,13 +11,22 @@
 
 namespace ph::segment {
 
+/// What an object is to those who want to take hold of it, over some frames.
+struct Standing {
+  Role role = Role::object;
+  StandsOn on;
+  friend bool operator==(const Standing&, const Standing&) = default;
+};
+
 /// Numbers for the segments of a stream of frames: an object keeps its number from frame to frame.
 ///
 /// A segment takes the number of the object with which it shares most places, largest share first
 /// (of their union), if that is more than a quarter of the smaller of the two; no object is taken
 /// twice. All else gets new numbers, 1, 2, …. An object that no segment took keeps its places, as
-/// far as no segment covers them, and its number for some frames more. O(n log n) a frame; memory
-/// is that of one frame.
+/// far as no segment covers them, and its number for some frames more. Walls and boards have
+/// numbers, too. What an object is, and what it stands on, changes only when three frames in a row
+/// say so: a wall that is a segment in one frame is still a wall. O(n log n) a frame; memory is
+/// that of one frame.
 class LabelTracker {
  public:
   /// @param patience frames for which an object that is not seen is remembered, >= 0.
@@ -35,6 +44,9 @@ class LabelTracker {
   /// @return the number of the object that each segment is: that of label i + 1 at i.
   /// @throws Error (bad_data) if the cut is not one of this scene.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
+  /// What the segments of the last scene are, that of label i + 1 at i. `on` names a surface and a
+  /// segment of that scene. After labels alone: nothing.
+  const std::vector<Standing>& standings() const { return standings_; }
 
  private:
   using Key = std::array<double, 4>;  // size of the raster or of a cube, then where
@@ -44,16 +56,25 @@ class LabelTracker {
   };
   struct Object {
     std::uint32_t number;
-    int unseen;  // frames
+    int unseen = 0;      // frames
+    bool is_new = true;  // in this frame
+    Standing is = {};    // `segment` is the number of an object here
+    Standing said = {};  // by the last frames, if not the same,
+    int times = 0;       // so many in a row
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
-  std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t segments);
+  std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t things,
+                                   std::size_t segments);
+  void settle(const SceneTree& scene, const SceneCut& cut,
+              const std::vector<std::uint32_t>& numbers);
+  Object& object(std::uint32_t number);
 
   int patience_;
   double cell_;
   std::uint32_t next_ = 1;
   std::vector<Place> places_;    // of the objects, by key
   std::vector<Object> objects_;  // by number
+  std::vector<Standing> standings_;
 };
 
 /// How a camera moved between two frames, told from the supporting plane of both: what it does in

@@ -8,6 +8,8 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "options.hpp"
 #include "ph/error.hpp"
@@ -20,6 +22,20 @@ struct Overlap {
   double share;  // of their union
   std::size_t segment, object;
 };
+
+/// The surfaces that were found among the components come after the segments.
+std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
+  return cut.segments.size() + scene.surfaces.size() - static_cast<std::size_t>(scene.removed);
+}
+
+/// Which of them a point belongs to, by its two labels.
+std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cut, std::size_t i) {
+  if (cut.labels[i] != 0) return cut.labels[i] - 1;
+  const std::uint32_t surface = cut.surface_labels[i];
+  if (std::cmp_less_equal(surface, scene.removed)) return std::nullopt;
+  return static_cast<std::uint32_t>(cut.segments.size()) + surface - 1 -
+         static_cast<std::uint32_t>(scene.removed);
+}
 
 }  // namespace
 
@@ -48,7 +64,8 @@ std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> l
     places.push_back({{static_cast<double>(labels.size()), static_cast<double>(i), 0, 0},
                       static_cast<std::uint32_t>(index_of(labels[i]))});
   }
-  const std::vector<std::uint32_t> numbers = match(std::move(places), known.size());
+  standings_.clear();
+  const std::vector<std::uint32_t> numbers = match(std::move(places), known.size(), known.size());
   std::vector<std::uint32_t> result(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (labels[i] != 0) result[i] = numbers[index_of(labels[i])];
@@ -60,27 +77,79 @@ std::vector<std::uint32_t> LabelTracker::update(const SceneTree& scene, const Sc
   std::vector<Place> places;
   if (scene.height > 1) {
     const auto width = static_cast<std::size_t>(scene.width);
-    for (std::size_t i = 0; i < cut.labels.size(); ++i) {
-      if (cut.labels[i] == 0) continue;
-      places.push_back({{-static_cast<double>(scene.width), static_cast<double>(scene.height),
-                         static_cast<double>(i / width), static_cast<double>(i % width)},
-                        cut.labels[i] - 1});
-    }
+    for (std::size_t i = 0; i < cut.labels.size(); ++i)
+      if (const auto thing = thing_at(scene, cut, i))
+        places.push_back({{-static_cast<double>(scene.width), static_cast<double>(scene.height),
+                           static_cast<double>(i / width), static_cast<double>(i % width)},
+                          *thing});
   } else {
     places = cubes(scene, cut);
   }
-  return match(std::move(places), cut.segments.size());
+  std::vector<std::uint32_t> numbers =
+      match(std::move(places), things_in(scene, cut), cut.segments.size());
+  settle(scene, cut, numbers);
+  numbers.resize(cut.segments.size());
+  return numbers;
 }
 
-/// The cubes in which a segment has more points than any other.
+LabelTracker::Object& LabelTracker::object(std::uint32_t number) {
+  return *std::ranges::lower_bound(objects_, number, {}, &Object::number);
+}
+
+/// What each thing is from now on, by what this frame and those before it say.
+void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
+                          const std::vector<std::uint32_t>& numbers) {
+  constexpr int frames = 3;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    Standing now;
+    if (i < cut.segments.size()) {
+      now = {cut.segments[i].role, cut.segments[i].on};
+      if (now.on.segment != 0) now.on.segment = numbers[now.on.segment - 1];
+    } else {
+      now.role =
+          scene.surfaces[i - cut.segments.size() + static_cast<std::size_t>(scene.removed)].role;
+    }
+    if (numbers[i] == 0) continue;
+    Object& known = object(numbers[i]);
+    if (now == known.is) {
+      known.times = 0;
+      continue;
+    }
+    known.times = known.times > 0 && now == known.said ? known.times + 1 : 1;
+    known.said = now;
+    if (known.is_new || known.times == frames) {
+      known.is = now;
+      known.times = 0;
+    }
+  }
+  standings_.clear();
+  for (const Segment& segment : cut.segments) {
+    Standing standing = object(numbers[standings_.size()]).is;
+    // What it stood on may not be there.
+    if (standing.on.segment != 0) {
+      const auto lower = std::ranges::find(numbers, standing.on.segment) - numbers.begin();
+      if (lower < std::ssize(cut.segments))
+        standing.on.segment = static_cast<std::uint32_t>(lower + 1);
+      else
+        standing.on = segment.on;
+    } else if (const std::uint32_t s = standing.on.surface;
+               s > scene.surfaces.size() ||
+               (s != 0 && scene.surfaces[s - 1].role != Role::support)) {
+      standing.on = segment.on;
+    }
+    standings_.push_back(standing);
+  }
+}
+
+/// The cubes in which a segment, or a surface, has more points than any other.
 std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
                                                      const SceneCut& cut) const {
   std::map<Key, std::map<std::uint32_t, Index>> points;
   const float* p = scene.xyz.data();
-  for (const std::uint32_t vertex : scene.vertex_of_point) {
-    if (const std::uint32_t label = cut.vertex_labels[vertex]; label != 0)
+  for (const Index point : scene.points) {
+    if (const auto thing = thing_at(scene, cut, static_cast<std::size_t>(point)))
       ++points[{cell_, std::floor(p[2] / cell_), std::floor(p[1] / cell_),
-                std::floor(p[0] / cell_)}][label - 1];
+                std::floor(p[0] / cell_)}][*thing];
     p += 3;
   }
   std::vector<Place> places;
@@ -92,15 +161,17 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// @param places of segments, by key.
-std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t segments) {
+/// @param places of things, by key. @param segments so many of the things have a number whether
+/// they have places or not. @return by thing its number; 0: none.
+std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
+                                               std::size_t segments) {
   constexpr double least = 0.25;  // of the smaller one
-  std::vector<double> size_of_segment(segments), size_of_object(objects_.size());
+  std::vector<double> size_of_thing(things), size_of_object(objects_.size());
   const auto index_of = [&](std::uint32_t number) {
     return static_cast<std::size_t>(
         std::ranges::lower_bound(objects_, number, {}, &Object::number) - objects_.begin());
   };
-  for (const Place& p : places) ++size_of_segment[p.number];
+  for (const Place& p : places) ++size_of_thing[p.number];
   for (const Place& p : places_) ++size_of_object[index_of(p.number)];
 
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
@@ -116,29 +187,33 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   }
   std::vector<Overlap> overlaps;
   for (const auto& [both, count] : shared) {
-    const double a = size_of_segment[both.first], b = size_of_object[both.second];
+    const double a = size_of_thing[both.first], b = size_of_object[both.second];
     if (count > least * std::min(a, b))
       overlaps.push_back({count / (a + b - count), both.first, both.second});
   }
   std::ranges::stable_sort(overlaps, std::ranges::greater(), &Overlap::share);
 
-  std::vector<std::uint32_t> numbers(segments, 0);
+  std::vector<std::uint32_t> numbers(things, 0);
   std::vector<bool> taken(objects_.size());
   for (const Overlap& o : overlaps) {
     if (numbers[o.segment] != 0 || taken[o.object]) continue;
     numbers[o.segment] = objects_[o.object].number;
     taken[o.object] = true;
   }
-  for (std::uint32_t& number : numbers)
-    if (number == 0) number = next_++;
+  const std::uint32_t first_new = next_;
+  for (std::size_t i = 0; i < things; ++i)
+    if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
   // What is remembered: the segments, and what was seen not long ago and is not covered.
   std::vector<Object> remembered;
-  for (const std::uint32_t number : numbers) remembered.push_back({number, 0});
-  for (std::size_t i = 0; i < objects_.size(); ++i)
-    if (!taken[i] && objects_[i].unseen < patience_)
-      remembered.push_back({objects_[i].number, objects_[i].unseen + 1});
-  std::ranges::sort(remembered, {}, &Object::number);
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    Object known = objects_[i];
+    known.unseen = taken[i] ? 0 : known.unseen + 1;
+    known.is_new = false;
+    if (known.unseen <= patience_) remembered.push_back(known);
+  }
+  for (const std::uint32_t number : numbers)
+    if (number >= first_new) remembered.push_back({number});
   std::erase_if(uncovered, [&](const Place& p) {
     const std::size_t i = index_of(p.number);
     return taken[i] || objects_[i].unseen >= patience_;

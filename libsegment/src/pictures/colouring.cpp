@@ -140,6 +140,12 @@ std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers
   return colours;
 }
 
+std::vector<std::uint32_t> shown_colours(const Cloud* cloud, const SceneCut& cut,
+                                         std::span<const std::uint32_t> numbers) {
+  if (!numbers.empty()) return object_colours(numbers);
+  return cloud ? segment_colours(neighbouring_segments(*cloud, cut)) : label_colours(cut);
+}
+
 Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,
                      std::span<const std::uint32_t> colours) {
   const std::vector<float> xyz = cloud.xyz();

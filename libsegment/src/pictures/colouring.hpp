@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ph/detail/io/cloud_data.hpp"
@@ -23,6 +24,11 @@ std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::si
 
 /// The same palette by the number of an object, from 1: it keeps its colour in a stream.
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
+
+/// The colours of the segments in pictures and reports: by number where they have `numbers`, else
+/// such that neighbours differ. @param cloud null: a stored tree was cut.
+std::vector<std::uint32_t> shown_colours(const Cloud* cloud, const SceneCut& cut,
+                                         std::span<const std::uint32_t> numbers);
 
 /// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, near is bright.
 std::vector<int> brightness(const Cloud& cloud);

@@ -14,8 +14,6 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kLeastShare = 0.85;  // of a surface on its plane
-
 using Voxels = std::vector<Index>;
 
 /// The voxels of each part.
@@ -56,7 +54,7 @@ std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& suppo
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
     const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);
-    if (!plane || plane->share < kLeastShare) continue;
+    if (!plane || plane->share < kLeastShareOnSurface) continue;
     const double cosine = cosine_between(*plane, support);
     if (std::abs(cosine) < most_of_a_wall && bounds_the_view(*plane, cloud))
       found.push_back({Role::wall, *plane});
@@ -80,10 +78,25 @@ std::vector<std::uint8_t> surfaces_of(const SceneTree& scene,
     std::uint8_t& surface = surfaces[static_cast<std::size_t>(component_of[parts.example[p]])];
     for (std::size_t s = first; s < scene.surfaces.size() && surface == 0; ++s)
       if (share_on(scene.surfaces[s].plane, scene.vertices, voxels[p], scene.viewpoint) >=
-          kLeastShare)
+          kLeastShareOnSurface)
         surface = static_cast<std::uint8_t>(s + 1);
   }
   return surfaces;
+}
+
+std::vector<std::uint32_t> voxels_on_surfaces(const SceneTree& scene,
+                                              std::span<const std::uint32_t> group_of,
+                                              std::size_t groups) {
+  const auto first = static_cast<std::size_t>(scene.removed);
+  std::vector<Voxels> voxels(groups);
+  for (std::size_t v = 0; v < group_of.size(); ++v)
+    if (group_of[v] < groups) voxels[group_of[v]].push_back(static_cast<Index>(v));
+  std::vector<std::uint32_t> counts;
+  for (const Voxels& of_group : voxels)
+    for (std::size_t s = first; s < scene.surfaces.size(); ++s)
+      counts.push_back(static_cast<std::uint32_t>(
+          count_on(scene.surfaces[s].plane, scene.vertices, of_group, scene.viewpoint)));
+  return counts;
 }
 
 }  // namespace ph::segment

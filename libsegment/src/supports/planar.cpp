@@ -73,13 +73,18 @@ std::optional<Plane> plane_through(const Points& centroids, const Points& normal
   return found;
 }
 
-double share_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
-                const Vec3& viewpoint) {
+Index count_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
+               const Vec3& viewpoint) {
   const Candidate candidate{Eigen::Vector3d(plane.normal.data()), plane.offset};
   const Eigen::Vector3d eye(viewpoint.data());
-  const auto on = std::ranges::count_if(
-      voxels, [&](Index v) { return is_on(candidate, row(centroids, v), eye); });
-  return static_cast<double>(on) / static_cast<double>(voxels.size());
+  return std::ranges::count_if(voxels,
+                               [&](Index v) { return is_on(candidate, row(centroids, v), eye); });
+}
+
+double share_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
+                const Vec3& viewpoint) {
+  return static_cast<double>(count_on(plane, centroids, voxels, viewpoint)) /
+         static_cast<double>(voxels.size());
 }
 
 }  // namespace ph::segment

@@ -17,7 +17,10 @@ double flatness(double square_of_range);
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint);
 
-/// The share of the voxels that lie on a plane.
+/// How many of the voxels lie on a plane.
+Index count_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
+               const Vec3& viewpoint);
+/// The share of them.
 double share_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
                 const Vec3& viewpoint);
 

@@ -3,5 +3,7 @@
 from ._objects import Objects, SceneSurface, Segment
 from ._segment import segment
 from ._segmentation import Segmentation, Voxels
+from ._tracker import LabelTracker, Tracked
 
-__all__ = ["Objects", "SceneSurface", "Segment", "Segmentation", "Voxels", "segment"]
+__all__ = ["LabelTracker", "Objects", "SceneSurface", "Segment", "Segmentation", "Tracked",
+           "Voxels", "segment"]

@@ -186,12 +186,16 @@ def _numbers(values: Iterable[float]) -> str:
     return ", ".join(f"{x:.3f}" for x in values)
 
 
+def standing_on(surface: int, label: int) -> tuple[str, int] | None:
+    """What _core calls a surface, from 1, or a label."""
+    return ("surface", surface - 1) if surface else ("object", label) if label else None
+
+
 def segment_of(facts: dict[str, Any]) -> Segment:
     """Of what _core knows of it."""
     arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
     for array in arrays.values():
         array.flags.writeable = False
-    surface, label = facts["on"]
-    on = ("surface", surface - 1) if surface else ("object", label) if label else None
+    on = standing_on(*facts["on"])
     return Segment(facts["label"], facts["points"], facts["voxels"], facts["persistence"],
                    neighbours=tuple(facts["neighbours"]), role=facts["role"], on=on, **arrays)

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "ph/detail/io/output_file.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/plot.hpp"
+#include "ph/label_tracker.hpp"
 #include "pictures/cloud_legend.hpp"
 #include "pictures/colouring.hpp"
 #include "results/bars.hpp"
@@ -239,6 +241,27 @@ std::string svg(const SegmentedScene& scene, const RunOptions& options) {
   });
 }
 
+// ---- over frames
+
+using Tracked = std::tuple<std::uint32_t, std::string, std::array<std::uint32_t, 2>>;
+
+/// The number, the role and the support (a surface or a segment) of each object.
+std::vector<Tracked> track(segment::LabelTracker& tracker, const SegmentedScene& scene) {
+  const std::vector<std::uint32_t> numbers = tracker.update(scene.result, scene.result);
+  std::vector<Tracked> objects;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const segment::Standing& standing = tracker.standings()[i];
+    objects.emplace_back(numbers[i], std::string(role_name(standing.role)),
+                         std::array{standing.on.surface, standing.on.segment});
+  }
+  return objects;
+}
+
+/// @param labels uint32, in C order, flat.
+Block track_labels(segment::LabelTracker& tracker, const py::buffer& labels) {
+  return Block::of(tracker.update(vector_of<std::uint32_t>(labels)));
+}
+
 }  // namespace
 
 void bind_segmentations(py::module_& m) {
@@ -319,6 +342,10 @@ void bind_segmentations(py::module_& m) {
       .def("tree_file", &tree_file)
       .def("state", [](const SegmentedScene& s) { return state_of(s); })
       .def_static("from_state", &scene_of_state, py::arg("state"), py::arg("run"));
+  py::class_<segment::LabelTracker>(m, "LabelTracker")
+      .def(py::init<int, double>(), py::arg("patience"), py::arg("cell"))
+      .def("update", &track, py::arg("scene"))
+      .def("update_labels", &track_labels, py::arg("labels"));
   m.def("segment", &segment_cloud, py::arg("cloud"), py::arg("options"), py::arg("run"));
   m.def("read_scene", &read_scene, py::arg("path"), py::arg("run"));
 }

@@ -96,7 +96,7 @@ class Report:
     def bars(self, prefix="bars"):
         return list(zip(self[f"{prefix}/dim"], self[f"{prefix}/birth"], self[f"{prefix}/death"]))
 
-    def leaf_labels(self, cut, joined=False):
+    def leaf_labels(self, cut):
         """The segment of each leaf in a cut: 0 none, else by decreasing number of points."""
         rule = self.meta["tree"]["rule"]
         leaves = len(self["tree/leaf_birth"])
@@ -116,9 +116,8 @@ class Report:
                                self["tree/merge_level"]):
             if (level < cut if rule == "persistence" else level <= cut):
                 join(a, b)
-        if joined:
-            for a, b in self.arrays["tree/joins"].rows():
-                join(a, b)
+        planes = self.arrays["tree/leaf_on"].rows() if "tree/leaf_on" in self else [()] * leaves
+        on = {}
         sizes = {}
         for leaf in range(leaves):
             if rule == "value" and self["tree/leaf_birth"][leaf] > cut:
@@ -126,14 +125,32 @@ class Report:
             size = sizes.setdefault(find(leaf), [0, 0])
             size[0] += self["tree/leaf_points"][leaf]
             size[1] += self["tree/leaf_vertices"][leaf]
-        kept = [r for r, size in sizes.items() if size[1] >= self.meta["tree"]["min_size"]]
+            on[find(leaf)] = [a + b for a, b in zip(on.get(find(leaf), [0] * len(planes[leaf])),
+                                                    planes[leaf])]
+        least = self.meta.get("scene", {}).get("flat", 2)
+        kept = [r for r, size in sizes.items() if size[1] >= self.meta["tree"]["min_size"]
+                and not any(n / size[1] >= least for n in on[r])]
         kept.sort(key=lambda r: (-sizes[r][0], -sizes[r][1], r))
         label = {root: i + 1 for i, root in enumerate(kept)}
         return [label.get(find(leaf), 0) for leaf in range(leaves)]
 
-    def point_labels(self, cut, points, joined=False):
+    def point_labels(self, cut, points):
         """The same for each point of the input. @param points how many there are."""
-        of_leaf = self.leaf_labels(cut, joined)
+        return self._of_points(self.leaf_labels(cut), points)
+
+    def answer(self, points):
+        """What the program says of each point, and the surface that it is on."""
+        numbers = [0] + [s["number"] for s in self.meta["scene"]["segments"]]
+        labels = [numbers[label] for label in self["tree/leaf_label"]]
+        surfaces = self._of_points(self["tree/leaf_surface"], points)
+        index = self["points/index"] if "points/index" in self else range(points)
+        removed = self["points/surface"] if "points/surface" in self else []
+        for i, surface in zip(index, removed):
+            assert surface == 0 or surfaces[i] == 0
+            surfaces[i] += surface
+        return self._of_points(labels, points), surfaces
+
+    def _of_points(self, of_leaf, points):
         none = 2 ** 16 - 1 if self.arrays["points/leaf"].type == "u16" else NONE
         labels = [0] * points
         index = self["points/index"] if "points/index" in self else range(points)

@@ -17,6 +17,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 import program  # noqa: E402
 from program import ProgramTest, has_page, main  # noqa: E402
 from report_reader import NONE, Report  # noqa: E402
+from room import room  # noqa: E402
 
 SCENES = sys.argv.pop(2)
 SCENE = os.path.abspath(os.path.join(SCENES, "test57.pcd"))  # parts that touch, many
@@ -53,19 +54,36 @@ class Reports(ProgramTest):
         self.expect(0, *arguments, "--labels", "l.csv", "--quiet")
         return [int(line) for line in self.read("l.csv").split()]
 
+    def expect_answer(self, scene, *options):
+        """The page opens with the labels, the surfaces and the words of the other outputs."""
+        own = self.labels(scene, *options, "--report", "r.html", "--surfaces", "s.csv", "--json",
+                          "s.json")
+        report, summary = Report(self.path("r.html")), json.loads(self.read("s.json"))
+        labels, surfaces = report.answer(len(own))
+        self.assertEqual(labels, own)
+        if not scene.endswith(".tree"):  # a stored tree has no points of what was removed
+            self.assertEqual(surfaces, [int(line) for line in self.read("s.csv").split()])
+        self.assertEqual([s["role"] for s in report.meta["scene"]["surfaces"]],
+                         [s["role"] for s in summary["surfaces"]])
+        said = [(s["number"], s["role"], s["persistence"], s.get("on_surface"),
+                 s.get("on_segment")) for s in report.meta["scene"]["segments"]]
+        on = [s["on"] or {} for s in summary["segments"]]
+        self.assertEqual(said, [(s["label"], s["role"], s["persistence"], o.get("surface"),
+                                 o.get("segment")) for s, o in zip(summary["segments"], on)])
+        return report
+
     def expect_cuts(self, scene, options, cuts):
         """The page's segments of some cuts are the program's, at every point."""
-        own = self.labels(scene, *options, "--report", "r.html")
-        report = Report(self.path("r.html"))
+        report = self.expect_answer(scene, *options)
         tree = report.meta["tree"]
-        self.assertEqual(report.point_labels(tree["cut"], len(own), joined=True), own)
+        points = len(self.read("l.csv").split())
         counts = set()
         for cut in cuts:
             words = [w.replace("{cut}", repr(cut)) for w in tree["command"][1:]]
             words[-1] = "l.csv"
             self.expect(0, *words, "--quiet")
             expected = [int(line) for line in self.read("l.csv").split()]
-            self.assertEqual(report.point_labels(cut, len(own)), expected, f"{options} {cut}")
+            self.assertEqual(report.point_labels(cut, points), expected, f"{options} {cut}")
             counts.add(max(expected))
         return report, counts
 
@@ -86,6 +104,49 @@ class Reports(ProgramTest):
         _, counts = self.expect_cuts(SCENE, ["--method", "paper", "--distance", "0.03"],
                                      (0.01, 0.02, 0.03))
         self.assertGreaterEqual(len(counts), 2)
+
+    def test_roles_surfaces_and_every_cut_of_a_room(self):
+        self.write("room.pcd", room())
+        options = ["--max-range", "3", "--min-part", "40", "--min-persistence", "0.5"]
+        report, counts = self.expect_cuts("room.pcd", options, (0.0, 0.3, 1.0, 8.0, 60.0))
+        self.assertEqual(counts, {2, 3})
+        scene = report.meta["scene"]
+        self.assertEqual([s["role"] for s in scene["surfaces"]], ["support", "wall"])
+        self.assertEqual((scene["removed"], scene["min_seam"], scene["objects"]), (1, 2, True))
+        self.assertEqual([(s.get("on_surface"), s.get("on_segment")) for s in scene["segments"]],
+                         [(1, None), (1, None), (None, 1)])
+        self.assertEqual(set(report["tree/leaf_surface"]), {0, 2})
+        self.assertEqual(set(report["points/surface"]), {0, 1})
+
+    def test_an_answer_that_no_cut_of_the_tree_gives(self):
+        self.write("room.pcd", room())
+        options = ["--max-range", "3", "--min-part", "40", "--min-persistence", "0.5"]
+        report = self.expect_answer("room.pcd", *options, "--min-seam", "80")
+        tree = report.meta["tree"]
+        labels, _ = report.answer(240 * 180)
+        self.assertEqual(max(labels), 2)
+        self.assertEqual(max(report.point_labels(tree["cut"], 240 * 180)), 3)
+        command = [w.replace("{cut}", "0.5") for w in tree["command"][1:]]
+        self.assertEqual(command[-6:-2], ["0.5", "--min-seam", "0", "--parts"])
+        self.expect(0, *command[:-1], "l.csv", "--quiet")
+        self.assertEqual([int(line) for line in self.read("l.csv").split()],
+                         report.point_labels(tree["cut"], 240 * 180))
+
+    def test_a_stream_has_the_numbers_and_colours_of_its_objects(self):
+        self.write("a.pcd", room(seed=1))
+        self.write("b.pcd", table_scene())
+        self.write("c.pcd", room(seed=2))
+        self.expect(0, "a.pcd", "b.pcd", "c.pcd", "--report", "all/", "--json", "all.jsonl",
+                    "--stable-labels", "--max-range", "3", "--min-part", "40", "--quiet")
+        palette = ["#e69f00", "#0072b2", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"]
+        numbers = set()
+        for name, line in zip("abc", self.read("all.jsonl").splitlines()):
+            said = Report(self.path(f"all/{name}.html")).meta["scene"]["segments"]
+            expected = [s["label"] for s in json.loads(line)["segments"]]
+            self.assertEqual([s["number"] for s in said], expected, name)
+            self.assertEqual([s["colour"] for s in said], [palette[(n - 1) % 7] for n in expected])
+            numbers.update(expected)
+        self.assertGreater(max(numbers), 3)
 
     def test_points_are_those_of_the_input(self):
         self.expect(0, "scene.pcd", "--report", "r.html", "--json", "s.json")
@@ -133,11 +194,8 @@ class Reports(ProgramTest):
         self.assertEqual(sorted(named), list(range(len(bars))))
 
     def test_a_stored_tree_has_a_report_too(self):
-        own = self.labels("scene.pcd", "--tree", "s.tree")
-        self.expect(0, "s.tree", "--report", "r.html", "--quiet")
-        report = Report(self.path("r.html"))
-        self.assertEqual(report.point_labels(report.meta["tree"]["cut"], len(own), joined=True),
-                         own)
+        self.labels("scene.pcd", "--tree", "s.tree")
+        report = self.expect_answer("s.tree")
         self.assertEqual(report.meta["tree"]["command"][:2], ["ph-segment", "s.tree"])
         self.assertNotIn("points/rgb", report)
 

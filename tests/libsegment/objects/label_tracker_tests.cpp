@@ -55,6 +55,108 @@ TEST(LabelTracker, LabelsAreNumbersAsTheyLike) {
   EXPECT_EQ(tracker.update(Labels{1, 1, 0, 2, 2, 2}), (Labels{2, 2, 0, 1, 1, 1}));
 }
 
+/// A frame of two rows: labels of segments, surfaces that were found (from 2; the first was
+/// removed), what each segment stands on.
+struct Frame : Segmentation {
+  Frame(const Labels& drawn, std::vector<std::uint8_t> found, std::vector<Standing> standing,
+        std::vector<Role> roles = {Role::wall}) {
+    width = static_cast<Index>(drawn.size() / 2);
+    height = 2;
+    labels = drawn;
+    surface_labels = std::move(found);
+    removed_with.resize(drawn.size());
+    removed = 1;
+    vertices = normals = Points(0, 3);
+    surfaces.push_back({Role::support, {}});
+    for (const Role role : roles) surfaces.push_back({role, {}});
+    for (const Standing& s : standing) {
+      Segment& segment = segments.emplace_back();
+      segment.label = static_cast<std::uint32_t>(segments.size());
+      segment.role = s.role;
+      segment.on = s.on;
+    }
+  }
+};
+
+constexpr Standing kOnTable{Role::object, {1, 0}}, kNowhere{Role::unknown, {}};
+const std::vector<std::uint8_t> kNoWall(8);
+
+TEST(LabelTracker, ARoleAndASupportChangeAfterThreeFramesThatSaySo) {
+  const Labels one = {1, 1, 1, 0, 1, 1, 1, 0};
+  const Frame stands(one, kNoWall, {kOnTable}), hidden(one, kNoWall, {kNowhere});
+  LabelTracker tracker;
+  const auto seen = [&](const Frame& frame) {
+    EXPECT_EQ(tracker.update(frame, frame), Labels{1});
+    return tracker.standings().front();
+  };
+  EXPECT_EQ(seen(hidden), kNowhere) << "there is nothing to hold on to in the first frame";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(seen(stands), kNowhere);
+  EXPECT_EQ(seen(hidden), kNowhere) << "now they have to begin anew";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(seen(stands), kNowhere);
+  EXPECT_EQ(seen(stands), kOnTable);
+  EXPECT_EQ(seen(hidden), kOnTable);
+  const Frame leans(one, kNoWall, {{Role::object, {}}});
+  EXPECT_EQ(seen(leans), kOnTable);
+  EXPECT_EQ(seen(hidden), kOnTable) << "three frames, but they do not say the same";
+}
+
+TEST(LabelTracker, AWallThatIsASegmentForAFrameIsStillAWall) {
+  const Labels object = {1, 1, 0, 0, 1, 1, 0, 0}, both = {1, 1, 2, 2, 1, 1, 2, 2};
+  const Frame wall(object, {0, 0, 2, 2, 0, 0, 2, 2}, {kOnTable});
+  const Frame segment(both, kNoWall, {kOnTable, kNowhere}, {});
+  LabelTracker tracker;
+  const auto role_of_second = [&] {
+    EXPECT_EQ(tracker.update(segment, segment), (Labels{1, 2}));
+    EXPECT_EQ(tracker.standings()[0], kOnTable);
+    return tracker.standings()[1].role;
+  };
+  EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  EXPECT_EQ(role_of_second(), Role::wall);
+  EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(role_of_second(), Role::wall);
+  EXPECT_EQ(role_of_second(), Role::unknown) << "the third frame in a row";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  EXPECT_EQ(role_of_second(), Role::unknown);
+}
+
+TEST(LabelTracker, WhatAnObjectStandsOnIsKnownByItsNumber) {
+  const Frame other({0, 0, 0, 1, 0, 0, 0, 1}, kNoWall, {kOnTable});
+  const Frame all({1, 1, 2, 3, 1, 1, 2, 3}, kNoWall, {kOnTable, {Role::object, {0, 1}}, kOnTable});
+  const Frame swapped({2, 2, 1, 3, 2, 2, 1, 3}, kNoWall, {kNowhere, kOnTable, kOnTable});
+  LabelTracker tracker;
+  tracker.update(other, other);
+  EXPECT_EQ(tracker.update(all, all), (Labels{2, 3, 1}));
+  EXPECT_EQ(tracker.update(swapped, swapped), (Labels{3, 2, 1}));
+  EXPECT_EQ(tracker.standings().front(), (Standing{Role::object, {0, 2}}));
+}
+
+TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
+  const Labels stack = {1, 1, 2, 0, 1, 1, 2, 0}, swapped = {2, 2, 1, 0, 2, 2, 1, 0};
+  const Standing on_first{Role::object, {0, 1}}, on_second{Role::object, {0, 2}};
+  const Frame first(stack, kNoWall, {kOnTable, on_first});
+  LabelTracker tracker;
+  tracker.update(first, first);
+  // The labels change places. What is below is seen as standing on what is above, for a frame.
+  const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
+  EXPECT_EQ(tracker.update(wrong, wrong), (Labels{2, 1}));
+  EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));
+  // What it stood on is not there: then it is what this frame says.
+  const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
+  EXPECT_EQ(tracker.update(alone, alone), Labels{2});
+  EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));
+  // So it is if the surface has become something else, or is none.
+  const Frame on_board({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {{Role::object, {2, 0}}},
+                       {Role::support});
+  const Frame by_wall({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {kOnTable});
+  const Frame bare({1, 1, 0, 0, 1, 1, 0, 0}, kNoWall, {kOnTable}, {});
+  for (const Frame* other : {&by_wall, &bare}) {
+    LabelTracker fresh;
+    fresh.update(on_board, on_board);
+    fresh.update(*other, *other);
+    EXPECT_EQ(fresh.standings().front(), kOnTable);
+  }
+}
+
 TEST(LabelTracker, VoxelsOfAnotherSizeShowTheSameObjects) {
   const Cloud cloud = test::TableScene::two_boxes().cloud();
   LabelTracker tracker;

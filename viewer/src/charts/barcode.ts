@@ -129,7 +129,7 @@ export class Barcode extends BarChart {
     for (const group of closeTogether(numbered)) {
       const x = 3 + Math.max(...group.map((item) => item.x2 + reachOf(item)));
       const y = group[0]!.y + group[0]!.row / 2; // the next group is far enough from it
-      const own = group.map((item) => numbers.get(item.bar)!);
+      const own = group.map((item) => this.session.numberOf(numbers.get(item.bar)!));
       pen.text(x, y + 3.5, asManyAsFit(own, (this.size.width - x) / kDigit), {
         colour: this.session.theme.muted,
         size: kNumber,

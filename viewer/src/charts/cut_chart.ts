@@ -5,7 +5,7 @@ import { Chart } from "./chart";
 import { button, el, table, type Size } from "../common/dom";
 import { CutScale, segmentCounts } from "../model/cuts";
 import { counted, exact, grouped, short } from "../common/number_format";
-import { kindOfSegment } from "../model/words";
+import { kindOfSegment, listed } from "../model/words";
 import type { Pen } from "./pen";
 import type { Change, Session } from "../model/session";
 
@@ -67,7 +67,7 @@ export class CutChart extends Chart {
         ...this.shortcuts(meta.cut),
       );
     this.body.after(this.slider);
-    if (session.report.tree!.hasJoins) this.panel.append(el("p", { class: "note" }, this.note()));
+    if (this.note()) this.panel.append(el("p", { class: "note" }, this.note()));
     session.onChange((changes) => changes.has("cut") && this.show());
     session.onShown(
       (milliseconds) => (this.outcome.title = `cut and coloured in ${milliseconds.toFixed(1)} ms`),
@@ -154,11 +154,19 @@ export class CutChart extends Chart {
       ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
+  /// What the program's answer has beyond a cut of the tree; empty: nothing.
   private note(): string {
-    const at = exact(this.session.report.meta.tree!.cut);
-    return this.session.isJoined
-      ? `At ${at}, the program's own cut, parts of one object are joined. Other cuts show parts, as --parts does.`
-      : `Parts, as --parts gives them. What makes an object was found at ${at} only.`;
+    const { meta } = this.session.report;
+    const { min_seam = 0, objects = false } = meta.scene ?? {};
+    const rules = [
+      ...(min_seam > 0 ? [`basins over weak seams (--min-seam ${exact(min_seam)})`] : []),
+      ...(objects ? ["parts of one object"] : []),
+    ];
+    if (rules.length === 0) return "";
+    const options = [...(min_seam > 0 ? ["--min-seam 0"] : []), ...(objects ? ["--parts"] : [])].join(" ");
+    return this.session.isAnswer
+      ? `This is the program's answer: at ${exact(meta.tree!.cut)} it joins ${listed(rules)}. Other cuts, and the curve, go by persistence alone, as with ${options}.`
+      : `Not the program's answer: this cut goes by persistence alone, as with ${options}. “program's cut” goes back to it.`;
   }
   private show(): void {
     const { session } = this;

@@ -8,13 +8,14 @@ import type { Session } from "../model/session";
 /// side; else beside them.
 export function drawNumbers(pen: Pen, session: Session, { x, y }: Places): void {
   const labelPlaces = new LabelPlaces();
-  for (const [bar, number] of session.numbers()) {
+  for (const [bar, label] of session.numbers()) {
+    const number = String(session.numberOf(label));
     if (!session.isShown(bar)) continue;
     const beneath = session.report.bars.isInfinite(bar);
     const at = x[bar]! + (beneath ? 0 : 11),
       base = y[bar]! + (beneath ? 15 : 3.5);
-    if (!labelPlaces.take(at, base, String(number))) continue;
-    pen.text(at, base, String(number), {
+    if (!labelPlaces.take(at, base, number)) continue;
+    pen.text(at, base, number, {
       colour: session.theme.muted,
       size: 9.5,
       anchor: "middle",

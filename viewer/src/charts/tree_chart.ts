@@ -114,10 +114,11 @@ export class TreeChart extends Chart {
     const numbers = this.session.numbers(),
       labelPlaces = new LabelPlaces();
     for (const d of this.drawn) {
-      const number = numbers.get(this.barOf(d.branch));
-      if (number === undefined || this.isMerged(d.branch)) continue;
-      if (labelPlaces.take(d.x, d.y1 + 11, String(number)))
-        pen.text(d.x, Math.min(d.y1 + 11, this.size.height - 2), String(number), {
+      const label = numbers.get(this.barOf(d.branch));
+      if (label === undefined || this.isMerged(d.branch)) continue;
+      const number = String(this.session.numberOf(label));
+      if (labelPlaces.take(d.x, d.y1 + 11, number))
+        pen.text(d.x, Math.min(d.y1 + 11, this.size.height - 2), number, {
           colour: this.session.theme.muted,
           size: 10.5,
           anchor: "middle",
@@ -150,7 +151,7 @@ export class TreeChart extends Chart {
       short(shownValue(meta, tree.death(b)), 6),
       tree.parentOf[b] === kNone ? "" : tree.parentOf[b]!,
       tree.arrays.points[b]!,
-      this.session.cut?.labelOfLeaf[b] || "",
+      this.session.numberOf(this.session.cut?.labelOfLeaf[b] ?? 0) || "",
     ]);
     return table(
       "Branches, the most persistent first",

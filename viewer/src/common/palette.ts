@@ -57,6 +57,18 @@ export function hex([r, g, b]: Rgb): string {
   return "#" + [r, g, b].map((c) => Math.round(c).toString(16).padStart(2, "0")).join("");
 }
 
+export function fromHex(text: string): Rgb {
+  return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)) as Rgb;
+}
+
+/// What bounds a scene, by role: colours that no segment has.
+export const kSurfaces = { support: "#b9ac93", wall: "#93a4b9" } as const;
+
+/// Which of the seven colours of segments it is; -1: none of them.
+export function numberOfColour([r, g, b]: Rgb): number {
+  return kSegments.indexOf((r << 16) | (g << 8) | b);
+}
+
 /// The seven colours, then lighter and darker ones, so that there is always another one.
 export function segmentColour(i: number): Rgb {
   const base = kSegments[i % kSegments.length]!;

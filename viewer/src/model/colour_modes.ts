@@ -31,6 +31,6 @@ export function colourModesOf(report: Report): [ColourMode, string][] {
 /// Whether the program's cut has more than one large part; what ph-segment found is always shown.
 function hasParts({ tree, meta }: Report): boolean {
   if (!tree || meta.tree?.command) return !!tree;
-  const [first, second] = tree.cut(meta.tree!.cut, false).segments;
+  const [first, second] = tree.cut(meta.tree!.cut).segments;
   return second !== undefined && second.points >= kLeastPart * first!.points;
 }

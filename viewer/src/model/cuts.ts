@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where to cut: how many branches a cut separates, and the widest gap between their persistences.
 import { DisjointSets, numbered } from "./disjoint_sets";
+import { FlatSets } from "./flat_sets";
 import type { MergeTree } from "./merge_tree";
 
 /// Of the longest: shorter ones are not at the upper end of a gap. Nor are those after so many.
@@ -20,13 +21,14 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   const entries = numbered(tree.leaves);
   if (rule === "value") entries.sort((a, b) => births[a]! - births[b]!);
   const sets = new DisjointSets(tree.leaves),
-    size = new Float64Array(tree.leaves);
+    size = new Float64Array(tree.leaves),
+    flat = new FlatSets(tree.arrays.flat, tree.leaves);
   let segments = 0,
     merged = 0,
     entered = 0;
-  const resize = (root: number, to: number) => {
-    segments += Number(to > 0 && to >= minSize) - Number(size[root]! > 0 && size[root]! >= minSize);
-    size[root] = to;
+  const count = (root: number) => {
+    const isLarge = size[root]! > 0 && size[root]! >= minSize;
+    return Number(isLarge && flat.surfaceOf(root, size[root]!) === 0);
   };
   return cuts.map((cut) => {
     for (
@@ -34,17 +36,23 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
       entered < entries.length && (rule !== "value" || births[entries[entered]!]! <= cut);
       ++entered
     ) {
-      const root = sets.find(entries[entered]!);
-      resize(root, size[root]! + vertices[entries[entered]!]!);
+      const leaf = entries[entered]!,
+        root = sets.find(leaf);
+      segments -= count(root);
+      size[root]! += vertices[leaf]!;
+      flat.enter(leaf, root);
+      segments += count(root);
     }
     for (; merged < merges.length && tree.isDone(merges[merged]!, cut); ++merged) {
       const u = sets.find(younger[merges[merged]!]!),
         v = sets.find(elder[merges[merged]!]!);
       if (u === v) continue;
-      const sum = size[u]! + size[v]!;
-      resize(u, 0);
-      resize(v, 0);
-      resize(sets.join(u, v), sum);
+      segments -= count(u) + count(v);
+      const into = sets.join(u, v),
+        from = into === u ? v : u;
+      size[into]! += size[from]!;
+      flat.join(from, into);
+      segments += count(into);
     }
     return segments;
   });

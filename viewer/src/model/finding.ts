@@ -4,6 +4,7 @@
 import { kLeastShare, kMostAbove, suggestedCut } from "./cuts";
 import { counted, homology, short } from "../common/number_format";
 import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";
+import { surfacesInWords } from "./scene_words";
 import type { Bars } from "./bars";
 import type { Meta } from "./meta";
 import type { Report } from "./report";
@@ -189,7 +190,7 @@ function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
 /// "the widest gap leaves 24 basins": what the cut panel says; nothing if it leaves all in one.
 function gapOfCuts({ tree, meta }: Report): string {
   const at = tree && suggestedCut(tree, meta.tree?.from ?? 0, meta.tree?.to ?? Infinity);
-  const left = at === undefined ? 0 : tree!.cut(at, false).segments.length;
+  const left = at === undefined ? 0 : tree!.cut(at).segments.length;
   return left > 1 ? `the widest gap leaves ${counted(left, kindOfSegment(meta))}` : "";
 }
 
@@ -253,14 +254,17 @@ function plain(dim: number, sentence: string): Finding {
 function segmentsOf({ tree, meta, bars }: Report): Finding {
   const { cut: at } = meta.tree!,
     what = kindOfSegment(meta);
-  const { segments } = tree!.cut(at, tree!.hasJoins);
+  const { segments } = tree!.answer(at);
   const dim = bars.dims[0] ?? -1;
   const [largest] = segments;
-  if (!largest) return plain(dim, `No ${what} was found.`);
+  const surfaces = meta.scene ? surfacesInWords(meta.scene) : "";
+  const found = (sentence: string) =>
+    plain(dim, surfaces ? `${sentence} Besides: ${surfaces}.` : sentence);
+  if (!largest) return found(`No ${what} was found.`);
   const points = (segment: typeof largest) => counted(segment.points, "point");
-  if (segments.length === 1) return plain(dim, `One ${what} of ${points(largest)}.`);
+  if (segments.length === 1) return found(`One ${what} of ${points(largest)}.`);
   const ends = `the largest has ${points(largest)}, the smallest ${points(segments.at(-1)!)}`;
-  return plain(dim, `${inWords(segments.length)} ${what}s: ${ends}.`);
+  return found(`${inWords(segments.length)} ${what}s: ${ends}.`);
 }
 
 function comparisonOf({ meta, bars, matching }: Report): Finding {

@@ -6,11 +6,19 @@
 // together in every cut. Each leaf is also a branch, the one that was born in it: it dies in the
 // merge in which its component is the younger one.
 import { DisjointSets, numbered } from "./disjoint_sets";
+import { FlatSets, type FlatLeaves } from "./flat_sets";
 import { kNone, PayloadError, type Numbers } from "./payload";
 
 /// When a merge is done: `persistence`: if its level (its persistence) is below the cut; `value`:
 /// if its level (its value) is at most the cut.
 export type CutRule = "persistence" | "value";
+
+/// The label and the surface of each leaf; 0: none.
+export interface Answer {
+  labels: Numbers;
+  surfaces: Numbers;
+  segments: number;
+}
 
 export interface TreeArrays {
   rule: CutRule;
@@ -22,7 +30,8 @@ export interface TreeArrays {
   elder: Numbers;
   values: Numbers;
   levels: Numbers;
-  joins: Numbers | undefined; // pairs of leaves that the program joined at its own cut
+  answer: Answer | undefined; // of the program, at its own cut
+  flat: FlatLeaves | undefined; // which components are no segments, at any other cut
   touching: Numbers | undefined; // pairs of leaves that touch in space
   mergeBar: Numbers | undefined;
   leafBar: Numbers | undefined;
@@ -38,6 +47,7 @@ export interface Segment {
 
 export interface Cut {
   labelOfLeaf: Uint32Array; // 0: in no segment
+  surfaceOfLeaf: Uint8Array; // 0: on none
   segments: Segment[]; // segment i has label i + 1
 }
 
@@ -140,20 +150,38 @@ export class MergeTree {
   branchOf(bar: number): number | undefined {
     return this.branchOfBar.get(bar);
   }
-  /// Whether the program joined parts of objects at its own cut.
-  get hasJoins(): boolean {
-    return (this.arrays.joins?.length ?? 0) > 0;
+  /// The segments of the program's own cut as it gave them; of a tree without them those of `at`.
+  answer(at: number): Cut {
+    const { answer, points, vertices, births } = this.arrays;
+    if (!answer) return this.cut(at);
+    const segments: Segment[] = Array.from({ length: answer.segments }, (_, i) => ({
+      label: i + 1,
+      points: 0,
+      vertices: 0,
+      oldestLeaf: -1,
+    }));
+    for (let leaf = 0; leaf < this.leaves; ++leaf) {
+      const segment = segments[answer.labels[leaf]! - 1];
+      if (!segment) continue;
+      segment.points += points[leaf]!;
+      segment.vertices += vertices[leaf]!;
+      if (segment.oldestLeaf < 0 || births[leaf]! < births[segment.oldestLeaf]!)
+        segment.oldestLeaf = leaf;
+    }
+    return {
+      labelOfLeaf: Uint32Array.from(answer.labels),
+      surfaceOfLeaf: Uint8Array.from(answer.surfaces),
+      segments,
+    };
   }
 
   /// The segments of a cut, as MergeTree::basins or MergeTree::components and extract_components
   /// find them. O(leaves + merges).
-  cut(at: number, withJoins: boolean): Cut {
+  cut(at: number): Cut {
     const a = this.arrays;
     const sets = new DisjointSets(this.leaves);
     const join = (x: number, y: number) => void sets.join(sets.find(x), sets.find(y));
     for (let k = 0; k < this.merges; ++k) if (this.isDone(k, at)) join(a.younger[k]!, a.elder[k]!);
-    if (withJoins && a.joins)
-      for (let k = 0; k + 1 < a.joins.length; k += 2) join(a.joins[k]!, a.joins[k + 1]!);
     return this.extract(sets, at);
   }
 
@@ -163,16 +191,22 @@ export class MergeTree {
       vertices = new Float64Array(this.leaves);
     const oldest = new Int32Array(this.leaves).fill(-1);
     const rootOf = new Uint32Array(this.leaves).fill(kNone);
+    const flat = new FlatSets(a.flat, this.leaves);
     for (let leaf = 0; leaf < this.leaves; ++leaf) {
       if (a.rule === "value" && a.births[leaf]! > at) continue;
       const root = (rootOf[leaf] = sets.find(leaf));
       points[root]! += a.points[leaf]!;
       vertices[root]! += a.vertices[leaf]!;
+      flat.enter(leaf, root);
       if (oldest[root]! < 0 || a.births[leaf]! < a.births[oldest[root]!]!) oldest[root] = leaf;
     }
-    const roots: number[] = [];
+    const roots: number[] = [],
+      surfaceOfRoot = new Uint8Array(this.leaves);
     for (let leaf = 0; leaf < this.leaves; ++leaf)
-      if (vertices[leaf]! > 0 && vertices[leaf]! >= a.minSize) roots.push(leaf);
+      if (vertices[leaf]! > 0 && vertices[leaf]! >= a.minSize) {
+        surfaceOfRoot[leaf] = flat.surfaceOf(leaf, vertices[leaf]!);
+        if (surfaceOfRoot[leaf] === 0) roots.push(leaf);
+      }
     // Leaves are numbered by their smallest vertex, and so are roots.
     roots.sort((x, y) => points[y]! - points[x]! || vertices[y]! - vertices[x]! || x - y);
     const labelOfRoot = new Uint32Array(this.leaves);
@@ -185,10 +219,14 @@ export class MergeTree {
         oldestLeaf: oldest[root]!,
       };
     });
-    const labelOfLeaf = new Uint32Array(this.leaves);
-    for (let leaf = 0; leaf < this.leaves; ++leaf)
-      if (rootOf[leaf] !== kNone) labelOfLeaf[leaf] = labelOfRoot[rootOf[leaf]!]!;
-    return { labelOfLeaf, segments };
+    const labelOfLeaf = new Uint32Array(this.leaves),
+      surfaceOfLeaf = new Uint8Array(this.leaves);
+    for (let leaf = 0; leaf < this.leaves; ++leaf) {
+      if (rootOf[leaf] === kNone) continue;
+      labelOfLeaf[leaf] = labelOfRoot[rootOf[leaf]!]!;
+      surfaceOfLeaf[leaf] = surfaceOfRoot[rootOf[leaf]!]!;
+    }
+    return { labelOfLeaf, surfaceOfLeaf, segments };
   }
 
   private checkSizes(): void {
@@ -199,7 +237,14 @@ export class MergeTree {
     for (const column of [a.elder, a.values, a.levels])
       if (column.length !== this.merges)
         throw new PayloadError("tree: merge columns differ in length");
-    for (const column of [a.younger, a.elder, a.joins ?? [], a.touching ?? []])
+    for (const column of a.answer ? [a.answer.labels, a.answer.surfaces] : [])
+      if (column.length !== this.leaves)
+        throw new PayloadError("tree: leaf columns differ in length");
+    for (const label of a.answer?.labels ?? [])
+      if (label > a.answer!.segments) throw new PayloadError(`tree: there is no segment ${label}`);
+    if (a.flat && a.flat.on.length !== a.flat.planes * this.leaves)
+      throw new PayloadError("tree: leaf_on has another size");
+    for (const column of [a.younger, a.elder, a.touching ?? []])
       for (const leaf of column)
         if (leaf >= this.leaves) throw new PayloadError(`tree: there is no leaf ${leaf}`);
   }

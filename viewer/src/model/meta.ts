@@ -25,6 +25,26 @@ export interface Provenance {
   notes?: Record<string, string>;
 }
 
+/// A segment of the program's own answer; the place in the list is its label less one.
+export interface SegmentMeta {
+  number: number; // what it is called
+  colour: string; // "#rrggbb"
+  persistence: number | null; // null: infinite
+  role: "object" | "unknown" | "support" | "wall"; // the last two: of a stream, in which it was one
+  on_surface?: number;
+  on_segment?: number; // by its number
+}
+
+/// What a segmentation says besides its labels.
+export interface SceneMeta {
+  segments: SegmentMeta[];
+  surfaces: { role: "support" | "wall" }[]; // by number, from 1
+  removed: number; // how many of these no leaf is on
+  flat: number; // least share of a surface on its plane
+  min_seam: number; // the answer joins over weak seams, if > 0,
+  objects: boolean; // and parts of an object
+}
+
 export interface Meta {
   format: "ph-report";
   version: 1;
@@ -54,5 +74,6 @@ export interface Meta {
     what?: string;
     command?: string[];
   };
+  scene?: SceneMeta;
   distances?: { dim: number; bottleneck: number | null }[]; // null: infinite
 }

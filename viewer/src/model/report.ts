@@ -5,7 +5,7 @@ import { decoded, PayloadError, type Block, type Numbers, type Payload } from ".
 import { Bars } from "./bars";
 import { MergeTree } from "./merge_tree";
 import { Matching } from "./matching";
-import type { Meta } from "./meta";
+import type { Meta, SceneMeta } from "./meta";
 
 /// The points or voxels that are shown.
 export interface Elements {
@@ -14,6 +14,7 @@ export interface Elements {
   normals: Int8Array | undefined; // octahedral, two a point
   readonly birth: Numbers | undefined; // found when it is asked for
   truth: Numbers | undefined;
+  surface: Numbers | undefined; // that was removed with the point; 0: none
   leaf: Numbers | undefined; // in the merge tree; 2^bits - 1: none
 }
 
@@ -83,7 +84,17 @@ function checkedMeta(value: unknown): Meta {
     fail("expected one or two barcodes");
   if (!barcodes.every((b) => isRecord(b) && typeof b["name"] === "string"))
     fail("a barcode has no name");
+  if (value["scene"] !== undefined) checkScene(value["scene"]);
   return readable(value) as Meta;
+}
+
+function checkScene(scene: unknown): void {
+  if (!isRecord(scene)) fail("scene is no object");
+  const { segments, surfaces } = scene;
+  if (!Array.isArray(segments) || !segments.every(isRecord)) fail("scene.segments is no list");
+  if (!Array.isArray(surfaces) || !surfaces.every(isRecord)) fail("scene.surfaces is no list");
+  for (const { colour } of segments)
+    if (typeof colour !== "string" || !/^#[0-9a-f]{6}$/.test(colour)) fail("a segment has no colour");
 }
 
 /// Signs that turn the direction of what follows would let a name rewrite the text around it.
@@ -140,6 +151,7 @@ export function reportOf(payload: Payload): Report {
             return (births ??= image && birthsOf(image, meta));
           },
           truth: ofElement("truth"),
+          surface: ofElement("surface"),
           leaf: ofElement("leaf"),
         }
       : undefined;
@@ -152,7 +164,7 @@ export function reportOf(payload: Payload): Report {
     elements,
     cloud,
     image,
-    tree: meta.tree ? treeOf(meta.tree, need, array, bars) : undefined,
+    tree: meta.tree ? treeOf(meta.tree, meta.scene, need, array, bars) : undefined,
     chains: chainsOf(need, array, bars, meta),
     matching: matchingOf(array("matching/pairs"), bars),
     voxels: image && voxelsOf(need, array, image),
@@ -217,10 +229,12 @@ function roomForNegated(values: Numbers): Numbers {
 
 function treeOf(
   meta: NonNullable<Meta["tree"]>,
+  scene: SceneMeta | undefined,
   need: (name: string) => Numbers,
   array: (name: string) => Numbers | undefined,
   bars: Bars,
 ): MergeTree {
+  const flat = scene && array("tree/leaf_on");
   return new MergeTree({
     rule: meta.rule,
     minSize: meta.min_size ?? 1,
@@ -231,7 +245,17 @@ function treeOf(
     elder: need("tree/merge_elder"),
     values: need("tree/merge_value"),
     levels: need("tree/merge_level"),
-    joins: array("tree/joins"),
+    answer: scene && {
+      labels: need("tree/leaf_label"),
+      surfaces: need("tree/leaf_surface"),
+      segments: scene.segments.length,
+    },
+    flat: flat && {
+      on: flat,
+      planes: scene!.surfaces.length - scene!.removed,
+      first: scene!.removed + 1,
+      least: scene!.flat,
+    },
     touching: array("tree/touching"),
     mergeBar: array("tree/merge_bar"),
     leafBar: array("tree/leaf_bar"),

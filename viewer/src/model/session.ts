@@ -3,16 +3,26 @@
 // here and draws again when it hears of a change; no view knows another one.
 import { findingOf, type Finding } from "./finding";
 import { colourModesOf, type ColourMode } from "./colour_modes";
-import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "../common/palette";
+import { coloursApart, dimColour, fromHex, hex, numberOfColour, segmentColour, themeOf, type Rgb, type Theme } from "../common/palette";
 import { suggestedCut } from "./cuts";
 import type { Cut } from "./merge_tree";
+import type { SegmentMeta } from "./meta";
 import { kNone, type Numbers } from "./payload";
 import type { Report } from "./report";
 import { firstAxis } from "./volume_axes";
 import { touchingInImage, touchingInSpace } from "./touching_leaves";
 
 export type Change =
-  "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
+  | "focus"
+  | "selection"
+  | "cut"
+  | "colour"
+  | "dims"
+  | "scale"
+  | "slice"
+  | "surfaces"
+  | "theme"
+  | "view";
 
 /// What the pointer or the keyboard is on.
 export interface Focus {
@@ -30,6 +40,7 @@ export class Session {
   selection: number[] = []; // bars, ascending
   colour: ColourMode;
   hiddenDims = new Set<number>();
+  hiddenSurfaces = new Set<number>();
   theme: Theme = themeOf(false);
   cutValue: number;
   cut: Cut | undefined;
@@ -123,23 +134,41 @@ export class Session {
     this.changed("dims");
   }
 
+  toggleSurface(surface: number): void {
+    if (!this.hiddenSurfaces.delete(surface)) this.hiddenSurfaces.add(surface);
+    this.changed("surfaces");
+  }
+
   // The cut.
 
-  /// Whether parts of objects are joined: only at the cut at which the program itself did so.
-  get isJoined(): boolean {
+  /// Whether the segments are the program's own answer, of which the report says more.
+  get isAnswer(): boolean {
     const tree = this.report.tree;
-    return !!tree?.hasJoins && this.cutValue === this.report.meta.tree!.cut;
+    return !!tree?.arrays.answer && this.cutValue === this.report.meta.tree!.cut;
+  }
+  /// What the program said of a segment of its answer.
+  saidOf(label: number): SegmentMeta | undefined {
+    return this.isAnswer ? this.report.meta.scene!.segments[label - 1] : undefined;
+  }
+  /// What a segment is called: as in the files that the program wrote, or by its size.
+  numberOf(label: number): number {
+    return this.saidOf(label)?.number ?? label;
   }
   private recut(): void {
     const start = performance.now();
     const tree = this.report.tree!;
-    this.cut = tree.cut(this.cutValue, this.isJoined);
+    this.cut = this.isAnswer ? tree.answer(this.cutValue) : tree.cut(this.cutValue);
     if (this.focus.segment > this.cut.segments.length) this.focus = kNothing;
     this.segmentColours = this.coloursOf(this.cut);
     this.tints = undefined;
     this.cutMilliseconds = performance.now() - start;
   }
   private coloursOf(cut: Cut): Rgb[] {
+    if (this.isAnswer) {
+      const colours = this.report.meta.scene!.segments.map((s) => fromHex(s.colour));
+      cut.segments.forEach((s, i) => (this.leafColours[s.oldestLeaf] = numberOfColour(colours[i]!)));
+      return colours;
+    }
     const pairs = this.touchingLeaves();
     const none = new Set<number>();
     const touching = cut.segments.map(() => (pairs.length > 0 ? new Set<number>() : none));
@@ -183,6 +212,23 @@ export class Session {
   segmentOf(element: number): number {
     const leaf = this.leafOf(element);
     return leaf < 0 ? 0 : (this.cut?.labelOfLeaf[leaf] ?? 0);
+  }
+  /// The surface that an element is on; 0: none.
+  surfaceOf(element: number): number {
+    const leaf = this.leafOf(element);
+    if (leaf < 0) return this.report.elements?.surface?.[element] ?? 0;
+    return this.cut?.surfaceOfLeaf[leaf] ?? 0;
+  }
+  /// How many elements are on each surface.
+  pointsOfSurfaces(): number[] {
+    const { meta, elements } = this.report;
+    const points = new Array<number>(meta.scene?.surfaces.length ?? 0).fill(0);
+    if (points.length === 0) return points;
+    for (let i = 0; i < elements!.count; ++i) {
+      const surface = this.surfaceOf(i);
+      if (surface > 0) ++points[surface - 1]!;
+    }
+    return points;
   }
   /// The bar of the branch that an element belongs to; without a tree, of the most persistent
   /// representative through it. -1: none.
@@ -235,7 +281,8 @@ export class Session {
     );
     return this.tints;
   }
-  /// The segments that have a number in every view: the largest of those with a colour, by bar.
+  /// Labels of the segments that have a number in every view: the largest of those with a colour, by
+  /// bar.
   numbers(): Map<number, number> {
     const numbers = new Map<number, number>();
     const tints = this.tintedBars();

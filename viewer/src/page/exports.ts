@@ -147,16 +147,30 @@ export function selectionJson(session: Session): string {
         ...(cut && {
           cut: cutValue,
           segments: cut.segments.map(({ label, points, vertices }) => ({
-            label,
+            label: session.numberOf(label),
             points,
             vertices,
+            ...saidInJson(session, label),
           })),
+          ...(meta.scene && { surfaces: meta.scene.surfaces.map(({ role }, i) => ({ number: i + 1, role })) }),
         }),
       },
       null,
       1,
     ) + "\n"
   );
+}
+
+/// What the program's own JSON says of a segment of its answer, by the same names.
+function saidInJson(session: Session, label: number): object {
+  const said = session.saidOf(label);
+  if (!said) return {};
+  const on = said.on_surface
+    ? { surface: said.on_surface }
+    : said.on_segment
+      ? { segment: said.on_segment }
+      : null;
+  return { persistence: said.persistence, role: said.role, on };
 }
 
 function barJson(session: Session, bar: number): object {

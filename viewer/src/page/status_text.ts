@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { nameOfBar } from "../charts/bar_chart";
 import { counted, exact, grouped, short } from "../common/number_format";
+import { factsOf, nameOfSurface } from "../model/scene_words";
 import { kindOfSegment } from "../model/words";
 import type { Session } from "../model/session";
 
@@ -13,8 +14,12 @@ export function readingOf(session: Session): string {
   if (segment) {
     const what = session.report.image ? "voxel" : "point";
     const kind = kindOfSegment(session.report.meta);
-    words.push(`${kind} ${segment.label}, ${counted(segment.points, what)}`);
+    words.push(`${kind} ${session.numberOf(segment.label)}, ${counted(segment.points, what)}`);
+    const said = session.saidOf(segment.label);
+    if (said) words.push(factsOf(session.report.meta.scene!, said));
   }
+  const surface = focus.element >= 0 ? session.surfaceOf(focus.element) : 0;
+  if (surface > 0) words.push(nameOfSurface(session.report.meta.scene!, surface));
   if (focus.bar >= 0) words.push(nameOfBar(session, focus.bar));
   return words.join("  ·  ");
 }

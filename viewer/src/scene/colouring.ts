@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A colour for each point or voxel, by what the reader asked for. What is not brought out fades.
-import { dimColour, greyOf, ramp, segmentColour, type Rgb } from "../common/palette";
+import { dimColour, fromHex, greyOf, kSurfaces, ramp, segmentColour, type Rgb } from "../common/palette";
 import { barsInView } from "./representatives";
 import { runsOf } from "../geometry/voxel_sets";
 import type { ColourMode } from "../model/colour_modes";
@@ -16,10 +16,6 @@ export interface Range {
 /// Red in the lowest byte, as the bytes of a texture are read.
 function packed([r, g, b]: Rgb): number {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
-}
-
-function rgbOf(hex: string): Rgb {
-  return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)) as Rgb;
 }
 
 /// `part` of 256 parts of one colour, the rest of another.
@@ -128,7 +124,7 @@ export class Colouring {
     if (!voxels) return;
     for (const bar of barsInView(session)) {
       const runs = runsOf(voxels, bar);
-      const colour = packed(rgbOf(dimColour(bars.dim[bar]!, session.theme)));
+      const colour = packed(fromHex(dimColour(bars.dim[bar]!, session.theme)));
       for (let k = 0; k + 1 < runs.length; k += 2)
         for (let i = runs[k]!, end = i + runs[k + 1]!; i < end; ++i)
           this.shown[i] = mixed(colour, this.base[i]!, 176);
@@ -156,13 +152,16 @@ export class Colouring {
     switch (mode) {
       case "segment": {
         const ofLeaf = this.segmentColours(none),
+          ofSurface = this.surfaceColours(none),
+          { surface } = session.report.elements!,
           grey = this.grey();
-        if (!grey) return (i) => ofLeaf[leaf![i]!] ?? none;
+        const colourOf = (i: number) => ofLeaf[leaf![i]!] ?? ofSurface[surface?.[i] ?? 0] ?? none;
+        if (!grey) return colourOf;
         const isThere = session.report.image
           ? (i: number) => Number.isFinite(session.report.image!.values[i]!)
           : () => true;
         return (i) =>
-          isThere(i) ? mixed(ofLeaf[leaf![i]!] ?? none, grey[i]! * 0x010101, 192) : 0;
+          isThere(i) ? mixed(colourOf(i), grey[i]! * 0x010101, 192) : 0;
       }
       case "persistence": {
         const ofLeaf = this.persistenceColours();
@@ -213,11 +212,19 @@ export class Colouring {
   }
   private segmentColours(none: number): Uint32Array {
     const { cut, segmentColours } = this.session;
-    const ofLabel = [none, ...segmentColours.map(packed)];
+    const ofLabel = [none, ...segmentColours.map(packed)],
+      ofSurface = this.surfaceColours(none);
     const ofLeaf = new Uint32Array(cut!.labelOfLeaf.length);
-    for (let leaf = 0; leaf < ofLeaf.length; ++leaf)
-      ofLeaf[leaf] = ofLabel[cut!.labelOfLeaf[leaf]!]!;
+    for (let leaf = 0; leaf < ofLeaf.length; ++leaf) {
+      const label = cut!.labelOfLeaf[leaf]!;
+      ofLeaf[leaf] = label > 0 ? ofLabel[label]! : (ofSurface[cut!.surfaceOfLeaf[leaf]!] ?? none);
+    }
     return ofLeaf;
+  }
+  /// By number; that of 0 is of what is on none.
+  private surfaceColours(none: number): number[] {
+    const surfaces = this.session.report.meta.scene?.surfaces ?? [];
+    return [none, ...surfaces.map(({ role }) => packed(fromHex(kSurfaces[role] ?? kSurfaces.support)))];
   }
   private persistenceColours(): Uint32Array {
     const {

@@ -50,6 +50,7 @@ export class DataView {
   private readonly legend: Legend;
   private readonly reading = el("output", { class: "reading" });
   private facing: number; // the axis of the slice that the eye looks along
+  private left: Uint8Array | undefined; // points of surfaces that are switched off
   private pressedAt: [number, number] | undefined;
 
   constructor(private readonly session: Session) {
@@ -190,6 +191,7 @@ export class DataView {
         this.slice?.recolour();
       }
     }
+    if (any("surfaces") || (any("cut") && session.hiddenSurfaces.size > 0)) this.showSurfaces();
     if (any("slice")) {
       this.slice?.show(session.sliceAxis, session.slice);
       this.face();
@@ -199,8 +201,18 @@ export class DataView {
     const shapes = any("focus", "selection", "theme", "colour") ? shapesOf(session) : undefined;
     if (shapes && this.stage) this.overlay.show(shapes);
     const complex = this.complexShape ? [this.complexShape] : [];
-    this.still?.draw(this.colouring.rgba, [...complex, ...(shapes ?? shapesOf(session))]);
+    this.still?.draw(this.colouring.rgba, this.left, [...complex, ...(shapes ?? shapesOf(session))]);
     this.stage?.invalidate();
+  }
+  private showSurfaces(): void {
+    const { session } = this;
+    const hidden = session.hiddenSurfaces;
+    const { count } = session.report.elements!;
+    this.left =
+      hidden.size === 0
+        ? undefined
+        : Uint8Array.from({ length: count }, (_, i) => Number(hidden.has(session.surfaceOf(i))));
+    this.cloud?.leaveOut(this.left);
   }
   private showBeside(stage: Stage): void {
     const { beside } = this.session;

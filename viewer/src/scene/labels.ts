@@ -103,10 +103,10 @@ function placesOf(session: Session): Label[] {
   if (!session.cut || !leaf || numbers.size === 0) return [];
   const found = middles(session, numbers);
   const labels: Label[] = [];
-  for (const number of numbers.values()) {
-    const elements = found.get(number);
+  for (const label of numbers.values()) {
+    const elements = found.get(label);
     if (!elements) continue;
-    labels.push({ text: String(number), places: elements.map((i) => placeOf(report, i)) });
+    labels.push({ text: String(session.numberOf(label)), places: elements.map((i) => placeOf(report, i)) });
   }
   return labels;
 }

@@ -4,7 +4,8 @@
 import { kOutermost, type Colouring, type Range } from "./colouring";
 import { el, svg } from "../common/dom";
 import { counted, grouped, homology, inRange } from "../common/number_format";
-import { dimColour, greyOf, hex, ramp, type Rgb } from "../common/palette";
+import { dimColour, greyOf, hex, kSurfaces, ramp, type Rgb } from "../common/palette";
+import { factsOf, nameOfSurface, standing } from "../model/scene_words";
 import { kindOfSegment } from "../model/words";
 import { barsInView, isWholeMesh, kBirthColour, kDeathColour } from "./representatives";
 import type { Session } from "../model/session";
@@ -16,6 +17,7 @@ export class Legend {
   private readonly colours = el("div", { class: "colours" });
   private readonly marks = el("div", { class: "marks" });
   private rows: HTMLButtonElement[] = [];
+  private switches: HTMLInputElement[] = []; // of the surfaces
 
   constructor(
     private readonly session: Session,
@@ -24,6 +26,7 @@ export class Legend {
     this.element.append(this.colours, this.marks);
     session.onChange((changes) => {
       if (changes.has("cut") || changes.has("colour") || changes.has("theme")) this.showColours();
+      if (changes.has("surfaces")) this.showSwitches();
       if (changes.has("focus") || changes.has("selection") || changes.has("theme"))
         this.showMarks();
     });
@@ -44,18 +47,27 @@ export class Legend {
     const segments = session.cut!.segments;
     const name = kindOfSegment(session.report.meta),
       what = session.report.image ? "voxel" : "point";
+    const ofSurface = session.pointsOfSurfaces();
     const total = segments.reduce((sum, s) => sum + s.points, 0);
-    const none = session.report.elements!.count - total;
+    const none = session.report.elements!.count - total - ofSurface.reduce((a, b) => a + b, 0);
+    const { scene } = session.report.meta;
     this.rows = segments.slice(0, kMostRows).map((segment, i) => {
+      const said = session.saidOf(segment.label),
+        number = session.numberOf(segment.label);
+      const facts = said && factsOf(scene!, said);
       const row = el(
         "button",
         {
           type: "button",
           class: "row",
-          "aria-label": `${name} ${segment.label}, ${counted(segment.points, what)}`,
+          "aria-label": [`${name} ${number}`, counted(segment.points, what), facts]
+            .filter(Boolean)
+            .join(", "),
+          title: facts,
         },
         swatch(hex(session.segmentColours[i]!)),
-        el("span", { class: "name" }, String(segment.label)),
+        el("span", { class: "name" }, String(number)),
+        said && scene!.surfaces.length > 0 ? el("span", { class: "says" }, standing(scene!, said)) : undefined,
         el("span", { class: "count" }, grouped(segment.points)),
       );
       const bar = () => session.barOfSegment(segment.label);
@@ -75,6 +87,7 @@ export class Legend {
       el("h3", {}, name, el("span", { class: "count" }, `${what}s`)),
       ...this.rows,
       ...(rest > 0 ? [el("p", { class: "note" }, `and ${grouped(rest)} smaller`)] : []),
+      ...(ofSurface.length > 0 ? this.surfaces(ofSurface) : []),
       ...(none > 0
         ? [
             el(
@@ -87,6 +100,33 @@ export class Legend {
           ]
         : []),
     ];
+  }
+  /// The surfaces of the scene, each with a switch.
+  private surfaces(points: number[]): HTMLElement[] {
+    const { session } = this;
+    const scene = session.report.meta.scene!;
+    this.switches = points.map((_, i) => {
+      const box = el("input", { type: "checkbox" });
+      box.addEventListener("change", () => session.toggleSurface(i + 1));
+      return box;
+    });
+    this.showSwitches();
+    return [
+      el("h3", {}, "surface"),
+      ...points.map((count, i) =>
+        el(
+          "label",
+          { class: "row surface" },
+          this.switches[i],
+          swatch(kSurfaces[scene.surfaces[i]!.role] ?? kSurfaces.support),
+          el("span", { class: "name" }, nameOfSurface(scene, i + 1)),
+          el("span", { class: "count" }, grouped(count)),
+        ),
+      ),
+    ];
+  }
+  private showSwitches(): void {
+    this.switches.forEach((box, i) => (box.checked = !this.session.hiddenSurfaces.has(i + 1)));
   }
   private scale({ low, high, clipped }: Range): HTMLElement {
     const { session } = this;

@@ -57,6 +57,7 @@ export class PointCloud {
   readonly tint: BufferAttribute;
   private readonly material: ShaderMaterial;
   readonly isSurface: boolean; // what is behind its points is hidden
+  private left: Uint8Array | undefined; // that are left out
 
   /// @param eye where the sensor stood, in the space of the positions, if that is known.
   constructor(
@@ -106,6 +107,13 @@ export class PointCloud {
     this.object.geometry.setIndex(elements ? new BufferAttribute(elements, 1) : null);
     this.object.visible = elements?.length !== 0;
   }
+  /// Leaves some of its points out: not drawn, not under the pointer, hiding nothing.
+  leaveOut(mask: Uint8Array | undefined): void {
+    this.left = mask;
+    const rest: number[] = [];
+    for (let i = 0; mask && i < mask.length; ++i) if (!mask[i]) rest.push(i);
+    this.showOnly(mask && Uint32Array.from(rest));
+  }
   recolour(): void {
     this.tint.needsUpdate = true;
   }
@@ -140,7 +148,7 @@ export class PointCloud {
         b = p[i + 1]!,
         c = p[i + 2]!;
       const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!;
-      if (w <= 0) continue;
+      if (w <= 0 || this.left?.[i / 3]) continue;
       const dx = (m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w - px;
       if (dx > rx || dx < -rx) continue;
       const dy = (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w - py;
@@ -176,7 +184,7 @@ export class PointCloud {
         b = p[i + 1]!,
         c = p[i + 2]!;
       const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!; // in perspective its depth
-      if (w <= 0) continue;
+      if (w <= 0 || this.left?.[i / 3]) continue;
       const x = ((m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w + 1) * (width / 2),
         y = (1 - (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w) * (height / 2);
       const cell = cellOf(x, y);

@@ -43,8 +43,9 @@ export class StaticPicture {
     this.camera.updateMatrixWorld();
   }
 
-  draw(rgba: Uint8Array, shapes: Shape[]): void {
-    const marks = this.slice ? [this.pictureOfSlice()] : this.dots(rgba);
+  /// @param left points that are left out.
+  draw(rgba: Uint8Array, left: Uint8Array | undefined, shapes: Shape[]): void {
+    const marks = this.slice ? [this.pictureOfSlice()] : this.dots(rgba, left);
     this.element.replaceChildren(
       this.element.firstChild!,
       ...marks,
@@ -52,12 +53,13 @@ export class StaticPicture {
     );
   }
 
-  private dots(rgba: Uint8Array): SVGElement[] {
+  private dots(rgba: Uint8Array, left: Uint8Array | undefined): SVGElement[] {
     const positions = this.report.cloud!.positions,
       count = positions.length / 3;
     const step = Math.max(1, Math.ceil(count / kMostPoints));
     const seen: { depth: number; dot: SVGElement }[] = [];
     for (let i = 0; i < count; i += step) {
+      if (left?.[i]) continue;
       const at = this.project(positions, 3 * i);
       const fill = `rgb(${rgba[4 * i]} ${rgba[4 * i + 1]} ${rgba[4 * i + 2]})`;
       seen.push({

@@ -48,7 +48,8 @@ export function mergeTree(births, edges) {
 }
 
 /// Points of each vertex, and a vertex of each point (0xffffffff: none).
-export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1 }) {
+/// @param flat a component with a share of `least` of its vertices `on` a plane is no segment.
+export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1, flat }) {
   const n = tree.births.length,
     sets = new DisjointSets(n);
   for (const m of tree.merges) {
@@ -59,13 +60,14 @@ export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1
   for (let v = 0; v < n; ++v) {
     if (rule === "value" && tree.births[v] > cut) continue;
     const root = sets.find(v);
-    if (!components.has(root)) components.set(root, { root, first: v, points: 0, voxels: 0 });
+    if (!components.has(root)) components.set(root, { root, first: v, points: 0, voxels: 0, on: 0 });
     ++components.get(root).voxels;
+    components.get(root).on += flat?.on[v] ?? 0;
   }
   for (const v of vertexOfPoint)
     if (v !== 0xffffffff && components.has(sets.find(v))) ++components.get(sets.find(v)).points;
   const kept = [...components.values()]
-    .filter((c) => c.voxels >= minSize)
+    .filter((c) => c.voxels >= minSize && !(flat && c.on >= flat.least * c.voxels))
     .sort((a, b) => b.points - a.points || b.voxels - a.voxels || a.first - b.first);
   const label = new Map(kept.map((c, i) => [c.root, i + 1]));
   return {

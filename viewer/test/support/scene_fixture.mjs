@@ -16,8 +16,60 @@ function twoNearest(spots, x, y) {
   return [first, second];
 }
 
+/// What the program made of the parts of its cut: two pairs of them are one object each, and the
+/// second largest part is a wall. The table is the first surface.
+function answerOf(tree, vertexOfPoint, parts, leafOf, arrays) {
+  const joined = new Map([[7, 3], [5, 10]]), // parts, by place
+    wall = 1;
+  const leaves = arrays["tree/leaf_birth"].length;
+  const partOfLeaf = new Int32Array(leaves).fill(-1);
+  vertexOfPoint.forEach((v, i) => {
+    if (v !== kNone) partOfLeaf[leafOf[v]] = parts.labels[i] - 1;
+  });
+  const places = parts.segments.map((_, k) => k).filter((k) => !joined.has(k) && k !== wall);
+  const points = (k) => {
+    const others = [...joined].filter(([, into]) => into === k).map(([from]) => from);
+    return [k, ...others].reduce((sum, part) => sum + parts.segments[part].points, 0);
+  };
+  places.sort((a, b) => points(b) - points(a));
+  const labels = Uint32Array.from(
+    partOfLeaf,
+    (part) => places.indexOf(joined.get(part) ?? part) + 1,
+  );
+  const onWall = Array.from(partOfLeaf, (part) => part === wall);
+  const palette = ["#e69f00", "#0072b2", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
+  return {
+    flat: { on: Uint8Array.from(tree.births, (_, v) => Number(onWall[leafOf[v]])), least: 0.85 },
+    answer: {
+      points: places.map(points),
+      scene: {
+        segments: places.map((_, i) => ({
+          number: i + 1,
+          colour: palette[i % 7],
+          persistence: i === 0 ? null : 1.5 * i,
+          role: i === 2 ? "unknown" : "object",
+          ...(i === 3 ? { on_segment: 1 } : i === 2 ? {} : { on_surface: 1 }),
+        })),
+        surfaces: [{ role: "support" }, { role: "wall" }],
+        removed: 1,
+        flat: 0.85,
+        min_seam: 2,
+        objects: true,
+      },
+      arrays: {
+        "tree/leaf_label": labels,
+        "tree/leaf_surface": Uint8Array.from(onWall, (is) => (is ? 2 : 0)),
+        "tree/leaf_on": [
+          Uint32Array.from(onWall, (is, leaf) => (is ? arrays["tree/leaf_vertices"][leaf] : 0)),
+          { shape: [leaves, 1] },
+        ],
+      },
+    },
+  };
+}
+
 /// A scene as ph-segment sees one: an organised cloud of rounded objects on a table, seams between
-/// them, parts of one object that the program joined, ground truth.
+/// them, parts of one object that the program joined, a wall, ground truth.
 export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
   const next = random(5),
     n = width * height;
@@ -115,12 +167,7 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
     .sort((a, b) => a[0] - b[0] || a[1] - b[1]);
   const cut = 0.05,
     parts = cutOf(inner, ofPoint, { ...options, cut });
-  const joins = Uint32Array.of(
-    leafOf[parts.segments[3].first],
-    leafOf[parts.segments[7].first],
-    leafOf[parts.segments[10].first],
-    leafOf[parts.segments[5].first],
-  );
+  const { answer, flat } = answerOf(inner, ofPoint, parts, leafOf, arrays);
   const meta = metaOf("desk.pcd", {
     program: "ph-segment 0.1.0",
     value: { label: "Concavity" },
@@ -135,11 +182,14 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
         "desk.pcd",
         "--min-persistence",
         "{cut}",
+        "--min-seam",
+        "0",
         "--parts",
         "--labels",
         "labels.npy",
       ],
     },
+    scene: answer.scene,
     provenance: {
       version: "ph-segment 0.1.0",
       engine: "union-find",
@@ -156,8 +206,8 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
     meta,
     tree: inner,
     vertexOfPoint: ofPoint,
-    options,
-    joinedAt: cut,
+    options: { ...options, flat },
+    answer,
     arrays: {
       ...barArrays(bars.map((b) => b.bar)),
       ...arrays,
@@ -166,7 +216,8 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
         Uint32Array.from(pairs.flat()),
         { shape: [pairs.length, 2], filter: "delta planes" },
       ],
-      "tree/joins": [joins, { shape: [2, 2] }],
+      ...answer.arrays,
+      "points/surface": Uint8Array.from(ofPoint, (v) => Number(v === kNone)),
       "points/position": quantised(xyz, 3),
       "points/rgb": [rgb, { shape: [n, 3], filter: "delta" }],
       "points/normal": [normals, { shape: [n, 2], filter: "delta" }],

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Which sets of leaves are surfaces of a scene, walls and boards, and no segments.
+import type { Numbers } from "./payload";
+
+/// What tells the walls and boards of a scene from its segments: how many vertices of each leaf lie
+/// on each plane. What lies on one with a share of `least` is surface `first`, or one after it.
+export interface FlatLeaves {
+  on: Numbers; // leaf by leaf, `planes` numbers each
+  planes: number;
+  first: number;
+  least: number;
+}
+
+/// How many vertices of sets of leaves lie on each plane.
+export class FlatSets {
+  private readonly on: Float64Array; // of each root
+
+  /// @param flat of a tree without: no set is a surface.
+  constructor(
+    private readonly flat: FlatLeaves | undefined,
+    leaves: number,
+  ) {
+    this.on = new Float64Array(leaves * (flat?.planes ?? 0));
+  }
+  /// Adds a leaf to a set.
+  enter(leaf: number, root: number): void {
+    const { flat } = this;
+    for (let p = 0; p < (flat?.planes ?? 0); ++p)
+      this.on[root * flat!.planes + p]! += flat!.on[leaf * flat!.planes + p]!;
+  }
+  /// Makes one of two sets.
+  join(from: number, to: number): void {
+    const planes = this.flat?.planes ?? 0;
+    for (let p = 0; p < planes; ++p) this.on[to * planes + p]! += this.on[from * planes + p]!;
+  }
+  /// The surface that a set of so many vertices is; 0: it is none.
+  surfaceOf(root: number, vertices: number): number {
+    const { flat } = this;
+    for (let p = 0; p < (flat?.planes ?? 0); ++p)
+      if (this.on[root * flat!.planes + p]! / vertices >= flat!.least) return flat!.first + p;
+    return 0;
+  }
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What the program said of the segments and surfaces of a scene, in words.
+import { counted, short } from "../common/number_format";
+import { listed } from "./words";
+import type { SceneMeta, SegmentMeta } from "./meta";
+
+/// "support 1": what a surface is called; its number is that of `--surfaces` and of the JSON.
+export function nameOfSurface({ surfaces }: SceneMeta, number: number): string {
+  const role = surfaces[number - 1]?.role;
+  return `${role === "support" || role === "wall" ? role : "surface"} ${number}`;
+}
+
+/// "on support 1", "on 3"; of what is not seen to stand on anything its role.
+export function standing(scene: SceneMeta, segment: SegmentMeta): string {
+  if (segment.on_surface) return `on ${nameOfSurface(scene, segment.on_surface)}`;
+  if (segment.on_segment) return `on ${segment.on_segment}`;
+  return roleOf(segment);
+}
+
+function roleOf({ role }: SegmentMeta): string {
+  return ["unknown", "support", "wall"].includes(role) ? role : "object";
+}
+
+/// "object on support 1, confidence 4.2"
+export function factsOf(scene: SceneMeta, segment: SegmentMeta): string {
+  const role = roleOf(segment);
+  const on = standing(scene, segment);
+  const confidence =
+    segment.persistence === null ? "touches no other" : `confidence ${short(segment.persistence, 3)}`;
+  return `${role}${on === role ? "" : ` ${on}`}, ${confidence}`;
+}
+
+/// "1 support and 2 walls"; empty without any.
+export function surfacesInWords({ surfaces }: SceneMeta): string {
+  const count = (role: string) => surfaces.filter((s) => s.role === role).length;
+  const words = ["support", "wall"].filter((role) => count(role) > 0);
+  return listed(words.map((role) => counted(count(role), role)));
+}
