@@ -15,8 +15,8 @@ namespace ph::beta_skeleton {
 // Rounding. The lens is that of the rounded distances. With rounded squares of a relative error
 // below 1e-15 each, (u,q) not after (u,v) means |uq| <= (1 + e) |uv|, and |pq| < (1 - e) |uv| means
 // that (p,q) comes before (u,v), whatever the ties, for e = 2e-15. Write c for -(u - p).(v - p).
-// The proof with this e needs c >= sqrt(3/4) |up| |vp| + 2 e |uv|^2; the margin below, 1e-12
-// |uv|^2, leaves hundreds of times that for the errors of the few operations of the test.
+// The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2; the margin below, 1e-12
+// |uv|^2, leaves a hundred times that for the errors of the few operations of the test.
 
 /// How much of |uv|^2 a point must be inside the spindle.
 inline constexpr double kSpindleMargin = 1e-12;
@@ -37,7 +37,7 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
 
 /// Whether p is for certain in the spindle of all pairs of a point of one ball and one of another.
 /// In the proof |up| |vp| >= 1e-7 |uv|^2 follows from the first test, and a margin of 1e-6 in the
-/// angle is then worth 5e-14 |uv|^2, far more than 2 e; it also is more than the rounding of acos.
+/// angle is then worth 5e-14 |uv|^2, more than 3 e; it also is more than the rounding of acos.
 template <int D>
 bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
                     const double* centre_v, double radius_v, double distance) {
