@@ -20,13 +20,19 @@ namespace {
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
 
-Rips rips_of(const PointSet& set, RipsOptions options, const RunContext& context) {
+Rips rips_of(const PointSet& set, RipsOptions options, const Options& task,
+             const RunContext& context) {
   options.distance = set.distance;
   options.minkowski_p = set.p;
+  options.only_points = !options.only_components && !options.approximation &&
+                        holds_points_alone(set.points, options, task);
   return Rips(set.points, options, context);
 }
 template <class Distances>
-Rips rips_of(const Distances& distances, const RipsOptions& options, const RunContext& context) {
+Rips rips_of(const Distances& distances, const RipsOptions& options, const Options& task,
+             const RunContext& context) {
+  if (task.engine == Engine::beta_skeleton)
+    throw Error(ErrorKind::usage, "engine beta-skeleton: found distances, expected points");
   return Rips(distances, options, context);
 }
 
@@ -93,11 +99,13 @@ Built RipsRecipe::build(const Options& task, const RunContext& context) const {
   const bool may_merge = !options.only_components && task.min_persistence >= 0 &&
                          task.representatives != Representatives::cocycles;
   options.merge_equal_points = choices_.merge_equal_points.value_or(may_merge);
-  return space_->visit(context, [&](const auto& data) { return build(data, options, context); });
+  return space_->visit(context,
+                       [&](const auto& data) { return build(data, options, task, context); });
 }
 
 template <class Data>
-Built RipsRecipe::build(const Data& data, RipsOptions options, const RunContext& context) const {
+Built RipsRecipe::build(const Data& data, RipsOptions options, const Options& task,
+                        const RunContext& context) const {
   Facts facts;
   std::vector<double> births = choices_.births;
   std::vector<std::uint32_t> vertices;
@@ -114,7 +122,7 @@ Built RipsRecipe::build(const Data& data, RipsOptions options, const RunContext&
   }
   options.births = births;
   options.vertices = vertices;
-  Rips rips = rips_of(data, options, context);
+  Rips rips = rips_of(data, options, task, context);
   facts.vertices = rips.size();
   facts.edges = rips.edge_count();
   if (std::isfinite(rips.threshold())) facts.threshold = rips.threshold();
@@ -128,7 +136,9 @@ bool RipsRecipe::is_short(const Options& task) const {
 }
 
 Rips RipsRecipe::collapsed(const RunContext& context) const {
-  const Built built = build(Options{}, context);
+  Options task;
+  task.collapse = Collapse::on;
+  const Built built = build(task, context);
   return collapse_edges(std::get<Rips>(built.complex), context);
 }
 

@@ -82,7 +82,8 @@ class RipsRecipe final : public Recipe {
 
  private:
   template <class Data>
-  Built build(const Data& data, RipsOptions options, const RunContext& context) const;
+  Built build(const Data& data, RipsOptions options, const Options& task,
+              const RunContext& context) const;
 
   const std::shared_ptr<const MetricSpace> space_;
   const Choices choices_;

@@ -263,4 +263,19 @@ inline void check(const Rips& rips, int max_dim,
   for (const std::int64_t field : fields) check_collapse(rips, max_dim, field);
 }
 
+/// Every engine that takes the points alone against the oracle, which takes all cells.
+inline void check_points_alone(PointsView points, std::int64_t field) {
+  const Options task{.max_dim = 1, .field = field, .engine = Engine::standard};
+  const auto oracle = pairs_of(persistence(Rips(points), task));
+  const Rips alone(points, {.only_points = true});
+  alone.with_filtration(1, [&]<class F>(const F& f) {
+    for (const auto& engine : detail::engines<F>()) {
+      if (!engine.can_run(f, Task{.max_dim = 1})) continue;
+      SCOPED_TRACE(engine.id.name());
+      EXPECT_EQ(pairs_of(persistence(alone, {.max_dim = 1, .field = field, .engine = engine.id})),
+                oracle);
+    }
+  });
+}
+
 }  // namespace ph::test

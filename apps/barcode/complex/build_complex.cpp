@@ -198,11 +198,28 @@ class Builder {
         options.vertices = vertices;
       }
     }
+    if constexpr (std::same_as<Data, Points>)
+      options.only_points = !options.only_components && !options.approximation &&
+                            (!arguments_.check || is_beta_skeleton()) &&
+                            holds_points_alone(data, options, arguments_.options);
+    else if (is_beta_skeleton())
+      throw Error(ErrorKind::usage, fmt::format("--engine: found {}, which needs points",
+                                                arguments_.options.engine.name()));
     const Rips complex(data, options, context_);
     const double threshold = complex.threshold();
     BuiltComplex built{
         complex, "rips",       std::isfinite(threshold) ? std::optional(threshold) : std::nullopt,
         false,   std::nullopt, weights_text()};
+    if constexpr (std::same_as<Data, Points>)
+      if (options.only_points && arguments_.check) {
+        RipsOptions all = options;
+        all.only_points = false;
+        all.births = {};
+        built.by_definition = [data, all, vertices](const RunContext& context) mutable {
+          all.vertices = vertices;
+          return Rips(data, all, context);
+        };
+      }
     if (sample)
       built.subsample = {static_cast<Index>(vertices.size()), size_of(data),
                          sample->covering_radius};
@@ -284,6 +301,8 @@ class Builder {
     for (const Index id : ids_) kept.push_back(all[static_cast<std::size_t>(id)]);
     return kept;
   }
+
+  bool is_beta_skeleton() const { return arguments_.options.engine == Engine::beta_skeleton; }
 
   std::string weights_text() const {
     std::string source = !arguments_.vertex_weights.empty()             ? "file"

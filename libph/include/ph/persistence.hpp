@@ -56,6 +56,11 @@ Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
 // For a complex of your own there is a template: ph/custom.hpp.
 
+/// Whether a Rips filtration of points had better hold them alone for a task: with
+/// RipsOptions::only_points, which is otherwise as given.
+/// @throws Error (usage) if Engine::beta_skeleton is asked for where it cannot do the task.
+bool holds_points_alone(PointsView points, const RipsOptions& rips, const Options& options);
+
 /// Data that no complex has been chosen for.
 template <class T>
 concept DataWithoutComplex = std::convertible_to<const T&, PointsView> ||

@@ -49,6 +49,11 @@ struct RipsOptions {
   /// Manhattan, Chebyshev, Minkowski), all else O(n) memory beside the input. Without a threshold
   /// there is none: no enclosing radius is looked for.
   bool only_components = false;
+  /// Only the points are held, no edges: enough for bars of positive length of H0 and H1, without
+  /// representatives, by Engine::beta_skeleton, and nothing else can be computed. Euclidean points
+  /// of 1 to 4 coordinates, all zero or of a size from 1e-120 to 1e150, without births. Without a
+  /// threshold there is none. `holds_points_alone` in ph/persistence.hpp says where this pays.
+  bool only_points = false;
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -86,6 +91,7 @@ class Rips {
   std::size_t edge_count() const;
   /// As asked for in RipsOptions.
   bool has_only_components() const;
+  bool has_only_points() const;
 
   // With ph/custom.hpp: what engines see.
 

@@ -5,13 +5,14 @@
 #include "cubical/gradient.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"
+#include "rips/beta_skeleton/beta_skeleton.hpp"
 #include "rips/sweep/edge_links.hpp"
 
 namespace ph::detail {
 
 /// Every engine of libph. A new one is its file and its place in this list.
-using AllEngines =
-    decltype(std::tuple_cat(GenericEngines{}, std::tuple<EdgeLinkEngine, GradientEngine>{}));
+using AllEngines = decltype(std::tuple_cat(
+    GenericEngines{}, std::tuple<EdgeLinkEngine, BetaSkeletonEngine, GradientEngine>{}));
 
 template <Filtration F>
 std::vector<EngineFor<F>> all_engines() {

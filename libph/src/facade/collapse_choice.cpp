@@ -42,6 +42,14 @@ int rips_max_dim(const Rips& rips, const Options& options) {
                             "the components are there",
                             max_dim));
   }
+  if (rips.has_only_points()) {
+    const std::string_view obstacle = obstacle_to_points_alone(options, max_dim);
+    if (!obstacle.empty())
+      throw Error(ErrorKind::usage,
+                  fmt::format("of this Rips filtration only the points are there, which is enough "
+                              "for {}",
+                              obstacle));
+  }
   return max_dim;
 }
 

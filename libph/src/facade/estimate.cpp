@@ -89,8 +89,9 @@ Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Opti
       forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
                                  options.representatives != Representatives::none, context);
   if constexpr (std::same_as<Complex, Alpha>)
-    if (listed_dim < 0) forecast = detail::forecast_intervals(
-          e.bytes_held, options.representatives != Representatives::none);
+    if (listed_dim < 0)
+      forecast = detail::forecast_intervals(e.bytes_held,
+                                            options.representatives != Representatives::none);
   e.counted_dims = static_cast<int>(e.cells.size());
   const auto [low, high] = forecast;
   e.bytes_low = low;
@@ -102,6 +103,15 @@ Estimate estimate_one(const Rips& rips, const RunPlan& planned, const Options& o
                       const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = planned;
+  if (rips.has_only_points()) {
+    e.bytes_held = 8 * static_cast<double>(rips.graph().points_alone()->size());
+    Options settled = with_plan(options, e);
+    settled.collapse = Collapse::off;
+    const auto [low, high] = detail::forecast_points_alone(rips, settled, context);
+    e.bytes_low = low;
+    e.bytes_high = high;
+    return e;
+  }
   const double edges = e.bytes_held = 16 * static_cast<double>(rips.edge_count());
   double collapse = 0;
   std::optional<Rips> collapsed;

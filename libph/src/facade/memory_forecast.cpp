@@ -180,6 +180,47 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   return {least, most + kMargin * large.extra * std::pow(factor, power)};
 }
 
+MemoryForecast forecast_points_alone(const Rips& rips, const Options& options,
+                                     const RunContext& context) {
+  const Points& points = *rips.graph().points_alone();
+  const double held = 8 * static_cast<double>(points.size());
+  constexpr Index kLarge = 8'000, kSmall = 2'000;
+  std::mt19937_64 random(1);
+  const auto peak_of = [&](Index count) {
+    Points sample(count, points.cols());
+    for (Index i = 0; i < count; ++i) {
+      const auto from = static_cast<Index>(
+          random() % static_cast<std::uint64_t>(std::max<Index>(1, points.rows())));
+      std::ranges::copy(points.row(from), sample.row(i).begin());
+    }
+    RunContext own;
+    own.stop = context.stop;
+    own.on_progress = context.on_progress;
+    own.threads = 1;
+    own.memory.set_limit(context.memory.left());
+    const RipsOptions rips_options{.threshold = std::isfinite(rips.threshold())
+                                                    ? std::optional(rips.threshold())
+                                                    : std::nullopt,
+                                   .only_points = true};
+    const Barcode barcode = persistence(Rips(sample, rips_options, own), options, own);
+    return static_cast<double>(own.memory.peak());
+  };
+  const double least = 2.5 * held;  // the tree has a copy, and boxes
+  if (points.rows() == 0) return {held, held + kAlways};
+  const Index large = std::min(kLarge, points.rows()), small = std::min(kSmall, points.rows());
+  const double of_large = peak_of(large);
+  const double of_small = peak_of(small);
+  double power = 1;
+  if (small < large)
+    power = std::log(of_large / of_small) /
+            std::log(static_cast<double>(large) / static_cast<double>(small));
+  // Measured: pairs of nodes that wait across holes add to what grows with the points.
+  power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
+  const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
+  return {least, held + 2 * of_large * std::pow(factor, power) +
+                     bytes_per_bar(options) * 1.5 * static_cast<double>(points.rows()) + kAlways};
+}
+
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
   // Measured: critical cells with their columns, and bars, of noise; these with long chains.

@@ -21,6 +21,10 @@ int listed_rips_dim(Engine engine, int max_dim);
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
+/// The same for one that holds points alone: the engine computes two samples of them.
+MemoryForecast forecast_points_alone(const Rips& rips, const Options& options,
+                                     const RunContext& context);
+
 /// The same for an image that is paired voxel by voxel: between a smooth one, with next to no
 /// critical cells, and noise. @param stored with what is kept of each voxel.
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,

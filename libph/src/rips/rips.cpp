@@ -8,6 +8,7 @@
 #include "ph/detail/rips/rips_vertices.hpp"
 #include "ph/detail/rips/sparse_rips.hpp"
 #include "ph/error.hpp"
+#include "rips/beta_skeleton/points_alone.hpp"
 
 namespace ph {
 namespace {
@@ -29,6 +30,7 @@ RipsGraph graph_of_all_points(PointsView points, const RipsOptions& options,
     return sparse_rips_graph(PointMetric(points, options.distance, options.minkowski_p), order,
                              *options.approximation, options.threshold, context);
   }
+  if (options.only_points) return RipsGraph::of_points_alone(points, options.threshold, context);
   if (options.only_components && !is_weighted &&
       has_fast_spanning_forest(points, options.distance)) {
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
@@ -62,6 +64,9 @@ RipsGraph graph_of_distinct_points(PointsView points, const RipsOptions& options
 }
 
 void check_together(const RipsOptions& options) {
+  if (options.only_points)
+    throw Error(ErrorKind::usage,
+                "a Rips filtration of points alone needs points, found distances");
   if (!options.approximation) return;
   if (options.only_components || !options.births.empty()) {
     throw Error(ErrorKind::usage,
@@ -70,10 +75,20 @@ void check_together(const RipsOptions& options) {
   }
 }
 
+void check_points_alone(PointsView points, const RipsOptions& options) {
+  const std::string_view obstacle = obstacle_to_points_alone(points, options);
+  if (!obstacle.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("a Rips filtration of points alone needs {}", obstacle));
+}
+
 RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
                           const RunContext& context) {
   RipsGraph::check_size(points.rows());
-  check_together(options);
+  if (options.only_points)
+    check_points_alone(points, options);
+  else
+    check_together(options);
   const RipsVertices vertices(points.rows(), options.vertices, options.births,
                               options.weight_exponent, options.threshold, context);
   if (vertices.are_all())
@@ -87,6 +102,7 @@ RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
 
 RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& options,
                           const RunContext& context) {
+  if (options.only_points) check_together(options);
   if (options.approximation)
     throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found some of them");
   const auto build = options.only_components ? RipsGraph::forest_of_edges : RipsGraph::of_edges;
@@ -157,5 +173,6 @@ Index Rips::size() const { return graph_->size(); }
 double Rips::threshold() const { return graph_->threshold(); }
 std::size_t Rips::edge_count() const { return graph_->edge_count(); }
 bool Rips::has_only_components() const { return graph_->is_forest(); }
+bool Rips::has_only_points() const { return graph_->points_alone() != nullptr; }
 
 }  // namespace ph

@@ -57,6 +57,22 @@ RipsGraph RipsGraph::of_points_within(PointsView points, double threshold,
                    weights.births());
 }
 
+RipsGraph RipsGraph::of_points_alone(PointsView points, std::optional<double> threshold,
+                                     const RunContext& context) {
+  check_arguments(points.rows(), threshold);
+  RipsGraph graph(points.rows(), threshold.value_or(kNoLimit),
+                  BinnedEdges(FlagEdges(&context.memory)), context);
+  const auto bytes = static_cast<std::size_t>(points.size()) * sizeof(double);
+  context.memory.require(bytes);
+  graph.points_.reset(new PointsAlone{Points(points), MemoryClaim(context.memory, bytes)});
+  return graph;
+}
+
+void RipsGraph::throw_no_edges() {
+  throw Error(ErrorKind::usage,
+              "this Rips filtration holds the points alone; what was asked for needs edges");
+}
+
 RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
                               std::optional<double> threshold, const RunContext& context,
                               const VertexWeights& weights) {

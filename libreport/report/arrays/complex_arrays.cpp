@@ -78,7 +78,7 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, std::span<con
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(graph.size()); ++v)
       arrays.births[static_cast<std::size_t>(graph.name(v))] = static_cast<float>(graph.birth(v));
   }
-  if (graph.is_forest()) return arrays;
+  if (graph.is_forest() || graph.points_alone()) return arrays;
   const auto number = [&](std::uint32_t v) {
     const auto point = static_cast<std::size_t>(graph.name(v));
     return static_cast<std::uint32_t>(ids.empty() ? static_cast<Index>(point) : ids[point]);

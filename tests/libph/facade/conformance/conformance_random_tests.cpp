@@ -24,8 +24,9 @@ std::vector<Pair> pairs_of_edge_links(const F& f, int max_dim, std::int64_t fiel
 
 TEST(RandomConformance, RipsOfPoints) {
   for_each_seed(4000, [](Generator& random, bool ties, std::int64_t field) {
-    const Rips rips(random.points(random.integer(0, 10), random.integer(1, 4), ties));
-    check(rips, random.integer(0, 3), {field});
+    const Points points = random.points(random.integer(0, 10), random.integer(1, 4), ties);
+    check(Rips(points), random.integer(0, 3), {field});
+    check_points_alone(points, field);
   });
 }
 

@@ -19,13 +19,14 @@ class Engine {
   constexpr std::string_view name() const { return name_; }
   friend constexpr bool operator==(Engine, Engine) = default;
 
-  static const Engine automatic;   ///< chosen from the complex and the task
-  static const Engine standard;    ///< the oracle: textbook reduction, slow, any filtration
-  static const Engine twist;       ///< boundary matrix with clearing
-  static const Engine cohomology;  ///< coboundary matrix with clearing and shortcuts
-  static const Engine union_find;  ///< H0 only
-  static const Engine edge_links;  ///< Rips, H0 to H2: edge by edge
-  static const Engine gradient;    ///< images: voxel by voxel
+  static const Engine automatic;      ///< chosen from the complex and the task
+  static const Engine standard;       ///< the oracle: textbook reduction, slow, any filtration
+  static const Engine twist;          ///< boundary matrix with clearing
+  static const Engine cohomology;     ///< coboundary matrix with clearing and shortcuts
+  static const Engine union_find;     ///< H0 only
+  static const Engine edge_links;     ///< Rips, H0 to H2: edge by edge
+  static const Engine beta_skeleton;  ///< Rips of points of few coordinates, H0 and H1: no edges
+  static const Engine gradient;       ///< images: voxel by voxel
 
  private:
   std::string_view name_ = "auto";
@@ -37,6 +38,7 @@ inline constexpr Engine Engine::twist{"twist"};
 inline constexpr Engine Engine::cohomology{"cohomology"};
 inline constexpr Engine Engine::union_find{"union-find"};
 inline constexpr Engine Engine::edge_links{"edge-links"};
+inline constexpr Engine Engine::beta_skeleton{"beta-skeleton"};
 inline constexpr Engine Engine::gradient{"gradient"};
 
 /// The engine of that name, or of that earlier name ("lens", "arrows", "union_find"); nothing if

@@ -20,6 +20,9 @@ struct EngineChoice {
 /// @throws Error (usage): an engine cannot do a task, or none can.
 [[noreturn]] void refuse(Engine asked, const Task& task);
 
+/// What can be computed of points alone instead of what is asked for; empty: that can be.
+std::string_view obstacle_to_points_alone(const Options& options, int max_dim);
+
 /// The engine asked for, or the one that suits the task best.
 /// @throws Error (usage) if the engine asked for cannot do it.
 template <Filtration F>

@@ -26,9 +26,18 @@ constexpr EngineFacts facts() {
   return facts;
 }
 
+/// A filtration that holds the points alone has no cells for the other engines.
+template <class E, Filtration F>
+bool can_run(const F& f, const Task& task) {
+  if constexpr (
+      requires { f.points_alone(); } && !requires { E::takes_points_alone; })
+    if (f.points_alone() != nullptr) return false;
+  return E::can_run(f, task);
+}
+
 template <class E, Filtration F>
 constexpr EngineFor<F> engine_for() {
-  return {facts<E>(), [](const F& f, const Task& task) { return E::can_run(f, task); },
+  return {facts<E>(), [](const F& f, const Task& task) { return can_run<E>(f, task); },
           [](const F& f, const Task& task) { return E::suitability(f, task); },
           [](const F& f, std::int64_t characteristic, BarcodeBuilder<F>& bars,
              const RunContext& context) {

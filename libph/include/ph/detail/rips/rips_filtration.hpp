@@ -77,6 +77,9 @@ class RipsFiltration {
   std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
   std::span<const double> vertex_births() const { return graph_.births(); }
   const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
+  /// The points, if there are no edges, for engines that go without.
+  const Points* points_alone() const { return graph_.points_alone(); }
+  double threshold() const { return graph_.threshold(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
   Cell edge_cell(std::uint32_t position) const {
     const FlagEdge& e = graph_.edge(position + 1);
@@ -361,6 +364,7 @@ decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& u
   };
   using Dense = RipsFiltration<RipsLayout::dense, 1>;
   using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
+  if (graph.points_alone()) return use(Sparse(graph));  // no cell is ever made
   if (fits(std::type_identity<Sparse>()))
     return graph.is_dense() ? use(Dense(graph)) : use(Sparse(graph));
   using Wide = RipsFiltration<RipsLayout::any, 4>;

@@ -44,6 +44,9 @@ class RipsGraph {
   /// Euclidean distances up to the threshold; never n^2 of them.
   static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
                                     const VertexWeights& weights = {});
+  /// A copy of the points and no edges. Precondition: obstacle_to_points_alone finds none.
+  static RipsGraph of_points_alone(PointsView points, std::optional<double> threshold,
+                                   const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context,
                             const VertexWeights& weights = {});
@@ -87,15 +90,21 @@ class RipsGraph {
   std::size_t edge_count() const { return edges_.size(); }
   /// Whether only a spanning forest is held.
   bool is_forest() const { return is_forest_; }
+  /// The points if nothing else is held; else null.
+  const Points* points_alone() const { return points_ ? &points_->points : nullptr; }
   double threshold() const { return threshold_; }
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
   /// Of an edge.
   double value(Key key) const { return edges_[key - 1].value; }
   /// All, in order.
-  std::span<const FlagEdge> edges() const { return edges_.sorted(); }
-  /// For those who may not need all of them in order.
-  const BinnedEdges& binned_edges() const { return edges_; }
+  std::span<const FlagEdge> edges() const { return binned_edges().sorted(); }
+  /// For those who may not need all of them in order. @throws Error (usage) if points alone are
+  /// held, here and where all edges are asked for.
+  const BinnedEdges& binned_edges() const {
+    require_edges();
+    return edges_;
+  }
   /// Where the edges are allocated.
   std::pmr::memory_resource* memory() const { return names_.get_allocator().resource(); }
 
@@ -107,6 +116,7 @@ class RipsGraph {
   /// do without.
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+    require_edges();
     const std::lock_guard lock(lazy_->mutex);
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_relaxed)) return *made;
     const RipsAdjacency& made =
@@ -125,6 +135,14 @@ class RipsGraph {
   };
   RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
             std::span<const double> births = {});
+  struct PointsAlone {
+    Points points;
+    MemoryClaim claim;
+  };
+  void require_edges() const {
+    if (points_) throw_no_edges();
+  }
+  [[noreturn]] static void throw_no_edges();
   static void check_arguments(Index size, std::optional<double> threshold);
   /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
@@ -134,9 +152,10 @@ class RipsGraph {
   Index size_ = 0;
   double threshold_ = 0;
   bool is_forest_ = false;
-  BinnedEdges edges_;                      // by key - 1
-  std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
-  std::pmr::vector<double> births_;        // by vertex; empty: 0
+  std::unique_ptr<const PointsAlone> points_;  // null: the edges are held
+  BinnedEdges edges_;                          // by key - 1
+  std::pmr::vector<std::uint32_t> names_;      // by vertex; empty: its number
+  std::pmr::vector<double> births_;            // by vertex; empty: 0
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 

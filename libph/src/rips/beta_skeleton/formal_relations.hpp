@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+#include "rips/sweep/sorted_terms.hpp"
+
+namespace ph::beta_skeleton {
+
+/// Relations between formal generators over any field, one after the other, and the generator that
+/// each kills: the youngest one left when relations with the same youngest generator have been
+/// subtracted. See docs/explanation/engines/formal-annotations.md.
+template <Field K>
+class FormalRelations {
+ public:
+  using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
+  using Term = Entry<Generator, K>;
+  using Sum = std::pmr::vector<Term>;
+
+  FormalRelations(std::size_t generators, const K& field, std::pmr::memory_resource* memory)
+      : field_(field), of_(generators, memory), merged_(memory) {}
+
+  /// Makes a sum of terms in any order one of ascending generators without zeros.
+  void collect(Sum& sum) const {
+    std::sort(sum.begin(), sum.end(), [](const Term& a, const Term& b) { return a.cell < b.cell; });
+    auto out = sum.begin();
+    for (auto it = sum.begin(); it != sum.end();) {
+      const Generator g = it->cell;
+      auto value = it->coefficient();
+      for (++it; it != sum.end() && it->cell == g; ++it)
+        value = field_.add(value, it->coefficient());
+      if (!field_.is_zero(value)) *out++ = Term(g, value);
+    }
+    sum.erase(out, sum.end());
+  }
+  /// @param relation zero from now on; ascending. @return the generator that dies, if one does.
+  std::optional<Generator> add(Sum& relation) {
+    while (!relation.empty()) {
+      const Term youngest = relation.back();
+      const Sum& other = of_[youngest.cell];
+      if (other.empty()) {
+        store(relation);
+        return youngest.cell;
+      }
+      add_sorted_terms<K>(relation, other, field_.negate(youngest.coefficient()), field_, merged_);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// With one for the coefficient of its youngest generator.
+  void store(const Sum& relation) {
+    Sum& mine = of_[relation.back().cell];
+    mine.reserve(relation.size());
+    const auto scale = field_.inverse(relation.back().coefficient());
+    for (const Term& t : relation)
+      mine.emplace_back(t.cell, field_.multiply(scale, t.coefficient()));
+  }
+
+  const K& field_;
+  std::pmr::vector<Sum> of_;  // by generator: the relation that killed it
+  Sum merged_;                // scratch
+};
+
+}  // namespace ph::beta_skeleton

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "rips/beta_skeleton/point_tree.hpp"
+
+namespace ph::beta_skeleton {
+
+struct NodePair {
+  Node a = 0, b = 0;
+};
+
+/// Pairs of nodes by ascending distance, in bins: a calendar queue (Brown 1988). A bin of which too
+/// much comes is cut into narrower ones.
+class NodePairQueue {
+ public:
+  using Pairs = std::pmr::vector<NodePair>;
+
+  /// @param first distances up to it may come in any order.
+  NodePairQueue(double first, std::pmr::memory_resource* memory) : levels_(memory) {
+    levels_.push_back({key_of(first) >> kWidestShift, kWidestShift, Bins(memory)});
+  }
+
+  void push(double distance, NodePair pair) {
+    const std::uint64_t key = key_of(distance);
+    for (std::size_t l = levels_.size(); l-- > 0;) {
+      Level& level = levels_[l];
+      const std::uint64_t at = std::max(key >> level.shift, level.first) - level.first;
+      const auto bin = std::max<std::size_t>(at, level.next == 0 ? 0 : level.next - 1);
+      if (l > 0 && bin >= kParts) continue;
+      if (bin >= level.bins.size()) level.bins.resize(bin + 1);
+      level.bins[bin].push_back(pair);
+      return;
+    }
+  }
+  /// Goes on to the next bin that is not empty. @return whether there is one.
+  bool open_next() {
+    for (;; levels_.pop_back()) {
+      Level& level = levels_.back();
+      if (level.next > 0) Pairs(level.bins.get_allocator()).swap(level.bins[level.next - 1]);
+      while (level.next < level.bins.size() && level.bins[level.next].empty()) ++level.next;
+      if (level.next < level.bins.size()) {
+        ++level.next;
+        return true;
+      }
+      if (levels_.size() == 1) return false;
+    }
+  }
+  /// Takes pairs of the open bin, those that came last. @return whether there were any.
+  bool take(std::size_t most, Pairs& taken) {
+    Pairs& open = open_bin();
+    const std::size_t count = std::min(most, open.size());
+    taken.assign(open.end() - static_cast<std::ptrdiff_t>(count), open.end());
+    open.resize(open.size() - count);
+    return count > 0;
+  }
+  /// Once the open bin is empty: all pairs at less than that have been taken.
+  double bound() const {
+    const Level& level = levels_.back();
+    return std::bit_cast<double>((level.first + level.next) << level.shift);
+  }
+  bool can_narrow() const { return levels_.back().shift >= kPartBits && !open_bin().empty(); }
+  /// Cuts what is left of the open bin into narrower ones. The first of them is opened next.
+  template <class DistanceOf>
+  void narrow(DistanceOf&& distance_of) {
+    Level& wide = levels_.back();
+    Pairs left(wide.bins.get_allocator());
+    left.swap(open_bin());
+    levels_.push_back({(wide.first + wide.next - 1) << kPartBits, wide.shift - kPartBits,
+                       Bins(kParts, wide.bins.get_allocator())});
+    for (const NodePair& pair : left) push(distance_of(pair), pair);
+  }
+
+ private:
+  static constexpr int kWidestShift = 45;  // of 52 digits: 128 bins for each power of two
+  static constexpr int kPartBits = 5;
+  static constexpr std::size_t kParts = 1 << kPartBits;
+  using Bins = std::pmr::vector<Pairs>;
+  /// Bins of one width, each of which holds the distances that share their first digits.
+  struct Level {
+    std::uint64_t first;  // digits of bin 0
+    int shift;
+    Bins bins;
+    std::size_t next = 0;  // the open one is before it
+  };
+
+  /// The bits of distances are ordered as these.
+  static std::uint64_t key_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
+  Pairs& open_bin() { return levels_.back().bins[levels_.back().next - 1]; }
+  const Pairs& open_bin() const { return levels_.back().bins[levels_.back().next - 1]; }
+
+  std::pmr::vector<Level> levels_;  // each but the first is the open bin of the one before
+};
+
+}  // namespace ph::beta_skeleton

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory_resource>
+#include <vector>
+
+#include "rips/beta_skeleton/lenses.hpp"
+#include "rips/beta_skeleton/node_pairs.hpp"
+
+namespace ph::beta_skeleton {
+
+/// The last points that decided about a pair: pairs that are near each other have them in common.
+class Witnesses {
+ public:
+  void add(Position p) { last_[next_++ % kCount] = p; }
+  template <class Decides>
+  bool any(Decides&& decides) const {
+    return std::any_of(last_.begin(), last_.end(),
+                       [&](Position p) { return p != kNone && decides(p); });
+  }
+
+ private:
+  static constexpr std::size_t kCount = 4;
+  std::array<Position, kCount> last_ = [] {
+    std::array<Position, kCount> none;
+    none.fill(kNone);
+    return none;
+  }();
+  std::size_t next_ = 0;
+};
+
+/// An edge found: little, for there are many.
+struct FoundEdge {
+  double value;
+  Position u, v;
+};
+
+/// The relative neighbourhood graph (Toussaint 1980): the edges whose lens is empty, up to a limit,
+/// in their order.
+template <int D>
+std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
+                                                const RunContext& context);
+
+extern template std::pmr::vector<FoundEdge> relative_neighbours<2>(const PointTree<2>&, double,
+                                                                   const RunContext&);
+extern template std::pmr::vector<FoundEdge> relative_neighbours<3>(const PointTree<3>&, double,
+                                                                   const RunContext&);
+extern template std::pmr::vector<FoundEdge> relative_neighbours<4>(const PointTree<4>&, double,
+                                                                   const RunContext&);
+
+}  // namespace ph::beta_skeleton

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "rips/beta_skeleton/lenses.hpp"
+#include "rips/beta_skeleton/relative_neighbours.hpp"
+
+namespace ph::beta_skeleton {
+
+/// The generators of H1, one for each edge of the relative neighbourhood graph that joins no
+/// components, and formal annotations of any edge: signed sums of generators.
+template <int D>
+class SkeletonCycles {
+ public:
+  static constexpr std::uint32_t kNoGenerator = UINT32_MAX;
+
+  /// @param edges of the relative neighbourhood graph. @param generators of each, or kNoGenerator.
+  SkeletonCycles(const Lenses<D>& lenses, std::span<const FoundEdge> edges,
+                 std::span<const std::uint32_t> generators, std::pmr::memory_resource* memory)
+      : lenses_(lenses),
+        begin_(lenses.tree().size() + 1, 0, memory),
+        ends_(2 * edges.size(), memory),
+        stack_(memory) {
+    for (const FoundEdge& e : edges) {
+      ++begin_[e.u + 1];
+      ++begin_[e.v + 1];
+    }
+    for (std::size_t p = 1; p < begin_.size(); ++p) begin_[p] += begin_[p - 1];
+    for (std::size_t i = edges.size(); i-- > 0;) {
+      const auto& [value, u, v] = edges[i];
+      ends_[--begin_[u + 1]] = {v, generators[i]};
+      ends_[--begin_[v + 1]] = {u, generators[i]};
+    }
+    // What began at p + 1 begins at p now.
+    std::copy(begin_.begin() + 1, begin_.end(), begin_.begin());
+    begin_.back() = static_cast<std::uint32_t>(ends_.size());
+  }
+
+  /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y: zero or
+  /// a generator if the lens of the edge is empty, else the sum over two edges to a point of the
+  /// lens. Any point will do, and each of the two edges comes before; see the proof.
+  template <class Visit>
+  void annotate(Position x, Position y, Visit&& visit) {
+    stack_.assign(1, {x, y});
+    while (!stack_.empty()) {
+      const auto [from, to] = stack_.back();
+      stack_.pop_back();
+      if (const End* const end = find(from, to)) {
+        // Generators are directed from the smaller vertex to the larger one.
+        if (end->generator != kNoGenerator)
+          visit(end->generator, lenses_.tree().row(from) < lenses_.tree().row(to));
+        continue;
+      }
+      const Edge e = lenses_.edge(from, to);
+      const Position w = lenses_.middle(e, lenses_.holder_of(e));
+      if (w == kNone) throw std::logic_error("an edge with an empty lens is not in the graph");
+      stack_.push_back({from, w});
+      stack_.push_back({w, to});
+    }
+  }
+
+ private:
+  struct End {
+    Position other;
+    std::uint32_t generator;
+  };
+  const End* find(Position x, Position y) const {
+    for (std::uint32_t i = begin_[x]; i < begin_[x + 1]; ++i)
+      if (ends_[i].other == y) return &ends_[i];
+    return nullptr;
+  }
+
+  const Lenses<D>& lenses_;
+  std::pmr::vector<std::uint32_t> begin_;  // by position: of its ends
+  std::pmr::vector<End> ends_;
+  std::pmr::vector<std::pair<Position, Position>> stack_;  // scratch
+};
+
+}  // namespace ph::beta_skeleton

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rips/beta_skeleton/point_tree.hpp"
+
+namespace ph::beta_skeleton {
+
+// The spindle of an edge (u, v) has the points p that see u and v under an angle of more than 150
+// degrees. If there is one, p is in the lens of the edge and nearer than |uv| to all of the lens:
+// the edge does nothing. Proof, also of what follows: docs/explanation/engines/beta-skeleton.md.
+//
+// Rounding. The lens is that of the rounded distances. With rounded squares of a relative error
+// below 1e-15 each, (u,q) not after (u,v) means |uq| <= (1 + e) |uv|, and |pq| < (1 - e) |uv| means
+// that (p,q) comes before (u,v), whatever the ties, for e = 2e-15. Write c for -(u - p).(v - p).
+// The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2; the margin below, 1e-12
+// |uv|^2, leaves a hundred times that for the errors of the few operations of the test.
+
+/// How much of |uv|^2 a point must be inside the spindle.
+inline constexpr double kSpindleMargin = 1e-12;
+
+/// Whether p is in the spindle of u and v for certain. @param square that of |uv|.
+template <int D>
+bool is_in_spindle(const double* p, const double* u, const double* v, double square) {
+  double dot = 0, a = 0, b = 0;
+  for (int k = 0; k < D; ++k) {
+    const double x = u[k] - p[k], y = v[k] - p[k];
+    dot += x * y;
+    a += x * x;
+    b += y * y;
+  }
+  const double inside = -dot - kSpindleMargin * square;
+  return inside > 0 && inside * inside > 0.75 * (a * b);
+}
+
+/// Whether p is for certain in the spindle of all pairs of a point of one ball and one of another.
+/// In the proof |up| |vp| >= 1e-7 |uv|^2 follows from the first test, and a margin of 1e-6 in the
+/// angle is then worth 5e-14 |uv|^2, more than 3 e; it also is more than the rounding of acos.
+template <int D>
+bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
+                    const double* centre_v, double radius_v, double distance) {
+  const double a = std::sqrt(Squares<D>::between(p, centre_u)),
+               b = std::sqrt(Squares<D>::between(p, centre_v));
+  constexpr double least = 1e-6;
+  if (a - radius_u < least * distance || b - radius_v < least * distance) return false;
+  if (a < 1.01 * radius_u || b < 1.01 * radius_v) return false;
+  double dot = 0;
+  for (int k = 0; k < D; ++k) dot += (centre_u[k] - p[k]) * (centre_v[k] - p[k]);
+  const double cosine = dot / (a * b);
+  if (cosine > -0.86) return false;
+  const double angle =
+      std::acos(std::max(-1.0, cosine)) - std::asin(radius_u / a) - std::asin(radius_v / b);
+  return angle > std::numbers::pi * 5 / 6 + 1e-6;
+}
+
+}  // namespace ph::beta_skeleton

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "rips/beta_skeleton/node_pairs.hpp"
+#include "rips/beta_skeleton/relative_neighbours.hpp"
+
+namespace ph::beta_skeleton {
+
+/// The classes of H1, as far as that decides what has to be looked at.
+struct Classes {
+  std::span<const double> births;  ///< of all that there will be, ascending
+  std::size_t born = 0, living = 0;
+
+  /// Whether none lives from now on up to a value.
+  bool are_none_up_to(double value) const {
+    return living == 0 && (born == births.size() || births[born] > value);
+  }
+  bool are_over() const { return living == 0 && born == births.size(); }
+};
+
+/// Finds the edges whose lens falls apart, in their order, for as long as there are classes.
+template <int D>
+class SplitLenses {
+ public:
+  using S = Squares<D>;
+  /// Is told each of them, and brings the classes up to date.
+  using OnSplit = std::function<void(const Edge&, Node holder)>;
+
+  /// @param classes those born and alive change while edges come. @param limit of the edges.
+  SplitLenses(const PointTree<D>& tree, double limit, Classes& classes, const RunContext& context)
+      : tree_(tree),
+        lenses_(tree),
+        limit_(limit),
+        classes_(classes),
+        context_(context),
+        queue_(classes.births.empty() ? 0 : classes.births.front(), &context.memory),
+        split_(&context.memory) {}
+
+  void run(const OnSplit& on_split);
+
+ private:
+  using Pairs = NodePairQueue::Pairs;
+  struct Found {
+    explicit Found(std::pmr::memory_resource* memory) : pairs(memory), edges(memory) {}
+    Pairs pairs;
+    std::pmr::vector<FoundEdge> edges;
+    void clear() {
+      pairs.clear();
+      edges.clear();
+    }
+  };
+  class Opener;
+
+  void open_bin();
+  void sweep_below(double bound, const OnSplit& on_split);
+  double distance(NodePair pair) const {
+    return std::sqrt(S::least_of_boxes(tree_.box(pair.a), tree_.box(pair.b)));
+  }
+  bool comes_later(const FoundEdge& a, const FoundEdge& b) const {
+    return a.value != b.value ? a.value > b.value : lenses_.edge(b.u, b.v) < lenses_.edge(a.u, a.v);
+  }
+
+  const PointTree<D>& tree_;
+  Lenses<D> lenses_;
+  const double limit_;
+  Classes& classes_;
+  const RunContext& context_;
+  NodePairQueue queue_;
+  std::pmr::vector<FoundEdge> split_;  // a heap: the first edge on top
+};
+
+extern template class SplitLenses<2>;
+extern template class SplitLenses<3>;
+extern template class SplitLenses<4>;
+
+}  // namespace ph::beta_skeleton

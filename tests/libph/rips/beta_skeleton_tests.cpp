@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// Points alone against all edges: the same pairs, cell by cell, whatever the ties.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stop_token>
+
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/estimate.hpp"
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/for_each_seed.hpp"
+
+namespace ph::test {
+namespace {
+
+/// Points in one of many shapes, with ties if they are asked for.
+Points shaped_points(Generator& random, Index n, Index d, bool ties) {
+  Points p(n, d);
+  const int shape = random.integer(0, 6), side = random.integer(1, 6);
+  const double angle_step = 2 * std::numbers::pi / static_cast<double>(std::max<Index>(n, 1));
+  for (Index i = 0; i < n; ++i) {
+    const auto row = p.row(i);
+    for (double& x : row) x = ties ? random.integer(0, side) : random.real();
+    const double angle = ties ? static_cast<double>(i) * angle_step : 7 * random.real();
+    switch (shape) {
+      case 0:  // a grid with copies, or a cube
+        break;
+      case 1:  // a line
+        for (std::size_t k = 1; k < row.size(); ++k) row[k] = row[0] * static_cast<double>(k);
+        break;
+      case 2:  // a circle, or an annulus
+        if (d < 2) break;
+        row[0] = std::cos(angle) * (ties ? 1 : 1 + 0.4 * random.real());
+        row[1] = std::sin(angle) * (ties ? 1 : 1 + 0.4 * random.real());
+        for (std::size_t k = 2; k < row.size(); ++k) row[k] *= 0.1;
+        break;
+      case 3:  // clusters of many sizes
+        for (double& x : row) x = random.integer(0, 2) + x * std::pow(10, -random.integer(0, 9));
+        break;
+      case 4:  // copies of few points
+        if (i > 3) std::ranges::copy(p.row(random.integer(0, 3)), row.begin());
+        break;
+      case 5:  // two circles side by side
+        if (d < 2) break;
+        row[0] = std::cos(angle) + (i % 2 == 0 ? 2.5 : 0);
+        row[1] = std::sin(angle);
+        break;
+      default:  // far from the origin: few digits are left of differences
+        for (double& x : row) x = 1e6 + x * 1e-8;
+    }
+  }
+  return p;
+}
+
+/// The same task by the edges and by the points alone.
+void expect_same(const Points& points, RipsOptions rips, const Options& task, int threads) {
+  Options by_edges = task;
+  by_edges.engine = points.rows() <= 16 ? Engine::standard : Engine::edge_links;
+  const auto expected = pairs_of(persistence(Rips(points, rips), by_edges));
+  RunContext context;
+  context.threads = threads;
+  rips.only_points = true;
+  const Rips alone(points, rips, context);
+  ASSERT_TRUE(alone.has_only_points());
+  const Barcode found = persistence(alone, task, context);
+  EXPECT_EQ(pairs_of(found), expected);
+  Options without_cells = task;
+  without_cells.cells = false;
+  EXPECT_TRUE(std::ranges::equal(persistence(alone, without_cells, context), found));
+}
+
+void check_random(Generator& random, bool ties, std::int64_t field, Index n) {
+  const Points points = shaped_points(random, n, random.integer(1, 4), ties);
+  RipsOptions rips;
+  std::vector<std::uint32_t> vertices;
+  if (random.integer(0, 2) == 0) rips.threshold = ties ? random.integer(0, 3) : random.real();
+  if (random.integer(0, 4) == 0) {
+    for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(n); ++v)
+      if (random.coin()) vertices.push_back(v);
+    rips.vertices = vertices;
+  }
+  expect_same(points, rips, {.max_dim = random.integer(0, 9) == 0 ? 0 : 1, .field = field},
+              random.integer(1, 3));
+}
+
+TEST(BetaSkeleton, FewPoints) {
+  for_each_seed(20'000, [](Generator& random, bool ties, std::int64_t field) {
+    check_random(random, ties, field, random.integer(0, 16));
+  });
+}
+
+TEST(BetaSkeleton, SomePoints) {
+  for_each_seed(4'000, [](Generator& random, bool ties, std::int64_t field) {
+    check_random(random, ties, field, random.integer(17, 90));
+  });
+}
+
+TEST(BetaSkeleton, HundredsOfPoints) {
+  for_each_seed(160, [](Generator& random, bool ties, std::int64_t field) {
+    check_random(random, ties, field, random.integer(200, 500));
+  });
+}
+
+// A hole that lives long, and many that are born after others have died.
+TEST(BetaSkeleton, HolesOfManySizes) {
+  for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
+    const Index d = random.integer(2, 3), n = random.integer(150, 400);
+    Points points(n, d);
+    for (Index i = 0; i < n; ++i) {
+      const double radius = std::pow(0.4, static_cast<double>(i % 4)), angle = 7 * random.real();
+      points(i, 0) = 3 * static_cast<double>(i % 4) + radius * std::cos(angle);
+      points(i, 1) = radius * std::sin(angle) * (1 + 0.05 * random.real());
+      if (d == 3) points(i, 2) = 0.1 * random.real();
+    }
+    expect_same(points, {}, {.max_dim = 1, .field = field}, 2);
+  });
+}
+
+// Crowds of edges of nearly one length: bins are cut into narrower ones.
+TEST(BetaSkeleton, RegularPolygons) {
+  for (const Index n : {3, 6, 30, 300, 1'500}) {
+    SCOPED_TRACE(n);
+    Points points(n, 2);
+    for (Index i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+      points(i, 0) = std::cos(angle);
+      points(i, 1) = std::sin(angle);
+    }
+    expect_same(points, {}, {.max_dim = 1, .field = 3}, 1);
+  }
+}
+
+TEST(BetaSkeleton, Refuses) {
+  const Points points{{0, 0}, {1, 0}, {0, 1}};
+  const auto alone = [](PointsView p, RipsOptions options = {}) {
+    options.only_points = true;
+    return Rips(p, options);
+  };
+  expect_error(ErrorKind::usage, "Euclidean",
+               [&] { alone(points, {.distance = PointDistance::manhattan}); });
+  expect_error(ErrorKind::usage, "1 to 4 coordinates", [&] { alone(Points(3, 5)); });
+  expect_error(ErrorKind::usage, "enter at 0", [&] {
+    alone(points, {.births = std::array{0.0, 0.5, 1.0}});
+  });
+  expect_error(ErrorKind::usage, "sparse", [&] { alone(points, {.approximation = 0.5}); });
+  expect_error(ErrorKind::usage, "1e-120", [&] { alone(Points{{0, 1e-130}, {0, 0}}); });
+  expect_error(ErrorKind::usage, "found distances",
+               [&] { Rips(DistanceMatrix(2, std::vector<double>{1}), {.only_points = true}); });
+  const Rips rips = alone(points);
+  expect_error(ErrorKind::usage, "H0 and H1", [&] { persistence(rips, {.max_dim = 2}); });
+  expect_error(ErrorKind::usage, "positive length",
+               [&] { persistence(rips, {.min_persistence = -1}); });
+  expect_error(ErrorKind::usage, "without representatives",
+               [&] { persistence(rips, {.representatives = Representatives::cycles}); });
+  expect_error(ErrorKind::usage, "engine edge-links",
+               [&] { persistence(rips, {.engine = Engine::edge_links}); });
+  expect_error(ErrorKind::usage, "engine beta-skeleton",
+               [&] { persistence(Rips(points), {.engine = Engine::beta_skeleton}); });
+  expect_error(ErrorKind::usage, "needs edges", [&] { rips.graph().edges(); });
+  EXPECT_EQ(estimate(rips).engine, Engine::beta_skeleton);
+}
+
+TEST(BetaSkeleton, IsChosenWhereItPays) {
+  const Options task{.max_dim = 1};
+  Points many(6'000, 2);
+  for (Index i = 0; i < many.rows(); ++i) many(i, 0) = static_cast<double>(i);
+  EXPECT_TRUE(holds_points_alone(many, {}, task));
+  EXPECT_FALSE(holds_points_alone(many, {}, {.max_dim = 2}));
+  EXPECT_FALSE(holds_points_alone(many, {}, {.max_dim = 0}));
+  EXPECT_FALSE(holds_points_alone(many, {.threshold = 5}, task));
+  EXPECT_TRUE(holds_points_alone(many, {.threshold = 5'000}, task));
+  EXPECT_FALSE(holds_points_alone(many, {}, {.representatives = Representatives::cycles}));
+  EXPECT_FALSE(holds_points_alone(Points(100, 2), {}, task));
+  EXPECT_TRUE(holds_points_alone(Points(100, 2), {}, {.engine = Engine::beta_skeleton}));
+  EXPECT_FALSE(holds_points_alone(many, {}, {.engine = Engine::edge_links}));
+  expect_error(ErrorKind::usage, "H0 and H1", [&] {
+    holds_points_alone(many, {}, {.max_dim = 2, .engine = Engine::beta_skeleton});
+  });
+}
+
+TEST(BetaSkeleton, EndsAtTheMemoryLimitAndOnRequest) {
+  Generator random(1);
+  const Points points = random.points(20'000, 3, false);
+  RunContext context;
+  const Rips rips(points, {.only_points = true}, context);
+  context.memory.set_limit(context.memory.used() + 200'000);
+  expect_error(ErrorKind::resource, "", [&] { persistence(rips, {}, context); });
+  std::stop_source source;
+  RunContext stopped;
+  stopped.stop = source.get_token();
+  source.request_stop();
+  expect_error(ErrorKind::cancelled, "", [&] { persistence(rips, {}, stopped); });
+}
+
+}  // namespace
+}  // namespace ph::test
