@@ -64,8 +64,8 @@ from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
-    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker", "Loop",
-    "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
+    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker",
+    "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
     "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
     "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
