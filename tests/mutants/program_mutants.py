@@ -299,7 +299,7 @@ MUTANTS = [
     ("tracker: surfaces that are not in a cut use up numbers",
      "libsegment/src/objects/label_tracker.cpp",
      "if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;",
-     "if (numbers[i] == 0) numbers[i] = next_++;",
+     "if (numbers[i] == 0 && (i < segments || size_of_thing[i] >= 0)) numbers[i] = next_++;",
      ["segment_test"], "segment_test"),
     ("report: a scene without the numbers of its objects", "libreport/report/scene_page.cpp",
      "return label == 0 || page.numbers.empty() ? label : page.numbers[label - 1];",
