@@ -13,7 +13,7 @@ namespace ph {
 namespace {
 
 // Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time.
-constexpr double kFewestPoints[] = {1'000, 2'000, 5'000, 20'000, 50'000};  // by coordinates
+constexpr double kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by coordinates
 
 /// How many edges there are for each point, about, of a sample of pairs.
 double edges_of_a_point(PointsView points, double threshold) {
