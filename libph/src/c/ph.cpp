@@ -216,8 +216,10 @@ ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns, int6
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
     require(rows >= 0 && columns >= 0, "points: found a negative number of rows or columns");
     require(data != nullptr || rows == 0 || columns == 0, "data: found NULL");
-    return Rips(PointsView(data, rows, columns, row_stride, column_stride), rips_options(o),
-                context);
+    const PointsView points(data, rows, columns, row_stride, column_stride);
+    RipsOptions rips = rips_options(o);
+    rips.only_points = holds_points_alone(points, rips, task_of(o));
+    return Rips(points, rips, context);
   });
 }
 
