@@ -30,6 +30,23 @@ def write_cube(path, count, seed):
             file.write(f"{draw():.9g} {draw():.9g} {draw():.9g}\n")
 
 
+def write_square(path, count, seed):
+    """Uniform points of the unit square."""
+    draw = random.Random(seed).random
+    with open(path, "w") as file:
+        for _ in range(count):
+            file.write(f"{draw():.9g} {draw():.9g}\n")
+
+
+def write_annulus(path, count, seed):
+    """Uniform points of the annulus of radii 1 and 1.3 in the plane."""
+    draw = random.Random(seed).random
+    with open(path, "w") as file:
+        for _ in range(count):
+            r, angle = math.sqrt(1 + 0.69 * draw()), 2 * math.pi * draw()
+            file.write(f"{r * math.cos(angle):.9g} {r * math.sin(angle):.9g}\n")
+
+
 def write_symmetric(path, count, seed):
     """A symmetric matrix of independent uniform numbers: the strict lower triangle, float32."""
     draw = random.Random(seed).random
@@ -53,6 +70,9 @@ SAMPLES = {sample.name: sample for sample in (
     Sample("s2_2000", "txt", write_sphere, 2000),
     Sample("cube_600", "txt", write_cube, 600),
     Sample("cube_20000", "txt", write_cube, 20_000),
+    Sample("cube_100000", "txt", write_cube, 100_000),
+    Sample("square_1000000", "txt", write_square, 1_000_000),
+    Sample("annulus_100000", "txt", write_annulus, 100_000),
     Sample("cube_1000000", "txt", write_cube, 1_000_000),
     Sample("symmetric_500", "bin", write_symmetric, 500),
     Sample("tiny_12", "bin", write_symmetric, 12),
@@ -103,6 +123,9 @@ ROWS = (
     Row("random_50_16.bin", 7),
     Row("random_100_4.bin", 3),
     Row("cube_20000", 1, peers=False, usual=False),
+    Row("square_1000000", 1, peers=False, usual=False),
+    Row("cube_100000", 1, peers=False, usual=False),
+    Row("annulus_100000", 1, peers=False, usual=False),
     Row("cube_1000000", 0, peers=False, usual=False),
     Row("tiny_12", 2, limit=True, usual=False),
 )

@@ -124,7 +124,7 @@ Built RipsRecipe::build(const Data& data, RipsOptions options, const Options& ta
   options.vertices = vertices;
   Rips rips = rips_of(data, options, task, context);
   facts.vertices = rips.size();
-  facts.edges = rips.edge_count();
+  if (!rips.has_only_points()) facts.edges = rips.edge_count();
   if (std::isfinite(rips.threshold())) facts.threshold = rips.threshold();
   return {std::move(rips), std::move(facts)};
 }

@@ -187,7 +187,9 @@ RipsOptions rips_options(const ph_options& given) {
 }
 
 Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
-  return Rips(points, rips_options(options), context);
+  RipsOptions rips = rips_options(options);
+  rips.only_points = holds_points_alone(points, rips, task_of(options));
+  return Rips(points, rips, context);
 }
 
 PointsView points_of(const double* data, std::int64_t rows, std::int64_t columns,

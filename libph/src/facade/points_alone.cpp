@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <random>
 
 #include "ph/detail/facade/choose_engine.hpp"
@@ -12,8 +12,9 @@
 namespace ph {
 namespace {
 
-// Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time.
-constexpr double kFewestPoints[] = {1'000, 2'000, 5'000, 20'000, 50'000};  // by coordinates
+// Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time. In R^4 it
+// is their memory that decides.
+constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by coordinates
 
 /// How many edges there are for each point, about, of a sample of pairs.
 double edges_of_a_point(PointsView points, double threshold) {
@@ -56,11 +57,12 @@ bool holds_points_alone(PointsView points, const RipsOptions& rips, const Option
                   fmt::format("engine {}: expected {}", options.engine.name(), obstacle));
     return true;
   }
-  if (max_dim != 1 || !of_task.empty() || !obstacle_to_points_alone(points, rips).empty())
-    return false;
   const Index vertices =
       rips.vertices.empty() ? points.rows() : static_cast<Index>(rips.vertices.size());
-  if (static_cast<double>(vertices) < kFewestPoints[points.cols()]) return false;
+  if (max_dim != 1 || !of_task.empty() || points.cols() < 1 ||
+      points.cols() >= static_cast<Index>(std::size(kFewestPoints)) ||
+      vertices < kFewestPoints[points.cols()] || !obstacle_to_points_alone(points, rips).empty())
+    return false;
   // With few edges they are listed sooner.
   constexpr double many = 1'000;
   return !rips.threshold || edges_of_a_point(points, *rips.threshold) > many;

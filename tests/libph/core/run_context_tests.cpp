@@ -46,14 +46,15 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
   const Image image = random.image({9, 8, 7}, false);
   for (const auto& engine : detail::engine_facts()) {
     SCOPED_TRACE(engine.id.name());
-    const int max_dim = engine.id == Engine::union_find   ? 0
-                        : engine.id == Engine::edge_links ? 1
-                                                          : 2;
+    const bool takes_points = engine.id == Engine::beta_skeleton;
+    const int max_dim = engine.id == Engine::union_find                   ? 0
+                        : engine.id == Engine::edge_links || takes_points ? 1
+                                                                          : 2;
     const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
     const auto run = [&](const RunContext& context) {
       if (engine.id == Engine::gradient)
         return persistence(Cubical(image, {}, context), options, context);
-      return persistence(Rips(points, {}, context), options, context);
+      return persistence(Rips(points, {.only_points = takes_points}, context), options, context);
     };
     std::size_t peak = 0;
     Barcode expected;
@@ -227,14 +228,15 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     Cubical cubical(Image{{2}, {0, 1}}, {}, context);
   });
-  const Rips rips(points);
+  const Rips rips(points), alone(points, {.only_points = true});
   const Cubical image(Image{{2}, {0, 1}});
   for (const auto& engine : detail::engine_facts()) {
     expect_error(ErrorKind::cancelled, "stopped", [&] {
       if (engine.id == Engine::gradient)
         persistence(image, {.engine = engine.id}, context);
       else
-        persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
+        persistence(engine.id == Engine::beta_skeleton ? alone : rips,
+                    {.max_dim = 0, .engine = engine.id}, context);
     });
   }
 }

@@ -102,6 +102,24 @@ TEST(BetaSkeleton, HundredsOfPoints) {
   });
 }
 
+// Against edge links where the tree has many levels.
+TEST(BetaSkeleton, ThousandsOfPoints) {
+  for_each_seed(10, [](Generator& random, bool ties, std::int64_t field) {
+    const Index n = 5'000, d = random.integer(2, 3);
+    const int shape = random.integer(0, 2);
+    Points points(n, d);
+    for (Index i = 0; i < n;) {
+      const auto row = points.row(i);
+      for (double& x : row) x = ties ? random.integer(-30, 30) / 30.0 : 2 * random.real() - 1;
+      const double radius = std::hypot(row[0], row[1]);
+      const double to_hole = std::hypot(std::abs(row[0]) - 0.5, std::abs(row[1]) - 0.5);
+      if ((shape == 1 && (radius > 1 || radius < 0.7)) || (shape == 2 && to_hole < 0.3)) continue;
+      ++i;
+    }
+    expect_same(points, {}, {.max_dim = 1, .field = field}, 2);
+  });
+}
+
 // A hole that lives long, and many that are born after others have died.
 TEST(BetaSkeleton, HolesOfManySizes) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {

@@ -110,7 +110,8 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t pieces = 1024;
+  constexpr std::size_t few = 1 << 12;  // not worth a thread
+  const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
   // From the root until there are enough pairs to share, then each of them with all below it.

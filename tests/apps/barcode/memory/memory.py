@@ -82,7 +82,7 @@ BLOW_UPS = (
     ("space.txt", "--engine", "twist"),
     ("space.txt", "--representatives", "cycles", "--output-format", "json"),
     ("space.txt", "--min-persistence", "-1"),
-    ("plane.txt",),
+    ("plane.txt", "--engine", "edge-links"),
     ("plane.txt", "--threshold", "0.1"),
     ("plane.txt", "--threshold", "0.03", "--max-dim", "2"),
     ("cloud.txt", "--threshold", "0.02"),
@@ -143,7 +143,7 @@ class Alternatives(UnderLimit):
             ("space.txt", 20, 3, "--max-dim", "2", "--threshold", "0.25", "--engine", "twist",
              "--collapse", "off"),
             ("high.txt", 64, 3),
-            ("plane.txt", 64, 3, "--max-dim", "1"),
+            ("plane.txt", 64, 3, "--max-dim", "1", "--engine", "edge-links"),
             ("cloud.txt", 128, 2, "--threshold", "0.03"),
             ("graph.txt", 22, 1, "--format", "sparse"),
             ("band.txt", 32, 2, "--format", "sparse", "--max-dim", "2"))
