@@ -441,7 +441,7 @@ MUTANTS = [
      "return std::sqrt(largest);",
      "return std::sqrt(largest) / 2;",
      ["beta_skeleton_tests"]),
-    ("beta-skeleton: equal points are vertices", BETA_SKELETON + "pair_points.cpp",
+    ("beta-skeleton: components are counted twice", BETA_SKELETON + "pair_points.cpp",
      "sets.find(tree_.row(p)) == tree_.row(p)",
      "true",
      ["beta_skeleton_tests"]),
