@@ -66,6 +66,8 @@ MUTANTS = [
      ["image_loops_tests"]),
     ("loops in parts: a pivot is lost when its column goes", "libph/src/cubical/columns/chain_heap.hpp",
      "stay_.assign(1, pivot);", "stay_.clear();", ["image_loops_tests"]),
+    ("columns: what makes a chain long is not put in order", "libph/src/cubical/columns/chain_heap.hpp",
+     "consolidate();\n      return;", "return;", ["gradient_tests"]),
     ("columns: what replaces cells below a pivot is never younger",
      "libph/src/cubical/columns/chain_heap.hpp",
      "return take_pivot(replace);", "take_pivot(replace);\n    return pivot;", ["image_loops_tests"]),

@@ -51,7 +51,7 @@ class BoundaryColumn {
   std::optional<Term> settle(const Term& pivot) {
     return heap_.follow(pivot, heap_.size(), [this](const Term& term) { return replace(term); });
   }
-  /// What it holds, each cell once; to be assigned before it is used again.
+  /// What it holds, each cell once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:

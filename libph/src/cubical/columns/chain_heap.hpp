@@ -11,7 +11,9 @@
 
 namespace ph::cubical {
 
-/// A chain as a heap, the youngest cell first; a cell may be in it several times.
+/// A chain as a heap, the youngest cell first; a cell may be in it several times. Most of what a
+/// long chain is added to cancels out, but far below the youngest cell it would stay until it comes
+/// up. So the heap is consolidated whenever it has grown to three times what it held.
 /// @tparam Term an Entry. @tparam precedes whether a cell is older than another one; best without a
 ///         branch, which no processor could foretell.
 template <Field K, class Term, auto precedes>
@@ -21,16 +23,22 @@ class ChainHeap {
       : field_(field), terms_(memory), stay_(memory) {}
 
   std::size_t size() const { return terms_.size(); }
-  void clear() { terms_.clear(); }
+  void clear() { assign({}); }
   /// @param chain as `consolidate` gave it.
-  void assign(std::span<const Term> chain) { terms_.assign(chain.begin(), chain.end()); }
+  void assign(std::span<const Term> chain) {
+    terms_.assign(chain.begin(), chain.end());
+    set_most();
+  }
   /// Adds what `append(terms)` appends.
   template <class Append>
   void add(Append&& append) {
-    const std::size_t before = terms_.size();
+    std::size_t place = terms_.size();
     append(terms_);
-    if (terms_.size() - before > before) return make();
-    for (std::size_t i = before; i < terms_.size(); ++i) sift_up(i);
+    if (terms_.size() > most_) {
+      consolidate();
+      return;
+    }
+    for (; place < terms_.size(); ++place) sift_up(place);
   }
   /// The youngest cell, or one that cancels out; null if there is none.
   const Term* next() const { return terms_.empty() ? nullptr : &terms_.front(); }
@@ -70,7 +78,7 @@ class ChainHeap {
     add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
     return take_pivot(replace);
   }
-  /// What it holds, each cell once, from young to old; to be assigned before it is used again.
+  /// What it holds, each cell once, from young to old: that is a heap, too.
   std::span<const Term> consolidate() {
     std::sort(terms_.begin(), terms_.end(),
               [](const Term& a, const Term& b) { return precedes(b.cell, a.cell); });
@@ -83,12 +91,16 @@ class ChainHeap {
       if (!field_.is_zero(sum)) terms_[kept++] = Term(cell, sum);
     }
     terms_.resize(kept);
+    set_most();
     return terms_;
   }
 
  private:
-  void make() {
-    for (std::size_t i = terms_.size() / 2; i-- > 0;) sift_down(i, terms_[i]);
+  static constexpr std::size_t kFew = 64;
+
+  void set_most() {
+    constexpr std::size_t times = 3;
+    most_ = times * terms_.size() + kFew;
   }
   Term pop() {
     const Term top = terms_.front(), last = terms_.back();
@@ -128,6 +140,7 @@ class ChainHeap {
   const K& field_;
   std::pmr::vector<Term> terms_;
   std::pmr::vector<Term> stay_;  // see `follow`
+  std::size_t most_ = kFew;      // terms before it is consolidated
 };
 
 }  // namespace ph::cubical

@@ -90,7 +90,7 @@ class DualLoopColumn {
     }
     return std::nullopt;
   }
-  /// What it holds, each edge once; to be assigned before it is used again.
+  /// What it holds, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:

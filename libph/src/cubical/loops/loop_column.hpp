@@ -68,7 +68,7 @@ class LoopColumn {
     return is_cycle_ || size() < few ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
-  /// What it holds, each edge once; to be assigned before it is used again.
+  /// What it holds, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:

@@ -16,8 +16,8 @@
 namespace ph::cubical {
 
 /// H1 of three axes: boundaries of the critical squares that are left, reduced to critical edges
-/// that are left. See ParallelReduction; where stars lie in a file, columns are taken along the
-/// grid instead of from old to young.
+/// that are left. See ParallelReduction; where stars lie in a file that does not stay in memory,
+/// columns are taken along the grid instead of from old to young.
 /// @tparam Stars StarGrid, whose stars have their marks, or StoredStars.
 template <Field K, class Stars>
 class LoopReduction {
@@ -70,7 +70,9 @@ class LoopReduction {
         [&](const LoopEdge& pivot) -> const Column*& { return owners_.of(pivot); },
         [&](const LoopEdge& pivot) { owners_.expect(pivot); },
         [&](std::span<std::uint32_t> round) {
-          if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
+          if constexpr (kInFile)
+            if (!grid_.all_stay())
+              std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
         });
   }
   const Stars& grid_;

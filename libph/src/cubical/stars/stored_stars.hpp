@@ -41,7 +41,12 @@ class StoredStars : public GridFrame {
     }
   }
   /// Bytes of files that may be in memory, about, while stars and voxels are looked at.
-  void let_stay(std::size_t bytes) { most_ = resident_.bytes() + bytes; }
+  void let_stay(std::size_t bytes) {
+    most_ = resident_.bytes() + bytes;
+    all_stay_ = file_.size() + voxel_bytes() <= bytes;
+  }
+  /// Whether these are all: then it does not matter where one looks.
+  bool all_stay() const { return all_stay_; }
 
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
   void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
@@ -50,7 +55,7 @@ class StoredStars : public GridFrame {
   void tidy() const {
     if (resident_.bytes() <= most_) return;
     forget_file_pages(file_.data(), file_.size());
-    if (grid_.is_in_file) forget_file_pages(grid_.voxels, grid_.size() * bytes_of(grid_.type));
+    if (grid_.is_in_file) forget_file_pages(grid_.voxels, voxel_bytes());
   }
 
  private:
@@ -59,9 +64,14 @@ class StoredStars : public GridFrame {
     return reinterpret_cast<const std::uint32_t*>(file_.data());
   }
 
+  std::size_t voxel_bytes() const {
+    return grid_.is_in_file ? grid_.size() * bytes_of(grid_.type) : 0;
+  }
+
   ScratchFile file_;
   ResidentFiles resident_;
   std::size_t most_ = SIZE_MAX;
+  bool all_stay_ = true;
 };
 
 }  // namespace ph::cubical
