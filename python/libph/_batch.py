@@ -80,7 +80,7 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
         return []
     try:
         bars = _run.run(_core.barcodes, [r.recipe for r in requests],
-                        [r.task for r in requests if r.task is not None],  # none has no task
+                        [r.task for r in requests if r.task is not None],  # each has one
                         options=run, slab_layers=requests[0].slab_layers)
     except Cancelled:
         raise

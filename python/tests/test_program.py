@@ -137,6 +137,23 @@ def test_delays(ph_barcode, seed):
         check(ph.rips(points), ph_barcode(path, "--delay", option, *arguments))
 
 
+@pytest.mark.parametrize("series, arguments, code, words", [
+    (np.arange(9.0), ["--delay", "10"], 65, "found a series of 9 times, expected more than"),
+    (np.arange(9.0), ["--delay", "2,9"], 65, "found a series of 9 times"),
+    (np.arange(9.0), ["--delay", str(2**62)], 65, "found a series of 9 times"),
+    (np.arange(9.0), ["--delay", "0"], 64, "--delay: found '0'"),
+    (np.arange(9.0), ["--delay", "2,1,1"], 64, "expected D or D,TAU"),
+    (np.arange(9.0), ["--delay", "2", "--nan", "drop"], 64, "excludes --nan drop"),
+    (np.array([1, np.nan, 3]), ["--delay", "2"], 65, "nan"),
+    (np.zeros((3, 3, 3)), ["--delay", "2"], 65, "expected a time series"),
+    (np.zeros((3, 3)), ["--delay", "2", "--format", "distance"], 65, "expected a time series"),
+    (np.arange(9.0), ["--delay", "2", "--complex", "cubical"], 64, "--delay: makes sense for")])
+def test_delays_that_are_refused(ph_barcode, series, arguments, code, words):
+    run = subprocess.run([ph_barcode.path, ph_barcode.file("s.npy", series), *arguments],
+                         capture_output=True, text=True)
+    assert run.returncode == code and words in run.stderr and not run.stdout
+
+
 @pytest.mark.parametrize("seed", ROUNDS)
 def test_given_weights(ph_barcode, seed):
     rng = np.random.default_rng(seed)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -51,11 +50,9 @@ void embed(const std::string& name, const Arguments::Delay& delay, std::size_t d
                             name, dropped));
   const Points series = series_of(name, read);
   const auto [dimension, lag] = delay;
-  // A point has the numbers of `dimension` rows.
-  const double bytes =
-      static_cast<double>(series.size()) * static_cast<double>(dimension) * sizeof(double);
-  context.memory.require(
-      static_cast<std::size_t>(std::min(bytes, static_cast<double>(PTRDIFF_MAX / 2))));
+  // A point has the numbers of `dimension` rows, of which there are so many.
+  context.memory.require(static_cast<std::size_t>(series.size()) * sizeof(double) *
+                         static_cast<std::size_t>(std::min(dimension, series.rows())));
   Points points;
   try {
     points = delay_embedding(series, dimension, lag);
