@@ -123,6 +123,8 @@ def main():
         skip(f"SLURM is not installed ({', '.join(missing)})")
     if os.geteuid() != 0:
         skip("a SLURM of one's own needs root")
+    if not os.path.ismount("/sys/fs/cgroup"):
+        skip("slurmd needs control groups, and there is no file system of them at /sys/fs/cgroup")
     parts, join, submit = scripts_of_page()
     with tempfile.TemporaryDirectory() as name, Slurm(pathlib.Path(name)) as slurm:
         work = pathlib.Path(name) / "work"
