@@ -69,6 +69,7 @@ void add_alpha_options(CLI::App& app, Arguments& a) {
         ->type_name("R=FILE.ply|.off")
         ->type_size(1)
         ->expected(1)
+        ->allow_extra_args(false)  // what follows may be an input
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   };
   add_surfaces("--alpha-shape",

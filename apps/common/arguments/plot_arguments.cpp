@@ -116,6 +116,7 @@ void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
         ->type_name(placeholder)
         ->type_size(1)
         ->expected(1)
+        ->allow_extra_args(false)  // what follows may be an input
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   };
   add("--plot", "FILE.svg|.png", description,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Absent voxels never enter: random images with a mask in each format that can have one.
 
-Files are written here and barcodes are computed by cubical_oracle.py, which never sees a file.
+Files are written here and barcodes are computed by oracle.py, which never sees a file.
 More than the suite runs: masks.py PROGRAM --images 20000
 """
 import gzip
@@ -13,7 +13,7 @@ import sys
 import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
-import cubical_oracle  # noqa: E402
+import oracle  # noqa: E402
 from program import ProgramTest, files, main  # noqa: E402
 
 IMAGES = 600
@@ -134,7 +134,7 @@ class Masks(ProgramTest):
                 shape[-1] += 1  # a last axis of one voxel is none there
             voxels = self.voxels(choose, shape, values)
             self.write(f"{folder}/{i:02}{extension}", write(shape, voxels))
-            expected[f"{i:02}"] = cubical_oracle.barcode(shape, voxels, **how)
+            expected[f"{i:02}"] = oracle.barcode(oracle.cubical_filtration(shape, voxels, **how))
         inputs = sorted(os.path.join(folder, f) for f in os.listdir(self.path(folder)))
         run = self.run_program(*inputs, *options, "--quiet", "--allow-empty", "-o", f"{folder}-bars/")
         context = f"{name} {' '.join(options)} in {self.folder}/{folder}\n{run.stderr}"
@@ -170,7 +170,8 @@ class Masks(ProgramTest):
                     self.expect(0, "points.csv", "--complex", "cubical", "--voxel", "1", "--voxel-value", kind,
                                 "--quiet", "--check", *options, "-o", "bars.csv")
                     self.assertEqual(self.read_bars(self.path("bars.csv")),
-                                     cubical_oracle.barcode([n + 2 for n in shape], voxels, cells, superlevel))
+                                     oracle.barcode(oracle.cubical_filtration(
+                                         [n + 2 for n in shape], voxels, cells, superlevel)))
 
     def test_without_the_option_nan_is_refused(self):
         self.write("n.npy", npy("<f8")([4], {(0,): 1.0, (1,): None, (2,): 2.0, (3,): 0.5}))

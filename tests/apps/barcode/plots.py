@@ -77,6 +77,17 @@ def places(rows, colour):
             for x, found in enumerate(row) if found in alike}
 
 
+class Words(ProgramTest):
+    def test_an_input_may_follow_the_picture(self):
+        self.expect(0, "--plot", "a.svg", "--plot", "b.svg", "--plot-kind", "diagram", "square.txt",
+                    "-o", "bars.csv")
+        for name in ("a.svg", "b.svg"):
+            self.assertIn("</svg>", self.read(name))
+        self.expect(0, "--alpha-shape", "1=shape.off", "--complex", "alpha", "--wrap", "1=wrap.off",
+                    "square.txt", "-o", "bars.csv")
+        self.assertTrue(self.read("shape.off").startswith("OFF"))
+
+
 class Png(ProgramTest):
     def setUp(self):
         super().setUp()

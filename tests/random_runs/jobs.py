@@ -1,0 +1,289 @@
+# SPDX-License-Identifier: MIT
+"""Random inputs with random options, and the bars that they must give by the definition."""
+import dataclasses
+import itertools
+import math
+
+import formats
+import oracle
+
+INF = math.inf
+
+
+@dataclasses.dataclass
+class Job:
+    """What is computed: files, options, and the bars of all dimensions up to `max_dim`."""
+    kind: str
+    files: list
+    options: list
+    filtration: dict
+    prime: int
+    max_dim: int
+    tolerance: float = 0.0  # 0: every double as it is
+    engines: tuple = ("standard", "twist")
+    has_parts: bool = False  # whether --part can be asked of it
+
+
+def coordinate(rng, style):
+    if style == "grid":
+        return float(rng.randint(-2, 2))
+    if style == "dyadic":
+        return rng.randint(-2 ** 12, 2 ** 12) / 2 ** rng.randint(0, 6)
+    if style == "wide":  # sums of squares are not exact
+        return rng.choice([-1, 1]) * rng.random() * 10 ** rng.uniform(-3, 3)
+    return rng.uniform(-1, 1)
+
+
+def random_points(rng, most, dim, style):
+    points = [[coordinate(rng, style) for _ in range(dim)] for _ in range(rng.randint(1, most))]
+    while rng.random() < 0.2:  # some of them twice
+        points.insert(rng.randrange(len(points) + 1), list(rng.choice(points)))
+    return points[:most]
+
+
+def dimensions(rng, most, default):
+    """@return max_dim, its options."""
+    if rng.random() < 0.3:
+        return default, []
+    max_dim = rng.randint(0, most)
+    return max_dim, ["--max-dim", str(max_dim)]
+
+
+def field(rng):
+    prime = rng.choice([2, 2, 2, 3, 5, 7, 65521])
+    option = rng.choice(["--field", "--modulus"])
+    return prime, [option, str(prime)] if prime != 2 or rng.random() < 0.1 else []
+
+
+def some_threshold(rng, values):
+    """None, or one of the values, or what lies between two."""
+    finite = sorted({v for v in values if math.isfinite(v)})
+    if rng.random() < 0.6 or not finite:
+        return None
+    value = rng.choice(finite)
+    return value if rng.random() < 0.6 else value + rng.random() * (max(finite) - min(finite)) / 2
+
+
+def rips(rng):
+    """Vietoris-Rips of points or distances."""
+    style = rng.choice(["grid", "grid", "dyadic", "wide", "unit"])
+    tolerance = 0.0 if style in ("grid", "dyadic") else 1e-12
+    options, files = [], []
+    if rng.random() < 0.6:
+        dim = rng.choice([1, 2, 2, 3, 3, 4, 6])
+        points = random_points(rng, 9, dim, style)
+        metric = rng.choice(["euclidean"] * 4 + ["manhattan", "chebyshev", "minkowski:3", "minkowski:1.5",
+                                                 "cosine", "hamming"])
+        if metric == "cosine" and any(not any(p) for p in points):
+            metric = "chebyshev"
+        if metric.startswith("minkowski") or metric == "cosine":
+            tolerance = 1e-7 if metric == "cosine" else 1e-9
+        rows = points
+        windows, step = rng.randint(1, 3), rng.randint(1, 2)
+        is_series = rng.random() < 0.1 and len(rows) > (windows - 1) * step
+        if is_series:
+            points = [sum((rows[i + k * step] for k in range(windows)), [])
+                      for i in range(len(rows) - (windows - 1) * step)]
+            options += ["--delay", f"{windows},{step}"]
+        if metric == "cosine" and any(not any(p) for p in points):
+            metric = "euclidean"
+        name, content, more = formats.points_file(rng, rows, is_series)
+        options += more
+        if metric != "euclidean" or rng.random() < 0.1:
+            options += ["--metric", metric]
+        d = oracle.distance(metric)
+        matrix = [[d(p, q) for q in points] for p in points]
+        kind = "rips of points"
+    else:
+        n = rng.randint(1, 9)
+        value = rng.choice([lambda: float(rng.randint(0, 4)), lambda: rng.randint(1, 64) / 16, rng.random])
+        hole = rng.choice([0, 0, 0.3])
+        matrix = [[0.0] * n for _ in range(n)]
+        for i, j in itertools.combinations(range(n), 2):
+            matrix[i][j] = matrix[j][i] = INF if rng.random() < hole else value()
+        if not any(0 < x < INF for row in matrix for x in row):
+            hole = 0
+        metric, tolerance = None, 0.0
+        name, content, more = formats.distances_file(rng, matrix)
+        options += more
+        kind = "rips of distances"
+    files.append((name, content))
+    n = len(matrix)
+    chosen = list(range(n))
+    plain = True
+    if rng.random() < 0.1:
+        count = rng.randint(1, n)
+        if tolerance == 0 and "sparse" not in options and options[-1] != "dipha":
+            chosen = oracle.farthest_points(count, lambda i, j: matrix[i][j], n)
+            options += ["--subsample", str(count)]
+            plain = False
+    births, exponent = [0.0] * n, "inf"
+    if plain and rng.random() < 0.2:
+        births = [rng.choice([0.0, rng.randint(0, 16) / 4]) for _ in range(n)]
+        weights = formats.values_file(rng, births)
+        files.append(weights)
+        options += ["--vertex-weights", weights[0] + (":a" if weights[0].endswith("npz") else "")]
+        exponent = rng.choice(["inf", "inf", "1", "2"])
+        options += ["--weight-exponent", exponent] if exponent != "inf" else []
+        tolerance = max(tolerance, 1e-12 if exponent == "2" else 0)
+        plain = False
+    elif plain and rng.random() < 0.07 and metric in ("euclidean", "manhattan", "chebyshev"):
+        near = rng.randint(1, n)
+        births = [2 * math.sqrt(math.fsum(x * x for x in sorted(row)[:near]) / near) for row in matrix]
+        exponent = "1"
+        options += ["--dtm", str(near)]
+        tolerance = max(tolerance, 1e-12)
+        plain = False
+    joined = oracle.weighted_edge(exponent)
+    entry = [[joined(matrix[i][j], births[i], births[j]) for j in chosen] for i in chosen]
+    births = [births[i] for i in chosen]
+    values = [x for i, row in enumerate(entry) for x in row[:i]] + births
+    threshold = some_threshold(rng, values) if tolerance == 0 else None
+    if threshold is not None and threshold >= 0:
+        options += [rng.choice(["--threshold", "--max-scale"]), formats.number(rng, threshold)]
+    else:
+        threshold = INF
+    max_dim, more = dimensions(rng, 3, 1)
+    prime, of_field = field(rng)
+    filtration = oracle.flag_filtration(births, lambda i, j: entry[i][j], max_dim, threshold)
+    engines = ["standard", "twist", "cohomology"]
+    engines += ["union-find"] if max_dim == 0 else ["edge-links"] if max_dim <= 2 else []
+    if rng.random() < 0.3:
+        options += ["--collapse", rng.choice(["on", "off", "auto"])]
+    if kind == "rips of points" and metric == "euclidean" and plain and max_dim == 1:
+        engines += ["beta-skeleton"]
+    has_parts = kind == "rips of points" and metric == "euclidean" and plain and max_dim == 0 and \
+        threshold == INF and len(files) == 1
+    return Job(kind, files, options + more + of_field, filtration, prime, max_dim, tolerance, tuple(engines),
+               has_parts)
+
+
+def cubical(rng):
+    """Images of one to four axes."""
+    axes = rng.choice([1, 2, 2, 2, 3, 3, 3, 4])
+    most = {1: 20, 2: 6, 3: 4, 4: 3}[axes]
+    shape = tuple(rng.randint(1, most) for _ in range(axes))
+    if math.prod(shape) > 48:
+        shape = shape[:-1] + (1,)
+    style = rng.choice([lambda: float(rng.randint(0, 3)), lambda: float(rng.randint(0, 255)),
+                        lambda: float(rng.randint(-2, 2)), lambda: rng.randint(-64, 64) / 16, rng.random])
+    values = [style() for _ in range(math.prod(shape))]
+    if rng.random() < 0.15:
+        values = [rng.choice([v, v, INF, -INF]) for v in values]
+    absent = rng.random() < 0.15
+    if absent:
+        values = [math.nan if rng.random() < 0.3 else v for v in values]
+    periodic = {k for k in range(axes) if rng.random() < 0.25}
+    cells, superlevel = rng.random() < 0.5, rng.random() < 0.3
+    name, content, options = formats.image_file(rng, shape, values, periodic)
+    options += ["--nan", "drop"] if absent else []
+    if cells or rng.random() < 0.2 or "perseus" in options:
+        options += ["--construction", "cells" if cells else "vertices"]
+    options += ["--superlevel"] if superlevel else []
+    threshold = some_threshold(rng, [-v if superlevel else v for v in values if v == v])
+    options += ["--threshold=" + formats.number(rng, threshold)] if threshold is not None else []
+    max_dim, more = dimensions(rng, axes, axes)
+    prime, of_field = field(rng)
+    voxels = {at: None if math.isnan(v) else v for at, v in zip(formats.indices(shape), values)}
+    filtration = oracle.cubical_filtration(shape, voxels, cells, superlevel, periodic,
+                                           INF if threshold is None else threshold)
+    options += ["--slab-layers", str(rng.randint(1, 3))] if rng.random() < 0.15 else []
+    has_parts = "--slab-layers" not in options and (max_dim == 0 or axes <= 2)
+    return Job(f"image of {axes} axes", [(name, content)], options + more + of_field, filtration, prime,
+               max_dim, 0.0, ("standard", "twist", "gradient"), has_parts)
+
+
+def random_complex(rng, most):
+    """Simplices, closed under faces, and values that do not descend."""
+    n = rng.randint(1, most)
+    values = {(v,): float(rng.randint(0, 3)) for v in range(n)}
+    kept = [(v,) for v in range(n)]
+    for size in (2, 3, 4):
+        share = rng.uniform(0.2, 0.9)
+        for s in itertools.combinations(range(n), size):
+            faces = [f for f, _ in oracle.simplex_boundary(s)]
+            if all(f in values for f in faces) and rng.random() < share:
+                values[s] = max(values[f] for f in faces) + rng.choice([0, 0, 1, 0.25])
+                kept.append(s)
+    return values
+
+
+def explicit(rng):
+    """Simplices with values, and boundary matrices."""
+    values = random_complex(rng, 6)
+    top = max(len(s) for s in values) - 1
+    max_dim, more = dimensions(rng, top + 1, top)
+    threshold = some_threshold(rng, values.values())
+    options = ["--threshold=" + formats.number(rng, threshold)] if threshold is not None else []
+    limit = INF if threshold is None else threshold
+    if rng.random() < 0.5:
+        prime, of_field = field(rng)
+        name, content, of_format = formats.simplices_file(rng, values)
+        filtration = oracle.simplicial({s: v for s, v in values.items() if v <= limit})
+        return Job("simplices", [(name, content)], of_format + options + more + of_field, filtration, prime,
+                   max_dim)
+    order = sorted(values, key=lambda s: (values[s], len(s), s))
+    place = {s: i for i, s in enumerate(order)}
+    cells = [(len(s) - 1, sorted(place[f] for f, _ in oracle.simplex_boundary(s))) for s in order]
+    numbers = [values[s] for s in order]
+    files, of_format, may_lack = formats.boundary_file(rng, cells, numbers)
+    if may_lack and rng.random() < 0.5:
+        numbers = [float(i) for i in range(len(order))]
+        filtration = {s: (numbers[place[s]], len(s) - 1, oracle.simplex_boundary(s)) for s in order
+                      if numbers[place[s]] <= limit}
+    else:
+        if may_lack:
+            files.append(formats.values_file(rng, numbers))
+            of_format += ["--values", files[1][0] + (":a" if files[1][0].endswith("npz") else "")]
+        filtration = oracle.simplicial({s: v for s, v in values.items() if v <= limit})
+    return Job("boundary matrix", files, of_format + options + more, filtration, 2, max_dim)
+
+
+def lower_star(rng):
+    """A mesh with values at its vertices."""
+    n = rng.randint(3, 8)
+    faces = [rng.sample(range(n), 3) for _ in range(rng.randint(1, 10))]
+    faces = list({tuple(sorted(f)): f for f in faces}.values())
+    heights = [float(rng.randint(0, 4)) for _ in range(n)]
+    points = [[float(rng.randint(-3, 3)) for _ in range(3)] for _ in range(n)]
+    if rng.random() < 0.5:
+        content = f"OFF\n{n} {len(faces)} 0\n" + "".join(" ".join(map(str, p)) + "\n" for p in points)
+        files = [("a.off", (content + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)).encode())]
+    else:
+        files = [("a.ply", formats.ply(rng, points, faces))]
+    files.append(formats.values_file(rng, heights))
+    options = ["--values", files[1][0] + (":a" if files[1][0].endswith("npz") else "")]
+    values = {}
+    for f in faces:
+        for size in (1, 2, 3):
+            for s in itertools.combinations(sorted(f), size):
+                values[s] = max(heights[v] for v in s)
+    values |= {(v,): heights[v] for v in range(n)}
+    threshold = some_threshold(rng, values.values())
+    options += ["--threshold=" + formats.number(rng, threshold)] if threshold is not None else []
+    filtration = oracle.simplicial({s: v for s, v in values.items() if threshold is None or v <= threshold})
+    max_dim, more = dimensions(rng, 2, 2)
+    prime, of_field = field(rng)
+    return Job("lower star of a mesh", files, options + more + of_field, filtration, prime, max_dim)
+
+
+def alpha(rng):
+    """Alpha and Delaunay-Čech complexes: by the nerve theorem, all balls at once."""
+    dim = rng.choice([1, 2, 2, 3])
+    style = rng.choice(["grid", "grid", "dyadic", "unit"])
+    points = random_points(rng, 7, dim, style)
+    name, content, options = formats.points_file(rng, points)
+    options = [o for k, o in enumerate(options) if o != "--complex" and (k == 0 or options[k - 1] != "--complex")]
+    kind = rng.choice(["alpha", "alpha", "delaunay-cech"])
+    options += ["--complex", kind]
+    max_dim, more = dimensions(rng, dim - 1, dim - 1)
+    prime, of_field = field(rng)
+    filtration = oracle.cech_filtration(points, max_dim)
+    if rng.random() < 0.2:
+        options += ["--alpha-values", "squared"]
+        filtration = {s: (v * v, d, b) for s, (v, d, b) in filtration.items()}
+    return Job(kind, [(name, content)], options + more + of_field, filtration, prime, max_dim, 1e-7,
+               ("standard", "twist"))
+
+
+KINDS = {"rips": rips, "cubical": cubical, "explicit": explicit, "lower-star": lower_star, "alpha": alpha}

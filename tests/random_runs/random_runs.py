@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: MIT
+"""random_runs.py PH_BARCODE [--runs N] [--seed S] [--jobs J] [--keep FOLDER] [--only KIND]
+
+Runs the whole program with random options on random inputs of each kind and format, and compares
+what it writes with barcodes by the definition (oracle.py), which share no line with it. Each run has
+a seed of its own: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with
+the commands; the files are kept in FOLDER (default: where the script is run)."""
+import argparse
+import collections
+import dataclasses
+import math
+import os
+import pathlib
+import random
+import shlex
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ProcessPoolExecutor
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
+import formats  # noqa: E402
+import jobs  # noqa: E402
+import oracle  # noqa: E402
+
+EXTENSIONS = {"csv": "csv", "json": "json", "pers": "pers", "ripser": "txt", "dipha": "dipha", "npy": "npy"}
+
+
+class Difference(Exception):
+    pass
+
+
+def match(found, expected, tolerance, scale):
+    """Whether two multisets of bars are the same, each end within the tolerance; bars as short as that
+    may lack a partner."""
+    if tolerance == 0:
+        return found == expected
+    slack = tolerance * scale
+
+    def near(a, b):
+        return a == b or abs(a - b) <= slack
+    left = list(expected)
+    rest = []
+    for bar in found:
+        partner = next((o for o in left if o[0] == bar[0] and near(o[1], bar[1]) and near(o[2], bar[2])), None)
+        if partner:
+            left.remove(partner)
+        else:
+            rest.append(bar)
+    return all(death - birth <= 4 * slack for _, birth, death in rest + left)
+
+
+@dataclasses.dataclass
+class Output:
+    """Where the barcode goes, and which of its bars: those of dimension `low` and above that are longer
+    than `short`."""
+    form: str
+    name: str = None
+    low: int = 0
+    short: float = 0.0
+
+
+def side_options(rng, job):
+    """Options that do not change the barcode, or leave out bars.
+    @return options, each with its value; the output; whether the program may refuse them."""
+    options, output = [], Output(rng.choice(list(EXTENSIONS)))
+    if rng.random() < 0.4:
+        options.append(["--engine", rng.choice(job.engines)])
+    if rng.random() < 0.7:
+        options.append(["--threads", rng.choice("1123")])
+    if rng.random() < 0.3:
+        options.append(["--memory-limit", rng.choice(["48MiB", "256MiB", "1GiB", "100MB"])])
+    if rng.random() < 0.1:
+        options.append(["--check"])
+    options += rng.choice([[], [["--quiet"]], [["--verbose"]], [["--progress", "json"]], [["--progress", "bar"]]])
+    if rng.random() < 0.2:
+        output.low = rng.randint(0, job.max_dim)
+        options.append(["--min-dim", str(output.low)])
+    if rng.random() < 0.2:
+        output.short = rng.choice([0.5, 1.0, 0.25, 0.0])
+        options.append(["--min-persistence", formats.number(rng, output.short)])
+    if rng.random() < 0.15:
+        output.form = "json"
+        options.append(["--representatives", rng.choice(["cycles", "cocycles"])])
+    if rng.random() < 0.5:
+        output.name = "out." + EXTENSIONS[output.form]
+        options.append([rng.choice(["-o", "--output"]), output.name])
+    if output.name is None or output.form == "ripser" or rng.random() < 0.2:
+        options.append(["--output-format", output.form])
+    if rng.random() < 0.03:
+        options.append(["--plot", rng.choice(["p.svg", "p.png"])])
+    may_refuse = any(option[0] in ("--engine", "--representatives") for option in options)
+    return options, output, may_refuse
+
+
+def with_values(words):
+    """Options of a job, each with its value."""
+    options = []
+    for word in words:
+        if word.startswith("--"):
+            options.append([word])
+        else:
+            options[-1].append(word)
+    return options
+
+
+class Program:
+    def __init__(self, path, folder):
+        self.path, self.folder = path, folder
+        self.command, self.run, self.said = None, None, ""
+
+    def __call__(self, options):
+        self.command = [self.path, *sum(options, [])]
+        try:
+            self.run = subprocess.run(self.command, cwd=self.folder, stdin=subprocess.DEVNULL,
+                                      capture_output=True, timeout=120)
+        except subprocess.TimeoutExpired:
+            raise Difference(f"no end after 120 s: {shlex.join(self.command)}") from None
+        self.said = self.run.stderr.decode(errors="replace")
+        return self.run.returncode
+
+    def differ(self, what):
+        raise Difference(f"{what}\n  {shlex.join(self.command)}\n"
+                         f"  exit {self.run.returncode}: {self.said[-600:]}")
+
+    def read(self, output):
+        content = pathlib.Path(self.folder, output.name).read_bytes() if output.name else self.run.stdout
+        try:
+            return formats.read_barcode(content, output.form)
+        except Exception as error:  # noqa: BLE001
+            self.differ(f"cannot read {output.form} back: {error!r}: {content[:200]!r}")
+
+    def expect_refusal(self, code, output):
+        """One line, and no output."""
+        found = self.run.returncode
+        if found != code or self.run.stdout or not self.said.endswith("\n"):
+            self.differ(f"found exit {found}, expected {code}, a message and no output")
+        if output.name and pathlib.Path(self.folder, output.name).exists():
+            self.differ(f"found {output.name} after a refusal")
+
+
+def compare(program, job, output):
+    found = program.read(output)
+    bars = oracle.barcode(job.filtration, job.prime)
+    expected = [(d, b, e) for d, b, e in bars if output.low <= d <= job.max_dim and e - b > output.short]
+    tolerance = job.tolerance
+    if output.form == "ripser":
+        if any(math.isinf(b) for _, b, _ in bars):
+            return f"{job.kind}, not compared"  # the format has no such births
+        tolerance = max(tolerance, 1e-5)
+    finite = [abs(x) for bar in bars for x in bar[1:] if math.isfinite(x)]
+    same = match(found, expected, tolerance, max([*finite, 1e-300]))
+    if not same and output.short > 0 and tolerance > 0:
+        return f"{job.kind}, not compared"  # whether a bar is that short is a matter of rounding
+    if not same:
+        program.differ(f"found {found}\n  expected {expected}")
+    return job.kind
+
+
+def in_parts(rng, program, job):
+    """Part files in any order, joined at once or in steps."""
+    count = rng.randint(1, 4)
+    names = [f"part{i + 1}.ph" for i in range(count)]
+    order = list(range(count))
+    rng.shuffle(order)
+    # Of components, and of pictures, these change nothing, and are refused.
+    options = [option for option in with_values(job.options)
+               if option[0] not in ("--field", "--modulus", "--metric", "--collapse", "--complex")]
+    options.append(["--complex", "rips" if job.kind.startswith("rips") else "cubical"])
+    for i in order:
+        if program([[job.files[0][0]], *options, ["--part", f"{i + 1}/{count}"], ["-o", names[i]]]) != 0:
+            if i == order[0] and program.run.returncode in (64, 65):
+                return f"{job.kind} in parts, refused"
+            program.differ("found a refusal, expected a part")
+    while len(names) > 1 and rng.random() < 0.5:
+        i = rng.randrange(len(names) - 1)
+        joined = f"joined{len(names)}.ph"
+        if program([["--join"], rng.sample(names[i:i + 2], 2), ["-o", joined]]) != 0:
+            program.differ("found a refusal, expected one part of two")
+        names[i:i + 2] = [joined]
+    output = Output("csv")
+    if program([["--join"], rng.sample(names, len(names))]) != 0:
+        program.differ("found a refusal, expected a barcode")
+    compare(program, job, output)
+    return f"{job.kind} in parts"
+
+
+def damaged(rng, content):
+    """Some bytes changed, left out or doubled."""
+    content = bytearray(content)
+    for _ in range(rng.choice([1, 1, 1, 3, 10])):
+        at = rng.randrange(len(content) + 1)
+        way = rng.randrange(4)
+        if way == 0 and at < len(content):
+            content[at] ^= 1 << rng.randrange(8)
+        elif way == 1:
+            del content[at:at + rng.randint(1, 8)]
+        elif way == 2:
+            content[at:at] = content[at:at + rng.randint(1, 8)]
+        else:
+            content[at:at] = rng.choice([b"nan", b"-", b"inf", b" ", b"\n", b"\0", b"1e999", b"9" * 20, b"\xff"])
+    return bytes(content)
+
+
+def one_run(path, seed, only, folder):
+    """@return what it was, for the counts. @throws Difference"""
+    rng = random.Random(seed)
+    job = jobs.KINDS[only or rng.choice(list(jobs.KINDS))](rng)
+    is_damaged = rng.random() < 0.1
+    for k, (name, content) in enumerate(job.files):
+        pathlib.Path(folder, name).write_bytes(damaged(rng, content) if is_damaged and k == 0 else content)
+    program = Program(path, folder)
+    if job.has_parts and not is_damaged and rng.random() < 0.3:
+        return in_parts(rng, program, job)
+    options, output, may_refuse = side_options(rng, job)
+    words = [[job.files[0][0]], *with_values(job.options), *options]
+    rng.shuffle(words)
+    code = program(words)
+    if is_damaged:
+        # Whatever the bytes mean now: a barcode, or one refusal.
+        if code == 0:
+            program.read(output)
+        else:
+            if code not in (64, 65, 66, 75):
+                program.differ("found another end than a barcode or a refusal")
+            program.expect_refusal(code, output)
+        return f"{job.kind}, damaged"
+    if code == 64 and may_refuse:
+        program.expect_refusal(64, output)
+        return f"{job.kind}, refused"
+    if code != 0:
+        program.differ("found a refusal, expected a barcode")
+    return compare(program, job, output)
+
+
+def some_runs(program, first, count, only, keep):
+    """@return counts of what was run, differences."""
+    counts, differences = collections.Counter(), []
+    for seed in range(first, first + count):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                counts[one_run(program, seed, only, folder)] += 1
+            except Difference as error:
+                kept = pathlib.Path(keep, f"random-run-{seed}")
+                kept.mkdir(exist_ok=True)
+                for path in pathlib.Path(folder).iterdir():
+                    (kept / path.name).write_bytes(path.read_bytes())
+                differences.append(f"seed {seed}: {error}\n  files: {kept}")
+            except Exception as error:
+                raise RuntimeError(f"seed {seed}: {error!r}") from error
+    return counts, differences
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--runs", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--keep", default=".")
+    parser.add_argument("--only", choices=jobs.KINDS)
+    parser.add_argument("--go-on", action="store_true", help="after a difference")
+    options = parser.parse_args()
+    counts, failures, piece = collections.Counter(), [], 100
+    with ProcessPoolExecutor(options.jobs) as pool:
+        pieces = [pool.submit(some_runs, str(options.program.resolve()), first,
+                              min(piece, options.seed + options.runs - first), options.only, options.keep)
+                  for first in range(options.seed, options.seed + options.runs, piece)]
+        for done in pieces:
+            some, differences = done.result()
+            counts += some
+            failures += differences
+            for failure in differences:
+                print(failure, flush=True)
+            if failures and not options.go_on:
+                pool.shutdown(cancel_futures=True)
+                break
+    for kind, count in sorted(counts.items()):
+        print(f"{count:9d}  {kind}")
+    print(f"{sum(counts.values())} runs from seed {options.seed} on, {len(failures)} differences")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()

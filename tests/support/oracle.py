@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""Barcodes by the definition: filtrations cell by cell, columns reduced from left to right.
+
+Knows nothing of files, and shares nothing with libph. A filtration is a dictionary: a cell, with
+its value, its dimension and its boundary, as pairs (cell, coefficient)."""
+import itertools
+import math
+
+INF = math.inf
+
+
+def barcode(filtration, prime=2):
+    """All bars of positive length as a sorted list of (dim, birth, death)."""
+    order = sorted(filtration, key=lambda c: (filtration[c][0], filtration[c][1], c))
+    place = {cell: i for i, cell in enumerate(order)}
+    columns, killed, bars = {}, set(), []
+    for i, cell in enumerate(order):
+        value, dim, boundary = filtration[cell]
+        column = {}
+        for face, coefficient in boundary:
+            number = (column.get(place[face], 0) + coefficient) % prime
+            column[place[face]] = number
+            if number == 0:
+                del column[place[face]]
+        while column:
+            low = max(column)
+            if low not in columns:
+                break
+            other = columns[low]
+            factor = column[low] * pow(other[low], -1, prime) % prime
+            for k, coefficient in other.items():
+                number = (column.get(k, 0) - factor * coefficient) % prime
+                if number:
+                    column[k] = number
+                else:
+                    column.pop(k, None)
+        if column:
+            low = max(column)
+            columns[low] = column
+            killed |= {low, i}
+            birth = filtration[order[low]][0]
+            if birth < value:
+                bars.append((dim - 1, birth, value))
+    bars += [(filtration[c][1], filtration[c][0], INF) for i, c in enumerate(order) if i not in killed]
+    return sorted((d, b + 0.0, e + 0.0) for d, b, e in bars)
+
+
+def simplex_boundary(simplex):
+    if len(simplex) == 1:
+        return ()
+    return tuple((simplex[:i] + simplex[i + 1:], (-1) ** i) for i in range(len(simplex)))
+
+
+def simplicial(values):
+    """A filtration of simplices, ascending tuples of vertices, with their values; those at infinity
+    never enter."""
+    return {s: (v, len(s) - 1, simplex_boundary(s)) for s, v in values.items() if v < INF}
+
+
+def flag_filtration(births, edge, max_dim, threshold=INF):
+    """Vietoris-Rips: a simplex enters with the last of its edges. @param edge(i, j) when i and j are
+    joined. @param max_dim of homology."""
+    n = len(births)
+    values = {(i,): births[i] for i in range(n) if births[i] <= threshold}
+    last = dict(values)
+    for _ in range(max_dim + 1):
+        longer = {}
+        for simplex, value in last.items():
+            for j in range(simplex[-1] + 1, n):
+                if (j,) not in values:
+                    continue
+                entry = max([value, *(edge(i, j) for i in simplex)])
+                if entry <= threshold and entry < INF:
+                    longer[simplex + (j,)] = entry
+        values |= longer
+        last = longer
+    return simplicial(values)
+
+
+def cubical_filtration(shape, voxels, cells=False, superlevel=False, periodic=(), threshold=INF):
+    """@param voxels by coordinates, None: absent. @param cells whether voxels are top cubes. A cube is
+    its doubled coordinates."""
+    def voxel(at):
+        value = voxels[at]
+        if value is None:
+            return INF
+        return -value if superlevel else value
+
+    def beside(x, axis):
+        both = [x // 2] if x % 2 == (1 if cells else 0) else [(x + 1) // 2 - 1, (x + 1) // 2]
+        if axis in periodic:
+            return [i % shape[axis] for i in both]
+        return [i for i in both if 0 <= i < shape[axis]]
+
+    lengths = [2 * n if k in periodic else 2 * n + (1 if cells else -1) for k, n in enumerate(shape)]
+    found = {}
+    for cube in itertools.product(*map(range, lengths)):
+        value = (min if cells else max)(
+            voxel(at) for at in itertools.product(*(beside(x, k) for k, x in enumerate(cube))))
+        if value == INF or value > threshold:
+            continue
+        boundary, sign = [], 1
+        for k, x in enumerate(cube):
+            if x % 2:
+                boundary.append((cube[:k] + ((x + 1) % lengths[k],) + cube[k + 1:], sign))
+                boundary.append((cube[:k] + (x - 1,) + cube[k + 1:], -sign))
+                sign = -sign
+        found[cube] = (value, sum(x % 2 for x in cube), tuple(boundary))
+    return found
+
+
+def solve(matrix, right):
+    """Gaussian elimination with pivots; None if the matrix has no inverse, nearly."""
+    n = len(right)
+    rows = [list(row) + [r] for row, r in zip(matrix, right)]
+    scale = max((abs(x) for row in matrix for x in row), default=0)
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
+        if abs(rows[pivot][k]) <= 1e-12 * scale:
+            return None
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        for i in range(n):
+            if i != k:
+                factor = rows[i][k] / rows[k][k]
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k])]
+    return [rows[k][n] / rows[k][k] for k in range(n)]
+
+
+def smallest_ball(points):
+    """The square of the radius of the smallest ball around some points: the largest one of the
+    circumscribed balls of few of them, each of which is the smallest that holds the rest."""
+    best = INF
+    dim = len(points[0])
+    size = max((abs(x) for p in points for x in p), default=0)
+    for count in range(1, min(dim + 1, len(points)) + 1):
+        for some in itertools.combinations(points, count):
+            edges = [[x - y for x, y in zip(p, some[0])] for p in some[1:]]
+            gram = [[2 * sum(a * b for a, b in zip(e, f)) for f in edges] for e in edges]
+            at = solve(gram, [sum(a * a for a in e) for e in edges])
+            if at is None:
+                continue
+            centre = [some[0][k] + sum(t * e[k] for t, e in zip(at, edges)) for k in range(dim)]
+            square = sum((x - y) ** 2 for x, y in zip(centre, some[0]))
+            if square < best and all(sum((x - y) ** 2 for x, y in zip(centre, p)) <=
+                                     square + 1e-11 * (square + size * size) for p in points):
+                best = square
+    return best
+
+
+def cech_filtration(points, max_dim):
+    """Balls that grow around points: a simplex enters with the radius of the smallest ball around it.
+    By the nerve theorem it has the homology of the union of the balls, as the alpha complex has."""
+    values = {}
+    for count in range(1, max_dim + 3):
+        for simplex in itertools.combinations(range(len(points)), count):
+            radius = math.sqrt(smallest_ball([points[i] for i in simplex]))
+            faces = (values[f] for f, _ in simplex_boundary(simplex))
+            values[simplex] = max([radius, *faces])
+    return simplicial(values)
+
+
+def distance(metric):
+    """A metric by its name, as options have it. Coordinates that are small multiples of a power of
+    two make exact sums, and a root is rounded once."""
+    def euclidean(a, b):
+        return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)))
+
+    def cosine(a, b):
+        product = sum(x * y for x, y in zip(a, b))
+        return 1 - product / math.sqrt(sum(x * x for x in a) * sum(y * y for y in b))
+
+    if metric.startswith("minkowski:"):
+        power = float(metric.split(":")[1])
+        return lambda a, b: sum(abs(x - y) ** power for x, y in zip(a, b)) ** (1 / power)
+    return {"euclidean": euclidean, "cosine": cosine,
+            "manhattan": lambda a, b: sum(abs(x - y) for x, y in zip(a, b)),
+            "chebyshev": lambda a, b: max(abs(x - y) for x, y in zip(a, b)),
+            "hamming": lambda a, b: float(sum(x != y for x, y in zip(a, b)))}[metric]
+
+
+def weighted_edge(exponent):
+    """When the balls of two points meet that are born at f and g, at distance d (Anai et al. 2019, all
+    values doubled)."""
+    def joined(d, f, g):
+        late = max(f, g)
+        if exponent == "inf" or d == INF:
+            return max(late, d)
+        if exponent == "1":
+            return max(late, d + (f + g) / 2)
+        if 4 * d * d > abs(f * f - g * g):
+            return math.sqrt(d * d + (f + g) ** 2 / 4) * math.sqrt(d * d + (f - g) ** 2 / 4) / d
+        return late
+    return joined
+
+
+def farthest_points(count, d, n):
+    """Point 0, then the farthest from all that were chosen, the first of those that are as far; none
+    that is equal to one of them."""
+    chosen = [0]
+    while len(chosen) < count:
+        far = max(range(n), key=lambda i: (min(d(i, j) for j in chosen), -i))
+        if min(d(far, j) for j in chosen) == 0:
+            break
+        chosen.append(far)
+    return chosen
