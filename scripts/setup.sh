@@ -8,7 +8,7 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi python3-numpy librsvg2-bin git
-      python3-open3d jq
+      python3-open3d jq strace
       locales zsh fish man-db groff mandoc abigail-tools slurm-wlm
       libopenmpi-dev openmpi-bin libmpich-dev mpich)
 # The Python package, and what its tests compare with.

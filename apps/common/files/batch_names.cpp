@@ -93,8 +93,9 @@ std::vector<std::string> files_in(const std::string& folder,
   };
   std::vector<std::string> files;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(files::path_of(folder), error))
-    if (is_known(entry.path().filename().string())) files.push_back(entry.path().string());
+  for (fs::directory_iterator at(files::path_of(folder), error), end; !error && at != end;
+       at.increment(error))
+    if (is_known(at->path().filename().string())) files.push_back(at->path().string());
   if (error || files.empty())
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: {}", printable(folder),

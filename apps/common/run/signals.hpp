@@ -2,6 +2,7 @@
 #pragma once
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace ph::app {
@@ -37,6 +38,11 @@ class SignalsWait {
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
+
+/// From now on the process ends with kIo and one line when it reads what is mapped of a file and is
+/// there no more: the file became shorter, or its disk failed. Registered temporary files are
+/// removed. @param program whose message it is; lives as long as the process.
+void end_where_mapped_files_shrink(std::string_view program);
 
 /// Has a file removed if a signal ends the process at once. @return a slot to forget it by; -1 if
 /// the name is empty or too long, or if there are too many.

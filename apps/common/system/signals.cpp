@@ -10,9 +10,12 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <system_error>
 
 #include "common/system/temporaries.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "common/terminal/messages.hpp"
 
 namespace ph::app {
 namespace {
@@ -27,6 +30,8 @@ std::atomic<bool> must_wait{false};
 // There is one watch at a time, and one that waits.
 int pipe_ends[2] = {-1, -1};
 sigset_t before;
+
+std::string_view program_name;
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -50,7 +55,28 @@ void on_signal(int signal) {
   errno = saved;
 }
 
+/// Comes at the instruction that reads, never within a message or a call of the system.
+void on_lost_page(int signal, siginfo_t* what, void*) {
+  if (what->si_code != BUS_ADRERR) {  // a fault of ours: as if there were no handler
+    std::signal(signal, SIG_DFL);
+    return;
+  }
+  print_without_memory(program_name,
+                       "an input file became shorter while it was read, or its disk failed");
+  remove_temporaries();
+  _exit(kIo);
+}
+
 }  // namespace
+
+void end_where_mapped_files_shrink(std::string_view program) {
+  program_name = program;
+  struct sigaction action {};
+  action.sa_sigaction = on_lost_page;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGBUS, &action, nullptr);
+}
 
 SignalWatch::SignalWatch() {
   if (pipe2(pipe_ends, O_CLOEXEC) == 0) {
