@@ -75,6 +75,9 @@ SAMPLES = {sample.name: sample for sample in (
     Sample("annulus_100000", "txt", write_annulus, 100_000),
     Sample("cube_1000000", "txt", write_cube, 1_000_000),
     Sample("symmetric_500", "bin", write_symmetric, 500),
+    Sample("symmetric_60", "bin", write_symmetric, 60),
+    Sample("symmetric_80", "bin", write_symmetric, 80),
+    Sample("symmetric_100", "bin", write_symmetric, 100),
     Sample("tiny_12", "bin", write_symmetric, 12),
 )}
 
@@ -120,6 +123,9 @@ ROWS = (
     Row("s2_2000", 2),
     Row("o3_1024.txt", 3, 1.8),
     Row("o3_4096.txt", 3, 1.4),
+    Row("symmetric_60", 3),
+    Row("symmetric_80", 3),
+    Row("symmetric_100", 3),
     Row("random_50_16.bin", 7),
     Row("random_100_4.bin", 3),
     Row("cube_20000", 1, peers=False, usual=False),

@@ -17,6 +17,8 @@ SURFACES = "libph/src/rips/surfaces/link_surfaces.hpp"
 TRIANGLES = "libph/src/rips/surfaces/triangle_cochain.hpp"
 HOMOLOGY = "libph/include/ph/detail/reduction/homology_reduction.hpp"
 COHOMOLOGY = "libph/include/ph/detail/reduction/cohomology_reduction.hpp"
+COLUMN = "libph/include/ph/detail/reduction/coboundary_column.hpp"
+COFACETS = "libph/include/ph/detail/rips/rips_cofacets.ipp"
 GROUPS = "libph/include/ph/detail/rips/rips_groups.hpp"
 WEIGHTS = "libph/src/rips/vertex_weights.cpp"
 COLLAPSE = "libph/src/rips/collapse/edge_collapse.cpp"
@@ -265,6 +267,23 @@ MUTANTS = [
     ("cohomology: a column that was driven out is left alone", COHOMOLOGY,
      "if (other == PivotTable<F, K>::kNone) return;", "if (other != number) return;",
      ["conformance_random_tests"]),
+    ("cohomology: the limit of a column never rises", COLUMN,
+     "if (!raise_limit()) return false;", "return false;", ["conformance_random_tests"]),
+    ("cohomology: a raised limit leaves a key out", COLUMN,
+     "const Key first = limit_ + 1;", "const Key first = limit_ + 2;", ["conformance_random_tests"]),
+    ("cohomology: beyond the limit only the cell is listed", COLUMN,
+     "for (const Term& term : chain_) append(term.cell, term.coefficient());", "",
+     ["conformance_random_tests"]),
+    ("rips: cofacets by range, lists: no upper end", COFACETS,
+     "if (!common || key < first || key > last) continue;", "if (!common || key < first) continue;",
+     ["conformance_random_tests"]),
+    ("rips: cofacets by range, matrix: the last key is left out", "libph/src/rips/key_block.cpp",
+     "keys[i] - first <= last - first", "keys[i] - first < last - first", ["conformance_random_tests"]),
+    ("rips: cofacets by range, matrix: four rows at most", "libph/src/rips/key_block.cpp",
+     "k + 1 < rows.size(); k += 2", "k < std::min<std::size_t>(2, rows.size() - 1); k += 2",
+     ["cofacet_tests"]),
+    ("rips: cofacets by range: one block of vertices", COFACETS,
+     "begin < size; begin += KeyBlock::kSize", "begin < 1; begin += KeyBlock::kSize", ["cofacet_tests"]),
     ("pivots: the first to come stays", "libph/include/ph/detail/reduction/pivot_table.hpp",
      "if (found.owner.number != kNone && found.owner.number < i) return i;",
      "if (found.owner.number != kNone) return i;", ["conformance_random_tests"]),

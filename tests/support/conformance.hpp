@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <tuple>
 #include <vector>
 
 #include "ph/custom.hpp"
+#include "ph/detail/core/range_filtration.hpp"
 
 namespace ph::test {
 
@@ -71,6 +74,38 @@ std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
   return cells;
 }
 
+/// The cofacets of a cell by range: horizon after horizon, and the keys of cofacets one by one.
+/// They are to be those that a look at all cofacets finds, in the same order.
+template <RangeFiltration F>
+void check_ranges(const F& f, int dim, const typename F::Cell& cell) {
+  using Key = decltype(f.key(cell));
+  using Entry = std::tuple<Key, typename F::Cell, int>;
+  std::vector<Entry> all;
+  f.for_each_cofacet(dim, cell, [&](const auto& cofacet, int incidence) {
+    all.emplace_back(f.key(cofacet), cofacet, incidence);
+    return true;
+  });
+  const auto expect_range = [&](Key first, Key last) {
+    std::vector<Entry> expected, found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(expected), [&](const Entry& entry) {
+      return std::get<0>(entry) >= first && std::get<0>(entry) <= last;
+    });
+    f.for_each_cofacet_within(dim, cell, first, last, [&](const auto& cofacet, int incidence) {
+      found.emplace_back(f.key(cofacet), cofacet, incidence);
+      return true;
+    });
+    EXPECT_TRUE(found == expected) << "cofacets with keys " << first << " to " << last;
+  };
+  for (Key first = f.key(cell);;) {
+    const Key last = f.horizon(first);
+    ASSERT_GE(last, first);
+    expect_range(first, last);
+    if (last == std::numeric_limits<Key>::max()) break;
+    first = last + 1;
+  }
+  for (const Entry& entry : all) expect_range(std::get<0>(entry), std::get<0>(entry));
+}
+
 /// The contract of ph/filtration.hpp, cell by cell up to dimension `top`.
 template <Filtration F>
 void check_contract(const F& f, int top, std::int64_t field) {
@@ -123,6 +158,9 @@ void check_contract(const F& f, int top, std::int64_t field) {
         if (F::first_equal_cofacet_is_oldest) {
           for (const Cell& other : equal)
             ASSERT_FALSE(f.precedes(other, equal.front())) << "a false claim: oldest cofacet first";
+        }
+        if constexpr (RangeFiltration<F>) {
+          ASSERT_NO_FATAL_FAILURE(check_ranges(f, dim - 1, c));
         }
       }
       ASSERT_EQ(facet_entries, cofacet_entries) << "facets and cofacets disagree, dim " << dim;

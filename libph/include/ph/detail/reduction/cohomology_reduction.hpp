@@ -15,8 +15,8 @@
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/reduction/apparent_pairs.hpp"
+#include "ph/detail/reduction/coboundary_column.hpp"
 #include "ph/detail/reduction/pivot_table.hpp"
-#include "ph/detail/reduction/working_column.hpp"
 #include "ph/error.hpp"
 #include "ph/run_context.hpp"
 
@@ -91,21 +91,11 @@ class CohomologyReduction {
 
   /// What one thread works with. Columns that it published stay valid as long as it does.
   struct Worker {
-    Worker(const F& f, const K& field, const RunContext& run)
-        : context(run), working(f, field, &run.memory), chain(&run.memory), arena(&run.memory) {}
+    Worker(const F& f, const K& field, const RunContext& context)
+        : working(f, field, context), arena(&context.memory) {}
 
-    void work(std::size_t steps) {
-      pending += steps;
-      if (pending < kPollInterval) return;
-      pending = 0;
-      context.poll();
-    }
-
-    const RunContext& context;
-    WorkingColumn<F, K, Pivot::oldest> working;
-    std::pmr::vector<Term> chain;  // what was added to the column
+    CoboundaryColumn<F, K> working;
     std::pmr::monotonic_buffer_resource arena;
-    std::size_t pending = 0;
   };
 
   void collect_columns();
@@ -120,11 +110,6 @@ class CohomologyReduction {
   /// itself on the way, an emergent pair (Bauer, Ripser, section 3.5); the working column is
   /// unfinished then.
   bool start_column(std::uint32_t number, Worker& worker, Term& pivot) const;
-  /// Goes on with a column that was driven out.
-  void resume_column(std::uint32_t number, const Column& column, Worker& worker) const;
-  /// Adds a multiple of column `cell` + `chain` to the working column.
-  void add_column(const Cell& cell, std::span<const Term> chain, typename K::Element scale,
-                  Worker& worker) const;
   /// Cancels the pivot with a column that has it. @return whether there is one.
   bool cancel_pivot(std::uint32_t number, const Term& pivot, Worker& worker) const;
   /// A copy of the chain, with the pivot if there is one, that stays.
@@ -279,12 +264,8 @@ template <CofacetFiltration F, Field K>
 bool CohomologyReduction<F, K>::start_column(std::uint32_t number, Worker& worker,
                                              Term& pivot) const {
   const Cell& cell = to_reduce_[number];
-  worker.working.clear();
-  worker.chain.clear();
   bool found = false, looks_for_pivot = F::first_equal_cofacet_is_oldest;
-  f_.for_each_cofacet(dim_, cell, [&](const Cell& cofacet, int incidence) {
-    const auto a = field_.from_int(incidence);
-    if (!worker.working.append(cofacet, a)) return true;
+  worker.working.start(dim_, cell, [&](const Cell& cofacet, typename K::Element a) {
     if (looks_for_pivot && f_.key(cofacet) == f_.key(cell)) {
       looks_for_pivot = false;
       found = pivots_->owner_of(cofacet).number >= number &&
@@ -293,50 +274,15 @@ bool CohomologyReduction<F, K>::start_column(std::uint32_t number, Worker& worke
     }
     return !found;
   });
-  worker.work(worker.working.size() + 1);
-  if (!found) worker.working.heapify();
   return found;
-}
-
-template <CofacetFiltration F, Field K>
-void CohomologyReduction<F, K>::resume_column(std::uint32_t number, const Column& column,
-                                              Worker& worker) const {
-  worker.working.clear();
-  worker.chain.assign(column.chain.begin(), column.chain.end());
-  const auto append = [&](const Cell& cell, typename K::Element scale) {
-    f_.for_each_cofacet(dim_, cell, [&](const Cell& cofacet, int incidence) {
-      worker.working.append(cofacet, field_.multiply(scale, field_.from_int(incidence)));
-      worker.work(1);
-      return true;
-    });
-  };
-  append(to_reduce_[number], field_.from_int(1));
-  for (const Term& term : column.chain) append(term.cell, term.coefficient());
-  worker.working.heapify();
-}
-
-template <CofacetFiltration F, Field K>
-void CohomologyReduction<F, K>::add_column(const Cell& cell, std::span<const Term> chain,
-                                           typename K::Element scale, Worker& worker) const {
-  const auto add = [&](const Cell& summand, typename K::Element a) {
-    worker.chain.emplace_back(summand, a);
-    f_.for_each_cofacet(dim_, summand, [&](const Cell& cofacet, int incidence) {
-      worker.working.push(cofacet, field_.multiply(a, field_.from_int(incidence)));
-      worker.work(1);
-      return true;
-    });
-  };
-  add(cell, scale);
-  for (const Term& term : chain) add(term.cell, field_.multiply(scale, term.coefficient()));
 }
 
 template <CofacetFiltration F, Field K>
 bool CohomologyReduction<F, K>::cancel_pivot(std::uint32_t number, const Term& pivot,
                                              Worker& worker) const {
   const auto cancel = [&](const Cell& cell, std::span<const Term> chain, typename K::Element a) {
-    worker.working.push(pivot.cell, pivot.coefficient());
     const auto scale = field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(a)));
-    add_column(cell, chain, scale, worker);
+    worker.working.add(pivot, cell, chain, scale);
     return true;
   };
   const auto owner = pivots_->owner_of(pivot.cell);
@@ -357,11 +303,11 @@ bool CohomologyReduction<F, K>::cancel_pivot(std::uint32_t number, const Term& p
 
 template <CofacetFiltration F, Field K>
 auto CohomologyReduction<F, K>::keep(const Term* pivot, Worker& worker) const -> const Column* {
-  worker.chain.resize(add_up<F, K>(worker.chain, f_, field_));
+  const std::span<const Term> added = worker.working.chain();
   std::pmr::polymorphic_allocator<> arena(&worker.arena);
-  const std::size_t size = worker.chain.size();
+  const std::size_t size = added.size();
   Term* const chain = size == 0 ? nullptr : arena.allocate_object<Term>(size);
-  std::uninitialized_copy(worker.chain.begin(), worker.chain.end(), chain);
+  std::uninitialized_copy(added.begin(), added.end(), chain);
   return arena.new_object<Column>(pivot ? Column{pivot->cell, pivot->coefficient(), {chain, size}}
                                         : Column{{}, field_.from_int(0), {chain, size}});
 }
@@ -383,7 +329,7 @@ void CohomologyReduction<F, K>::reduce(std::uint32_t number, Worker& worker) {
       number = other;
       column = pivots_->column(number);
     }
-    resume_column(number, *column, worker);
+    worker.working.start(dim_, to_reduce_[number], column->chain, column->pivot);
   }
   // Nothing is left: the column has no pivot, and what it published before is no longer true.
   pivots_->publish(number, gives_cocycles_ ? keep(nullptr, worker) : nullptr);

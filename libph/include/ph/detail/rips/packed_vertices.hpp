@@ -17,7 +17,12 @@ class PackedVertices {
   PackedVertices() = default;
   constexpr explicit PackedVertices(std::uint64_t vertex) { word(0) = vertex; }
 
-  friend bool operator==(const PackedVertices&, const PackedVertices&) = default;
+  // The default one calls memcmp.
+  friend constexpr bool operator==(const PackedVertices& a, const PackedVertices& b) {
+    for (int i = 0; i < Words; ++i)
+      if (a.word(i) != b.word(i)) return false;
+    return true;
+  }
   friend constexpr auto operator<=>(const PackedVertices&, const PackedVertices&) = default;
 
   /// The lowest `count` bits (0 … 63) as a number.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "ph/detail/core/flag_filtration.hpp"
+#include "ph/detail/rips/key_block.hpp"
 #include "ph/detail/rips/packed_vertices.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/detail/rips/rips_groups.hpp"
@@ -105,7 +107,13 @@ class RipsFiltration {
   template <class Visit>
   void for_each_facet(int dim, const Cell& cell, Visit&& visit) const;
   template <class Visit>
-  void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
+  void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
+    for_each_cofacet_within(dim, cell, 0, RipsAdjacency::kNever - 1, visit);
+  }
+  /// As RangeFiltration asks for them.
+  template <class Visit>
+  void for_each_cofacet_within(int dim, const Cell& cell, Key first, Key last, Visit&& visit) const;
+  Key horizon(Key key) const;
 
   /// As ApparentFiltration asks for them: a group has the simplices of one longest edge.
   std::optional<Cell> apparent_cofacet(int dim, const Cell& cell) const;
@@ -286,75 +294,6 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
   }
 }
 
-template <RipsLayout Layout, int Words>
-template <class Visit>
-void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
-                                                     Visit&& visit) const {
-  // The new vertex w ascends, and with it the cofacet's vertices: among cofacets of equal key the
-  // first visited is the oldest. `slot` is w's place among the vertices: those below it are
-  // smaller.
-  const int count = dim + 1;
-  std::array<std::uint32_t, kMostVertices + 1> vertices;
-  for (int slot = 0; slot < count; ++slot)
-    vertices[static_cast<std::size_t>(slot)] = vertex(cell, slot);
-  vertices[static_cast<std::size_t>(count)] = static_cast<std::uint32_t>(graph_.size());
-
-  const RipsAdjacency& adjacent = adjacency();
-  int slot = 0;
-  Vertices frame;  // the cofacet without w
-  const auto open_slot = [&] {
-    frame = (cell.vertices >> (slot * bits_)) << ((slot + 1) * bits_) | below(cell.vertices, slot);
-  };
-  open_slot();
-  const auto emit = [&](std::uint32_t w, Key key) {
-    return visit(Cell{key, frame | Vertices(w) << (slot * bits_)}, slot % 2 == 0 ? 1 : -1);
-  };
-
-  if (has_matrix()) {
-    std::array<const Key*, kMostVertices> rows;
-    for (int i = 0; i < count; ++i)
-      rows[static_cast<std::size_t>(i)] = adjacent.row(vertices[static_cast<std::size_t>(i)]);
-    std::uint32_t w = 0;
-    for (;; open_slot()) {
-      const std::uint32_t end = vertices[static_cast<std::size_t>(slot)];
-      for (; w < end; ++w) {
-        Key key = cell.key;
-        for (int i = 0; i < count; ++i) key = std::max(key, rows[static_cast<std::size_t>(i)][w]);
-        if (key != RipsAdjacency::kNever && !emit(w, key)) return;
-      }
-      if (slot == count) return;
-      ++w;
-      ++slot;
-    }
-  } else {
-    std::array<std::span<const Neighbour>, kMostVertices> lists;
-    for (int i = 0; i < count; ++i) {
-      lists[static_cast<std::size_t>(i)] =
-          adjacent.neighbours(vertices[static_cast<std::size_t>(i)]);
-      // The shortest list leads.
-      if (lists[static_cast<std::size_t>(i)].size() < lists[0].size())
-        std::swap(lists[static_cast<std::size_t>(i)], lists[0]);
-    }
-    for (const Neighbour& lead : lists[0]) {
-      Key key = std::max(cell.key, lead.key);
-      bool common = true;
-      for (int i = 1; common && i < count; ++i) {
-        auto& list = lists[static_cast<std::size_t>(i)];
-        while (!list.empty() && list.front().vertex < lead.vertex) list = list.subspan(1);
-        if (list.empty()) return;
-        common = list.front().vertex == lead.vertex;
-        if (common) key = std::max(key, list.front().key);
-      }
-      if (!common) continue;
-      if (vertices[static_cast<std::size_t>(slot)] < lead.vertex) {
-        while (vertices[static_cast<std::size_t>(slot)] < lead.vertex) ++slot;
-        open_slot();
-      }
-      if (!emit(lead.vertex, key)) return;
-    }
-  }
-}
-
 /// Calls `use` with the filtration whose cells are just large enough for dimension max_dim + 1.
 template <class Use>
 decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& use) {
@@ -384,4 +323,5 @@ struct std::hash<ph::RipsCell<Words>> {
   std::size_t operator()(const ph::RipsCell<Words>& c) const { return c.vertices.hash(); }
 };
 
+#include "ph/detail/rips/rips_cofacets.ipp"
 #include "ph/detail/rips/rips_filtration.ipp"
