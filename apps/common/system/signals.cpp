@@ -102,7 +102,10 @@ SignalWatch::SignalWatch() {
 SignalWatch::~SignalWatch() {
   if (!thread_.joinable()) return;
   const char byte = 0;
-  static_cast<void>(!write(pipe_ends[1], &byte, 1));
+  if (write(pipe_ends[1], &byte, 1) != 1) {  // the end of the pipe is as good
+    wake_descriptor = -1;
+    close(pipe_ends[1]);
+  }
   thread_.join();
   // The handler stays installed and may still write one byte: the pipe lives as long as the
   // process.
