@@ -160,6 +160,27 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
   }
 }
 
+// Takes out what cannot be in the stars of some voxels, and lists those that have a critical cell.
+// @return how many these are.
+std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::uint32_t* list) {
+  const auto close = [&](auto&& tables_of) {
+    std::size_t count = 0;
+    for (std::uint32_t v = begin; v < end; ++v) {
+      if (stars_[v] == kAbsent) continue;
+      const auto [star, critical] = tables_of(v).closed(stars_[v]);
+      stars_[v] = star;
+      // Written first, counted afterwards, and without a condition: which voxels are critical
+      // cannot be foretold. The sign of one of the two is set unless it is 0.
+      list[count] = v;
+      count += (critical | (0U - critical)) >> 31;
+    }
+    return count;
+  };
+  const StarTables& plain = star_tables(0);
+  return any_periodic_ ? close([&](std::uint32_t v) -> const StarTables& { return tables(v); })
+                       : close([&](std::uint32_t) -> const StarTables& { return plain; });
+}
+
 template <class Ages, class T>
 void StarGrid::find_stars(const T* voxels) {
   const std::uint32_t n = axes_[2].extent, high = axes_[1].extent;
@@ -175,13 +196,13 @@ void StarGrid::find_stars(const T* voxels) {
   };
   struct Piece {
     std::size_t begin;
-    std::pmr::vector<std::uint32_t> found;
+    RawVector<std::uint32_t> found;
   };
   std::mutex mutex;
   std::vector<Piece> pieces;
   for_each_piece(
       "stars", blocks, blocks_a_piece, context_, [&](std::size_t begin, std::size_t end) {
-        std::pmr::vector<std::uint32_t> found(&context_.memory);
+        RawVector<std::uint32_t> found(&context_.memory);
         bool all = true;
         for (std::size_t i = begin; i < end; ++i) {
           const auto row = static_cast<std::uint32_t>(i / blocks_a_row);
@@ -189,7 +210,6 @@ void StarGrid::find_stars(const T* voxels) {
           const Block block{row / high, row % high, x, std::min(n, x + kBlock)};
           const std::uint32_t first = row * n + block.begin, count = block.end - block.begin;
           std::uint32_t* stars = stars_.data() + first;
-          // Of one axis only the ends of the row may be ghosts.
           const bool is_line = layer_size() == 1;
           const bool is_ghost = !is_line && this->is_ghost(first);
           if (is_ghost)
@@ -209,18 +229,13 @@ void StarGrid::find_stars(const T* voxels) {
             all = all && block_enters;
           }
           if (is_ghost) continue;
-          // Written first, counted afterwards: which voxels are critical cannot be foretold.
-          std::size_t next = found.size();
-          found.resize(next + count);
-          for (std::uint32_t k = 0; k < count; ++k) {
-            if (stars[k] == kAbsent) continue;
-            const StarTables& tables = this->tables(first + k);
-            stars[k] = tables.closed(stars[k]);
-            found[next] = first + k;
-            next +=
-                tables.has_critical(stars[k]) && !(is_line && this->is_ghost(first + k)) ? 1 : 0;
-          }
-          found.resize(next);
+          // Of one axis only the ends of the row may be ghosts.
+          const std::uint32_t begin_own = is_line && this->is_ghost(first) ? 1 : 0;
+          const std::uint32_t end_own =
+              count - (is_line && this->is_ghost(first + count - 1) ? 1 : 0);
+          const std::size_t before = found.size();
+          found.resize(before + count);
+          found.resize(before + close_stars(first + begin_own, first + end_own, &found[before]));
           context_.poll();
         }
         const std::lock_guard lock(mutex);
@@ -233,7 +248,7 @@ void StarGrid::find_stars(const T* voxels) {
   critical_.reserve(count);
   for (Piece& piece : pieces) {
     critical_.insert(critical_.end(), piece.found.begin(), piece.found.end());
-    piece.found = std::pmr::vector<std::uint32_t>(&context_.memory);
+    piece.found = RawVector<std::uint32_t>(&context_.memory);
   }
 }
 
