@@ -42,12 +42,29 @@ def smooth_8_bit(shape, generator):
     return numpy.floor(values * (255.99 / values.max()))
 
 
+def elevation(shape, _):
+    """A ramp along the diagonal: one bar."""
+    return sum(numpy.meshgrid(*[numpy.arange(n, dtype=float) for n in shape], indexing="ij", sparse=True))
+
+
+def marschner_lobb(shape, _):
+    """Rings whose waves become short towards the middle, on [-1, 1]^3 (Marschner & Lobb, An evaluation of reconstruction
+    filters for volume rendering, 1994)."""
+    alpha, frequency = 0.25, 6
+    z, y, x = numpy.meshgrid(*[numpy.linspace(-1, 1, n) for n in shape], indexing="ij", sparse=True)
+    rings = numpy.cos(2 * math.pi * frequency * numpy.cos(math.pi * numpy.sqrt(x * x + y * y) / 2))
+    return (1 - numpy.sin(math.pi * z / 2) + alpha * (1 + rings)) / (2 * (1 + alpha))
+
+
 KINDS = {"noise": noise, "smooth": smooth, "8-bit": eight_bit, "smooth 8-bit": smooth_8_bit}
 SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128), "256³": (256, 256, 256),
          "512³": (512, 512, 512), "24⁴": (24, 24, 24, 24), "32⁴": (32, 32, 32, 32)}
 
 ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size, kind) == ("256³", "smooth"))
         for size, shape in SIZES.items() for kind in KINDS]
+# Those of the table of Guillou, Vidal & Tierny, Discrete Morse Sandwich, that can be made.
+MADE = {"random": noise, "elevation": elevation, "Marschner-Lobb": marschner_lobb}
+ROWS += [Row(f"192³ {kind}", (192, 192, 192), kind, usual=False) for kind in MADE]
 ROWS.append(Row("16³ smooth", (16, 16, 16), "smooth", usual=False))  # for tests
 
 
@@ -77,7 +94,7 @@ ROWS += [Row(name, shape, "scan", False) for name, (shape, _, _) in SCANS.items(
 
 def values_of(row, scans):
     if row.kind != "scan":
-        return KINDS[row.kind](row.shape, numpy.random.default_rng(SEED))
+        return (KINDS | MADE)[row.kind](row.shape, numpy.random.default_rng(SEED))
     _, name, read = SCANS[row.name]
     content = (scans / name).read_bytes()
     return read(gzip.decompress(content) if name.endswith(".gz") else content).astype(float)

@@ -26,6 +26,7 @@
 #include "common/terminal/messages.hpp"
 #include "core/bytes/sealed_part.hpp"
 #include "core/system/files.hpp"
+#include "cubical/pair_voxels.hpp"
 #include "facade/adjust.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
@@ -47,9 +48,12 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
     does_nothing(fmt::format("engine {} takes all of them at once", plan.engine.name()));
   else if (arguments.options.representatives != Representatives::none)
     does_nothing("representatives need all of them at once");
-  else if (const std::size_t axes = cubical->cubical_image().extents.size(); axes < 2 || axes > 3)
-    does_nothing(fmt::format("the image has {}, expected two or three",
-                             axes == 1 ? "one axis" : "more axes"));
+  else if (!cubical::can_be_cut(cubical->cubical_image(),
+                                {arguments.options.min_dim, plan.max_dim}))
+    does_nothing(cubical->cubical_image().extents.size() > 3
+                     ? "of four axes or more bars of dimensions between 0 and the highest but one "
+                       "need all of them at once"
+                     : "no axis has more than one voxel");
   else
     session.explain(
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));

@@ -51,14 +51,15 @@ class Cubical {
   /// @param context outlives the filtration.
   /// @throws Error (bad_data) on NaN unless the image is masked, an axis of length 0 or sizes that
   ///         disagree; Error (usage) on more than 8 axes or a periodic axis that does not exist;
-  ///         Error (resource) on more than 2^32 - 2 voxels or beyond the context's memory limit.
+  ///         Error (resource) beyond the context's memory limit.
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 
   /// Makes what cells are made of, unless it is there. It stays with the filtration, and is counted
   /// in the budget of the context that the filtration was built with; while it is made, with 32
   /// bytes a voxel for sorting, `context` bounds, watches and stops it. O(cells). Thread-safe.
-  /// @throws Error (resource) and (cancelled); it can be tried again.
+  /// @throws Error (resource), also on more than 2^32 - 2 voxels, and (cancelled); it can be tried
+  ///         again.
   void prepare(const RunContext& context) const;
 
   int top_dim() const { return dim_; }

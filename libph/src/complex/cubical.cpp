@@ -37,10 +37,6 @@ void check(const Image& image, const CubicalOptions& options) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("image: found {} values, expected {}", image.values.size(), voxels));
   }
-  if (voxels > Index{UINT32_MAX} - 1) {
-    throw Error(ErrorKind::resource,
-                fmt::format("image: found {} voxels, at most 2^32 - 2 are possible", voxels));
-  }
   for (std::size_t k = image.extents.size(); k < options.periodic.size(); ++k) {
     if (options.periodic[k]) {
       throw Error(ErrorKind::usage,
@@ -126,6 +122,11 @@ const Cubical::Table& Cubical::make_table(const RunContext& context) const {
 }
 
 Cubical::Table Cubical::new_table(const RunContext& context) const {
+  if (voxels_.size() > kNever - 1)
+    throw Error(ErrorKind::resource,
+                fmt::format("image: found {} voxels, at most 2^32 - 2 are possible where cells are "
+                            "listed, as engines other than gradient do",
+                            voxels_.size()));
   // It outlives the run, whose budget may be gone by then.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};

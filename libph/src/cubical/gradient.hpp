@@ -7,10 +7,11 @@
 
 namespace ph {
 
-/// Images of fewer than 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
-/// count), all dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by
-/// union-find from both ends and by reduction between them. Of three axes with cycles or sets of
-/// voxels, not with cocycles. See docs/explanation/engines/discrete-gradient.md.
+/// Images of any size; of 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
+/// count) without the loops between the two graphs. All dimensions, no zero-length pairs: cells are
+/// paired voxel by voxel, what is left by union-find from both ends and by reduction between them.
+/// Of three axes with cycles or sets of voxels, not with cocycles. See
+/// docs/explanation/engines/discrete-gradient.md.
 struct GradientEngine {
   static constexpr Engine id = Engine::gradient;
   template <Filtration F>
@@ -18,7 +19,7 @@ struct GradientEngine {
     if constexpr (VoxelFiltration<F>) {
       if (task.zero_length || task.representatives == Representatives::cocycles) return false;
       if (task.representatives == Representatives::none)
-        return cubical::can_pair_voxels(f.cubical_image());
+        return cubical::can_pair_voxels(f.cubical_image(), task.max_dim);
       return cubical::can_represent_voxels(f.cubical_image());
     } else {
       return false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <mutex>
+#include <string>
 
 #include "cubical/any_axes/pair_cells.hpp"
 #include "cubical/graphs/two_graphs.hpp"
@@ -11,40 +12,49 @@
 #include "cubical/slabs/pair_in_slabs.hpp"
 #include "image/voxels_in_use.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/error.hpp"
 
 namespace ph::cubical {
-
-bool can_pair_voxels(const CubicalImage& grid) {
-  return StarGrid::can_hold(grid) || can_pair_cells(grid);
-}
 
 namespace {
 
 constexpr double kBytesOfVoxel = 8;  // a star, and a node of a graph; or ranks
 
+bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
+
 /// Slabs of small images would take as much as they do.
-bool may_be_cut(const GridFrame& frame) {
-  constexpr std::uint32_t few = 1 << 18;  // voxels
-  return Slabs::can_cut(frame) && frame.size() >= few;
+bool may_be_cut(const CubicalImage& grid) {
+  constexpr std::size_t few = 1 << 18;  // voxels
+  return LayeredImage::can_cut(grid) && grid.size() >= few;
 }
 
 }  // namespace
 
+bool can_pair_voxels(const CubicalImage& grid, int max_dim) {
+  if (StarGrid::can_hold(grid) || can_pair_cells(grid)) return true;
+  // Of three axes loops are refused as they are asked for: no other engine has them either.
+  return can_be_cut(grid, {.min_dim = 0, .max_dim = max_dim});
+}
+
+bool can_be_cut(const CubicalImage& grid, const BarRequest& wanted) {
+  return LayeredImage::can_cut(grid) &&
+         (has_few_axes(grid) || !wants_loops(GridShape(grid), wanted));
+}
+
 double bytes_to_pair_voxels(const CubicalImage& grid) {
   const double of_voxels = kBytesOfVoxel * static_cast<double>(grid.size());
-  return StarGrid::can_hold(grid) ? of_voxels : of_voxels + bytes_of_cells(grid);
+  if (StarGrid::can_hold(grid)) return of_voxels;
+  return can_pair_cells(grid) ? of_voxels + bytes_of_cells(grid) : least_bytes_to_pair_voxels(grid);
 }
 
 double least_bytes_to_pair_voxels(const CubicalImage& grid) {
-  if (!StarGrid::can_hold(grid)) return bytes_to_pair_voxels(grid);
-  const GridFrame frame(grid);
-  return may_be_cut(frame) ? kBytesOfVoxel * frame.layer_size() : bytes_to_pair_voxels(grid);
+  if (can_pair_cells(grid) && !has_few_axes(grid)) return bytes_to_pair_voxels(grid);
+  return may_be_cut(grid) ? kBytesOfVoxel * static_cast<double>(LayeredImage(grid).layer_size())
+                          : bytes_to_pair_voxels(grid);
 }
 
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted) {
-  if (!StarGrid::can_hold(grid)) return false;
-  const GridFrame frame(grid);
-  return may_be_cut(frame) && !wants_loops(frame.shape(), wanted);
+  return has_few_axes(grid) && may_be_cut(grid) && !wants_loops(GridShape(grid), wanted);
 }
 
 namespace {
@@ -82,9 +92,8 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
     return;
   }
   CriticalCells edges = critical_cells(grid, 1, context);
-  if (grid.top_dim() < 2 || wants_vertices(grid.shape(), wanted))
-    pair_vertices_with_edges(grid, edges, context, pairs);
-  if (grid.top_dim() == 2 && wants_top_cells(grid.shape(), wanted))
+  if (wants_vertices(grid.shape(), wanted)) pair_vertices_with_edges(grid, edges, context, pairs);
+  if (wants_top_cells(grid.shape(), wanted))
     pair_facets_with_top_cells(grid, edges, context, pairs);
   // What neither graph takes lives for ever: loops around periodic axes.
   if (grid.top_dim() < 2 || wanted.max_dim > 0)
@@ -94,38 +103,58 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
 }
 
 // Whether all fits into memory at a time: by what some layers take if that is not clear.
-bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& context) {
+bool fits(const CubicalImage& voxels, const RunContext& context) {
+  if (!StarGrid::can_hold(voxels)) return false;
   constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;  // a voxel, a critical cell
+  const LayeredImage image(voxels);
+  const auto size = static_cast<double>(image.size());
   // What is read of a file is in memory, too.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
-  const double left = static_cast<double>(context.memory.left()) - in_file * frame.size();
-  if (most * frame.size() < left) return true;
-  if (least * frame.size() > left) return false;
-  Slabs layers(frame, 1, context);
-  constexpr std::uint32_t samples = 8;
-  const std::uint32_t step = std::max(layers.count() / samples, 1U);
+  const double left = static_cast<double>(context.memory.left()) - in_file * size;
+  if (most * size < left) return true;
+  if (least * size > left) return false;
+  constexpr std::uint64_t few = 1 << 12, samples = 8;  // voxels
+  const std::uint64_t height = std::max(few / image.layer_size(), std::uint64_t{1});
+  Slabs slabs(image, height, context);
+  const std::uint64_t step = std::max(slabs.count() / samples, std::uint64_t{1});
   double cells = 0, seen = 0;
-  for (std::uint32_t layer = step / 2; layer < layers.count(); layer += step) {
-    const StarGrid grid = layers.stars(layer);
+  for (std::uint64_t slab = step / 2; slab < slabs.count(); slab += step) {
+    const StarGrid grid = slabs.stars(slab);
     for (const std::uint32_t v : grid.critical()) {
       const std::uint32_t star = grid.star(v);
       cells += 1 + std::popcount(grid.tables(v).critical_edges(star));
-      if (frame.top_dim() == 3)
+      if (grid.top_dim() == 3)
         cells += std::popcount(grid.tables(v).critical_squares(star, grid.pair_cubes(v)));
     }
-    seen += frame.layer_size();
+    seen += static_cast<double>(height * image.layer_size());
   }
   constexpr double margin = 1.3;  // other layers may have more
-  return margin * frame.size() * (least + per_cell * cells / seen) < left;
+  return margin * size * (least + per_cell * cells / seen) < left;
 }
 
-// Whether it has four axes or more, and bars of components are all that is wanted: then no cell
-// between those of the two graphs is looked at.
-bool has_only_components(const CubicalImage& voxels, const BarRequest& wanted) {
-  if (!GridFrame::can_hold(voxels)) return false;
-  const GridShape shape(voxels);
-  return shape.top_dim() > 3 && !wants_loops(shape, wanted);
+bool is_cut(const CubicalImage& voxels, const BarRequest& wanted, const RunContext& context) {
+  if (!can_be_cut(voxels, wanted)) return false;
+  // Of four axes and more no cell between those of the two graphs is looked at then.
+  return !has_few_axes(voxels) || context.slab_layers > 0 ||
+         (may_be_cut(voxels) && !fits(voxels, context));
 }
+
+template <Field K>
+void pair_by_slabs(const CubicalImage& voxels, const K& field, const BarRequest& wanted,
+                   const RunContext& context, const BarSink& sink) {
+  const LayeredImage image(voxels);
+  if (wants_loops(image.shape(), wanted) && !StarGrid::can_hold(voxels))
+    throw Error(ErrorKind::resource,
+                "bars of dimension 1: found " + std::to_string(voxels.size()) +
+                    " voxels, expected fewer than about 2^31; dimension 0 (max_dim 0)" +
+                    (image.shape().any_periodic() ? "" : " and dimension 2 (min_dim 2)") +
+                    " may have more, and parts of the image on several machines or in several "
+                    "processes have all dimensions");
+  PairSink pairs(image.shape(), wanted.cells, sink);
+  Slabs slabs(image, Slabs::layers_that_fit(image, context), context);
+  pair_in_slabs(slabs, field, wanted, context, pairs);
+}
+
 }  // namespace
 
 template <Field K>
@@ -146,28 +175,18 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& w
         const std::lock_guard lock(mutex);
         bars.expect(count);
       }};
-  if (has_only_components(voxels, wanted)) {
-    const GridFrame frame(voxels);
-    PairSink pairs(frame.shape(), wanted.cells, sink);
-    Slabs slabs(frame, Slabs::layers_that_fit(frame, context), context);
-    pair_in_slabs(slabs, field, wanted, context, pairs);
+  if (is_cut(voxels, wanted, context)) {
+    pair_by_slabs(voxels, field, wanted, context, sink);
     return;
   }
   if (!StarGrid::can_hold(voxels)) {
     pair_cells(voxels, field, wanted.max_dim, wanted.cells, context, bars);
     return;
   }
-  const GridFrame frame(voxels);
-  PairSink pairs(frame.shape(), wanted.cells, sink);
-  if (context.slab_layers > 0 ? Slabs::can_cut(frame)
-                              : may_be_cut(frame) && !fits(voxels, frame, context)) {
-    Slabs slabs(frame, Slabs::layers_that_fit(frame, context), context);
-    pair_in_slabs(slabs, field, wanted, context, pairs);
-    return;
-  }
   const VoxelsInUse voxels_are_read(voxels, context);
   StarGrid grid(voxels, context);
-  if (wants_loops(frame.shape(), wanted))
+  PairSink pairs(grid.shape(), wanted.cells, sink);
+  if (wants_loops(grid.shape(), wanted))
     pair_all_of_three_axes(grid, field, context, sink, pairs);
   else
     pair_by_components(grid, wanted, context, pairs);

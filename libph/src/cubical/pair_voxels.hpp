@@ -27,9 +27,11 @@ struct BarRequest {
   bool cells = true;  ///< else bars have none
 };
 
-/// Whether `pair_voxels` can: some voxels, and fewer than about 2^31 where at most three axes have
-/// more than one voxel (T: or are not periodic), else fewer than 2^32 cells (2^d a voxel).
-bool can_pair_voxels(const CubicalImage& grid);
+/// Whether `pair_voxels` can: some voxels, and any number of them if bars come from its two graphs
+/// alone, as all do of at most two axes that have more than one voxel (T: or are not periodic). Of
+/// three axes the others are refused as they are asked for from about 2^31 voxels on; of more they
+/// need fewer than 2^32 cells (2^d a voxel).
+bool can_pair_voxels(const CubicalImage& grid, int max_dim);
 /// The bytes that it takes beside the image, but for what critical cells and bars take.
 /// Precondition: it can.
 double bytes_to_pair_voxels(const CubicalImage& grid);
@@ -40,12 +42,16 @@ double least_bytes_to_pair_voxels(const CubicalImage& grid);
 /// once. Precondition: it can.
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted);
 
+/// Whether it sees some layers at a time if it is asked to.
+bool can_be_cut(const CubicalImage& grid, const BarRequest& wanted);
+
 /// The pairs of positive length of the cubical filtration of an image.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
 /// VoxelFiltration.
 /// Time: near-linear for H0 and the highest dimension but one, plus a reduction of critical cells
 /// for those between them. Memory: 8 bytes a voxel, of more than three axes 2 a cell besides, and
 /// what critical cells take.
+/// @throws Error (resource) if loops of three axes are wanted of too many voxels.
 template <Field K>
 void pair_voxels(const CubicalImage& grid, const K& field, const BarRequest& wanted,
                  const RunContext& context, const BarSink& sink);

@@ -347,8 +347,13 @@ class Options(ProgramTest):
         for options in ((), ("--min-persistence=-1",)):
             self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
         self.write("row.npy", files.array((3,), [0, 2, 1]))
-        self.assertIn("--slab-layers does nothing: the image has one axis",
-                      self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
+        self.assertNotIn("does nothing",
+                         self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
+        self.write("four.npy", files.array((2, 2, 2, 2), range(16)))
+        self.assertIn("--slab-layers does nothing: of four axes or more bars of dimensions between",
+                      self.expect(0, "four.npy", "--slab-layers", "1", "--dry-run").stderr)
+        self.assertNotIn("does nothing", self.expect(0, "four.npy", "--slab-layers", "1",
+                                                     "--max-dim", "0", "--dry-run").stderr)
 
     def test_options_of_bars_that_nobody_sees(self):
         self.write("row.npy", files.array((3,), [0, 2, 1]))

@@ -119,9 +119,10 @@ TEST(ManyAxes, AreTakenWhereTheyCan) {
   CubicalImage grid = deep.cubical_image();
   grid.periodic.assign(8, false);
   grid.extents.assign(8, 8);  // 15^8 cells
-  EXPECT_TRUE(cubical::can_pair_voxels(grid));
+  EXPECT_TRUE(cubical::can_pair_voxels(grid, 8));
   grid.voxels_are_vertices = false;  // 17^8
-  EXPECT_FALSE(cubical::can_pair_voxels(grid));
+  EXPECT_FALSE(cubical::can_pair_voxels(grid, 8));
+  EXPECT_TRUE(cubical::can_pair_voxels(grid, 0));  // voxels and edges alone
 }
 
 TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {

@@ -48,10 +48,11 @@ struct ImagePartForecast {
 /// any processes on any machines, and joined in any grouping: the bars are those of the whole
 /// image. See docs/explanation/engines/slabs.md.
 ///
-/// Images of two to eight axes that have more than one voxel, of any size; a part has fewer than
-/// about 2^31 voxels. Of d axes, three or more, bars of dimensions 1 to d - 2 need all layers, and
-/// where an axis closes up also those above: they are refused, unless it is a volume and option
-/// `loops` says that ImageLoops will find them. Max_dim 0 and min_dim d - 1 can be had.
+/// Images of two to eight axes that have more than one voxel, of any size; where loops are wanted a
+/// part has fewer than about 2^31 voxels. Of d axes, three or more, bars of dimensions 1 to d - 2
+/// need all layers, and where an axis closes up also those above: they are refused, unless it is a
+/// volume and option `loops` says that ImageLoops will find them. Max_dim 0 and min_dim d - 1 can
+/// be had.
 class ImagePart {
  public:
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis, or those

@@ -23,11 +23,14 @@ inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
 /// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
+/// Of one axis it has all.
 inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
+  if (grid.top_dim() < 2) return true;
   return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);
 }
 /// The same for the graph of top cells.
 inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
+  if (grid.top_dim() < 2) return false;
   return grid.is_t_construction() ? wants_lowest(grid, wanted) : wanted.max_dim > 0;
 }
 

@@ -34,7 +34,9 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
       const StarGrid::VoxelRow row = grid_.row(number);
       if (row.is_at_border) continue;
       const std::uint32_t end = row.first + grid_.extent(2) - 1;
-      for (std::uint32_t v = row.first + 1; v < end; ++v)
+      // Of one axis a slab of a ring has the first voxel behind a ghost.
+      const std::uint32_t begin = row.first + (grid_.is_wrapped(2, 1) ? 2 : 1);
+      for (std::uint32_t v = begin; v < end; ++v)
         if (const std::uint32_t star = grid_.star(v); star != kAbsent)
           use(v, v + offset[StarTables::edges(star)]);
     }

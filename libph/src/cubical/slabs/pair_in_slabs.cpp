@@ -15,25 +15,25 @@
 namespace ph::cubical {
 namespace {
 
-[[noreturn]] void refuse_loops(const GridFrame& frame) {
+[[noreturn]] void refuse_loops(const GridShape& shape) {
   throw Error(ErrorKind::resource,
               std::string("bars of dimension 1: what their critical cells take exceeds the memory "
                           "limit; ") +
-                  (wants_loops(frame.shape(), {.min_dim = 2, .max_dim = 2})
+                  (wants_loops(shape, {.min_dim = 2, .max_dim = 2})
                        ? "bars of dimension 0 fit (max_dim 0)"
                        : "all other dimensions fit (max_dim 0, or min_dim 2)"));
 }
 
 /// What is done while the critical cells of loops are there: without them it would fit.
 template <class Run>
-void with_loops(const GridFrame& frame, Run&& run) {
+void with_loops(const GridShape& shape, Run&& run) {
   try {
     run();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
-    refuse_loops(frame);
+    refuse_loops(shape);
   } catch (const std::bad_alloc&) {
-    refuse_loops(frame);
+    refuse_loops(shape);
   }
 }
 
@@ -42,21 +42,21 @@ void with_loops(const GridFrame& frame, Run&& run) {
 template <Field K>
 void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    const RunContext& context, PairSink& pairs) {
-  const GridFrame& frame = slabs.frame();
+  const GridShape& shape = slabs.image().shape();
   std::optional<SlabLoops> loops;
-  if (wants_loops(frame.shape(), wanted)) loops.emplace(frame, context);
-  LayerPairs found(frame.shape(),
-                   {.vertices = loops || wants_vertices(frame.shape(), wanted),
-                    .tops = loops || wants_top_cells(frame.shape(), wanted)},
+  if (wants_loops(shape, wanted)) loops.emplace(GridFrame(slabs.image().all()), context);
+  LayerPairs found(shape,
+                   {.vertices = loops || wants_vertices(shape, wanted),
+                    .tops = loops || wants_top_cells(shape, wanted)},
                    context);
   // Loops give way before there is no memory for the slabs and the other bars; their columns would
   // take more than they do.
   const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;
 
-  const auto add_slab = [&](std::uint32_t slab) {
+  const auto add_slab = [&](std::uint64_t slab) {
     const std::uint64_t first = slabs.first_voxel(slab);
-    if (frame.top_dim() > 3) {
+    if (shape.top_dim() > 3) {
       found.add(slabs.grid<LayerGrid>(slab), first, pairs);
     } else {
       const StarGrid grid = slabs.stars(slab);
@@ -65,10 +65,10 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
     }
     slabs.forget(slab);
   };
-  for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
+  for (std::uint64_t slab = 0; slab < slabs.count(); ++slab) {
     context.report({"slabs", slab, slabs.count()});
     if (loops)
-      with_loops(frame, [&] { add_slab(slab); });
+      with_loops(shape, [&] { add_slab(slab); });
     else
       add_slab(slab);
     if (loops && context.memory.left() < reserve) {
@@ -77,9 +77,9 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
     }
   }
   found.finish(pairs);
-  if (loops) with_loops(frame, [&] { loops->pair(field, pairs); });
+  if (loops) with_loops(shape, [&] { loops->pair(field, pairs); });
   pairs.finish();
-  if (too_many_loops) refuse_loops(frame);
+  if (too_many_loops) refuse_loops(shape);
 }
 
 template void pair_in_slabs(Slabs&, const Z2&, const BarRequest&, const RunContext&, PairSink&);

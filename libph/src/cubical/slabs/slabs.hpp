@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cubical/slabs/layered_image.hpp"
 #include "cubical/stars/star_grid.hpp"
 #include "ph/detail/core/file_pages.hpp"
 
@@ -20,61 +22,63 @@ namespace ph::cubical {
 /// first and the last one are neighbours, too.
 class Slabs {
  public:
-  static bool can_cut(const GridFrame& frame) { return frame.top_dim() >= 2; }
   /// As many layers as the context asks for, else so many that a quarter of the memory holds a slab
-  /// whatever is in it.
-  static std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
-    if (context.slab_layers > 0) return static_cast<std::uint32_t>(context.slab_layers);
-    constexpr double bytes = 128;  // a voxel
-    const double layers =
-        static_cast<double>(context.memory.left()) / 4 / (bytes * frame.layer_size());
-    return static_cast<std::uint32_t>(std::clamp(layers, 1.0, static_cast<double>(frame.size())));
+  /// whatever is in it; always so few that a slab fits a GridFrame.
+  static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
+    constexpr double bytes = 128;     // a voxel
+    constexpr double most = 1 << 28;  // voxels: larger slabs are no quicker
+    const auto size = static_cast<double>(image.layer_size());
+    const double layers = context.slab_layers > 0
+                              ? context.slab_layers
+                              : static_cast<double>(context.memory.left()) / 4 / (bytes * size);
+    return static_cast<std::uint64_t>(
+        std::clamp(layers, 1.0, std::max(1.0, std::floor(most / size))));
   }
-  /// Precondition: can_cut(frame), layers > 0.
-  /// @param part where the frame lies, if it is a part of a grid: it has ghosts at its ends.
+  /// Precondition: LayeredImage::can_cut, layers > 0.
+  /// @param part where the image lies, if it is a part of one: it has ghosts at its ends.
   /// @param first its first voxel in the whole grid, ghosts included (modulo 2^64).
-  Slabs(const GridFrame& frame, std::uint32_t layers, const RunContext& context,
+  Slabs(const LayeredImage& image, std::uint64_t layers, const RunContext& context,
         const SlabPlace& part = {}, std::uint64_t first = 0)
-      : frame_(frame),
+      : image_(image),
         part_(part),
         first_(first),
-        layers_(std::min(layers, is_ring() ? depth() - 1 : depth())),
-        cube_pairs_(cube_pair_memos(frame, part.is_in_ring, context)),
+        layers_(std::min(layers, image.is_ring() ? depth() - 1 : depth())),
+        cube_pairs_(cube_pair_memos(image.shape(), part.is_in_ring, context)),
         around_(&context.memory),
         context_(context) {}
 
-  const GridFrame& frame() const { return frame_; }
+  const LayeredImage& image() const { return image_; }
   const CubePairMemos& cube_pairs() const { return cube_pairs_; }
-  std::uint32_t count() const { return (depth() - 1) / layers_ + 1; }
+  std::uint64_t count() const { return (depth() - 1) / layers_ + 1; }
   /// The first voxel of the grid of a slab, ghosts included; of the first slab of a ring it would
   /// be one layer before zero (modulo 2^64).
-  std::uint64_t first_voxel(std::uint32_t slab) const {
+  std::uint64_t first_voxel(std::uint64_t slab) const {
     return first_ +
-           (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * frame_.layer_size();
+           (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * image_.layer_size();
   }
   /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
-  StarGrid stars(std::uint32_t slab) { return grid<StarGrid>(slab); }
+  StarGrid stars(std::uint64_t slab) { return grid<StarGrid>(slab); }
   /// The same as another kind of grid. @tparam Grid a SlabFrame, made as StarGrid is.
   template <class Grid>
-  Grid grid(std::uint32_t slab) {
-    const CubicalImage part = image(slab);
+  Grid grid(std::uint64_t slab) {
+    const CubicalImage part = voxels(slab);
     read_.reset();
     read_.emplace(context_.memory, part.is_in_file ? part.size() * bytes_of(part.type) : 0);
     return {part,
             context_,
             {.is_first = part_.is_first && slab == 0,
              .is_last = part_.is_last && slab + 1 == count(),
-             .is_in_ring = part_.is_in_ring || is_ring(),
+             .is_in_ring = part_.is_in_ring || image_.is_ring(),
              .cube_pairs = cube_pairs_}};
   }
   /// What was read of the image for a slab may leave the memory.
-  void forget(std::uint32_t slab) {
+  void forget(std::uint64_t slab) {
     around_ = decltype(around_)(around_.get_allocator());
-    const CubicalImage part = frame_.layers(begin(slab), end(slab));
+    const CubicalImage part = image_.layers(begin(slab), end(slab));
     if (part.is_in_file) {
       // The system maps what lies around a page that is read, too: pages of slabs that are done.
       constexpr std::ptrdiff_t kMappedAround = 64 << 10;
-      const CubicalImage all = frame_.layers(0, extent());
+      const CubicalImage& all = image_.all();
       const auto* const begin_of_all = static_cast<const char*>(all.voxels);
       const auto* const voxels = static_cast<const char*>(part.voxels);
       const auto bytes = [](const CubicalImage& image) {
@@ -89,48 +93,45 @@ class Slabs {
   }
 
  private:
-  bool is_ring() const { return frame_.is_periodic(frame_.layer_axis()); }
-  bool is_first_of_ring(std::uint32_t slab) const { return is_ring() && slab == 0; }
-  bool is_last_of_ring(std::uint32_t slab) const { return is_ring() && slab + 1 == count(); }
-  std::uint32_t ghosts_before() const { return part_.has_ghost_before() ? 1 : 0; }
-  std::uint32_t extent() const { return frame_.extent(frame_.layer_axis()); }
+  bool is_first_of_ring(std::uint64_t slab) const { return image_.is_ring() && slab == 0; }
+  bool is_last_of_ring(std::uint64_t slab) const { return image_.is_ring() && slab + 1 == count(); }
+  std::uint64_t ghosts_before() const { return part_.has_ghost_before() ? 1 : 0; }
   // Without ghosts.
-  std::uint32_t depth() const {
-    return extent() - ghosts_before() - (part_.has_ghost_after() ? 1U : 0U);
+  std::uint64_t depth() const {
+    return image_.extent() - ghosts_before() - (part_.has_ghost_after() ? 1 : 0);
   }
   // Layers that follow each other.
-  std::uint32_t begin(std::uint32_t slab) const {
+  std::uint64_t begin(std::uint64_t slab) const {
     return slab == 0 ? 0 : ghosts_before() + slab * layers_ - 1;
   }
-  std::uint32_t end(std::uint32_t slab) const {
-    return slab + 1 == count() ? extent() : ghosts_before() + (slab + 1) * layers_ + 1;
+  std::uint64_t end(std::uint64_t slab) const {
+    return slab + 1 == count() ? image_.extent() : ghosts_before() + (slab + 1) * layers_ + 1;
   }
   // At the ends of a ring what lies together there does not do so in the image: it is copied.
-  CubicalImage image(std::uint32_t slab) {
+  CubicalImage voxels(std::uint64_t slab) {
     const bool goes_before = is_first_of_ring(slab), goes_after = is_last_of_ring(slab);
-    if (!goes_before && !goes_after) return frame_.layers(begin(slab), end(slab));
+    if (!goes_before && !goes_after) return image_.layers(begin(slab), end(slab));
     struct Part {
-      std::uint32_t begin, end;
+      std::uint64_t begin, end;
     };
-    const Part own{begin(slab), end(slab)}, first{0, 1}, last{extent() - 1, extent()};
+    const Part own{begin(slab), end(slab)}, first{0, 1}, last{image_.extent() - 1, image_.extent()};
     std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
-    if (frame_.is_t_construction()) std::swap(parts[0], parts[1]);  // as they lie in memory
+    if (image_.shape().is_t_construction()) std::swap(parts[0], parts[1]);  // as they lie in memory
     around_.clear();
     for (const Part& part : parts) {
-      const CubicalImage image = frame_.layers(part.begin, part.end);
-      const std::size_t bytes = image.size() * bytes_of(image.type), before = around_.size();
+      const CubicalImage some = image_.layers(part.begin, part.end);
+      const std::size_t bytes = some.size() * bytes_of(some.type), before = around_.size();
       around_.resize(before + bytes);
-      std::memcpy(around_.data() + before, image.voxels, bytes);
+      std::memcpy(around_.data() + before, some.voxels, bytes);
     }
-    CubicalImage image = frame_.layers_of(around_.data(), own.end - own.begin + 1);
-    image.is_in_file = false;
-    return image;
+    CubicalImage copy = image_.layers_of(around_.data(), own.end - own.begin + 1);
+    copy.is_in_file = false;
+    return copy;
   }
 
-  const GridFrame& frame_;
+  const LayeredImage& image_;
   SlabPlace part_;
-  std::uint64_t first_;
-  std::uint32_t layers_;
+  std::uint64_t first_, layers_;
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;

@@ -44,20 +44,4 @@ void GridFrame::be_part_of_ring(std::uint32_t wrapped) {
   axes_[layer_axis()].has_ends = false;
 }
 
-CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
-  const std::size_t first = is_t_construction_ ? extent(layer_axis()) - end : begin;
-  return layers_of(
-      static_cast<const std::byte*>(grid_.voxels) + first * layer_size() * bytes_of(grid_.type),
-      end - begin);
-}
-
-CubicalImage GridFrame::layers_of(const void* voxels, std::uint32_t count) const {
-  const auto axis = static_cast<std::size_t>(shape_.axis(layer_axis()).of_input);
-  CubicalImage image = grid_;
-  image.extents[axis] = count;
-  image.periodic[axis] = false;
-  image.voxels = voxels;
-  return image;
-}
-
 }  // namespace ph::cubical

@@ -119,12 +119,6 @@ class GridFrame {
     return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
   }
 
-  /// The image of some layers, as these count them: the T-construction counts from the other end.
-  /// Its slowest axis is not periodic.
-  CubicalImage layers(std::uint32_t begin, std::uint32_t end) const;
-  /// The same of voxels that lie elsewhere, in the order of the image.
-  CubicalImage layers_of(const void* voxels, std::uint32_t count) const;
-
  protected:
   struct Axis {
     std::uint32_t extent = 1, stride = 1;

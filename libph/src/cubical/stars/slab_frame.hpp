@@ -13,8 +13,8 @@ namespace ph::cubical {
 
 /// One for each kind of wrapped voxel; none unless there are three axes.
 using CubePairMemos = std::shared_ptr<std::pmr::vector<CubePairMemo>>;
-/// @param is_in_ring whether the frame is a part of a grid whose slowest axis is periodic.
-CubePairMemos cube_pair_memos(const GridFrame& frame, bool is_in_ring, const RunContext& context);
+/// @param is_in_ring whether the grid is a part of one whose slowest axis is periodic.
+CubePairMemos cube_pair_memos(const GridShape& grid, bool is_in_ring, const RunContext& context);
 
 /// Where a slab lies in a grid. Where the grid goes on, the slab has one more layer, a ghost: it is
 /// there for the layer beside it and has no cells. In a ring, whose slowest axis is periodic, the

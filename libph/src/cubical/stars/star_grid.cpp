@@ -38,7 +38,7 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
       stars_(&context.memory),
       cube_pairs_(slab.cube_pairs),
       critical_(&context.memory) {
-  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, slab.is_in_ring, context);
+  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(shape(), slab.is_in_ring, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     // The T-construction runs backwards.
@@ -51,12 +51,12 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
   });
 }
 
-CubePairMemos cube_pair_memos(const GridFrame& frame, bool is_in_ring, const RunContext& context) {
+CubePairMemos cube_pair_memos(const GridShape& grid, bool is_in_ring, const RunContext& context) {
   auto memos = std::make_shared<std::pmr::vector<CubePairMemo>>(&context.memory);
-  if (frame.top_dim() != 3) return memos;
-  unsigned may_wrap = is_in_ring ? 1U << frame.layer_axis() : 0;
+  if (grid.top_dim() != 3) return memos;
+  unsigned may_wrap = is_in_ring ? 1U << grid.layer_axis() : 0;
   for (int a = 0; a < 3; ++a)
-    if (frame.is_periodic(a)) may_wrap |= 1U << a;
+    if (grid.axis(a).periodic) may_wrap |= 1U << a;
   for (unsigned wraps = 0; wraps <= may_wrap; ++wraps)
     memos->emplace_back(star_tables(wraps), (wraps & ~may_wrap) == 0, &context.memory);
   return memos;
@@ -147,8 +147,38 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
     }
   }
   if (is_t_construction_) std::reverse(stars, stars + count);
-  if (block.begin == 0) stars[0] = find_one<Ages>(voxels, first);
-  if (block.end == n) stars[count - 1] = find_one<Ages>(voxels, first + n - 1);
+  const auto find = [&](std::uint32_t x) {
+    if (block.begin <= x && x < block.end)
+      stars[x - block.begin] = find_one<Ages>(voxels, first + x);
+  };
+  find(0);
+  find(n - 1);
+  // Of one axis ghosts are in the row, and may come from the other end.
+  if (layer_size() == 1 && slab().is_in_ring && n > 2) {
+    find(1);
+    find(n - 2);
+  }
+}
+
+// Takes out what cannot be in the stars of some voxels, and lists those that have a critical cell.
+// @return how many these are.
+std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::uint32_t* list) {
+  const auto close = [&](auto&& tables_of) {
+    std::size_t count = 0;
+    for (std::uint32_t v = begin; v < end; ++v) {
+      if (stars_[v] == kAbsent) continue;
+      const auto [star, critical] = tables_of(v).closed(stars_[v]);
+      stars_[v] = star;
+      // Written first, counted afterwards, and without a condition: which voxels are critical
+      // cannot be foretold. The sign of one of the two is set unless it is 0.
+      list[count] = v;
+      count += (critical | (0U - critical)) >> 31;
+    }
+    return count;
+  };
+  const StarTables& plain = star_tables(0);
+  return any_periodic_ ? close([&](std::uint32_t v) -> const StarTables& { return tables(v); })
+                       : close([&](std::uint32_t) -> const StarTables& { return plain; });
 }
 
 template <class Ages, class T>
@@ -166,13 +196,13 @@ void StarGrid::find_stars(const T* voxels) {
   };
   struct Piece {
     std::size_t begin;
-    std::pmr::vector<std::uint32_t> found;
+    RawVector<std::uint32_t> found;
   };
   std::mutex mutex;
   std::vector<Piece> pieces;
   for_each_piece(
       "stars", blocks, blocks_a_piece, context_, [&](std::size_t begin, std::size_t end) {
-        std::pmr::vector<std::uint32_t> found(&context_.memory);
+        RawVector<std::uint32_t> found(&context_.memory);
         bool all = true;
         for (std::size_t i = begin; i < end; ++i) {
           const auto row = static_cast<std::uint32_t>(i / blocks_a_row);
@@ -180,11 +210,15 @@ void StarGrid::find_stars(const T* voxels) {
           const Block block{row / high, row % high, x, std::min(n, x + kBlock)};
           const std::uint32_t first = row * n + block.begin, count = block.end - block.begin;
           std::uint32_t* stars = stars_.data() + first;
-          const bool is_ghost = this->is_ghost(first);
+          const bool is_line = layer_size() == 1;
+          const bool is_ghost = !is_line && this->is_ghost(first);
           if (is_ghost)
             std::fill_n(stars, count, 0U);
           else
             find_block<Ages>(voxels, block, stars);
+          if (is_line)
+            for (const std::uint32_t k : {0U, count - 1})
+              if (this->is_ghost(first + k)) stars[k] = 0;
           if (some_may_not) {
             const T* there = is_t_construction_ ? voxels + (size_ - first - count) : voxels + first;
             bool block_enters = true;
@@ -195,17 +229,13 @@ void StarGrid::find_stars(const T* voxels) {
             all = all && block_enters;
           }
           if (is_ghost) continue;
-          // Written first, counted afterwards: which voxels are critical cannot be foretold.
-          std::size_t next = found.size();
-          found.resize(next + count);
-          for (std::uint32_t k = 0; k < count; ++k) {
-            if (stars[k] == kAbsent) continue;
-            const StarTables& tables = this->tables(first + k);
-            stars[k] = tables.closed(stars[k]);
-            found[next] = first + k;
-            next += tables.has_critical(stars[k]) ? 1 : 0;
-          }
-          found.resize(next);
+          // Of one axis only the ends of the row may be ghosts.
+          const std::uint32_t begin_own = is_line && this->is_ghost(first) ? 1 : 0;
+          const std::uint32_t end_own =
+              count - (is_line && this->is_ghost(first + count - 1) ? 1 : 0);
+          const std::size_t before = found.size();
+          found.resize(before + count);
+          found.resize(before + close_stars(first + begin_own, first + end_own, &found[before]));
           context_.poll();
         }
         const std::lock_guard lock(mutex);
@@ -218,7 +248,7 @@ void StarGrid::find_stars(const T* voxels) {
   critical_.reserve(count);
   for (Piece& piece : pieces) {
     critical_.insert(critical_.end(), piece.found.begin(), piece.found.end());
-    piece.found = std::pmr::vector<std::uint32_t>(&context_.memory);
+    piece.found = RawVector<std::uint32_t>(&context_.memory);
   }
 }
 

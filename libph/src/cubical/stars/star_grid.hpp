@@ -45,6 +45,7 @@ class StarGrid : public SlabFrame {
   };
   template <class Ages, class T>
   void find_stars(const T* voxels);
+  std::size_t close_stars(std::uint32_t begin, std::uint32_t end, std::uint32_t* list);
   template <class Ages, class T>
   void find_block(const T* voxels, const Block& block, std::uint32_t* stars) const;
   template <class Ages, class T>

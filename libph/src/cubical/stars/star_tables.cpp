@@ -22,20 +22,22 @@ StarTables::StarTables(unsigned wrapped)
     for (int rank = kEdgeCount - 1; rank >= 0; --rank)
       if (const int first = edge_order_.at(rank); (e >> first & 1U) != 0)
         arrow_[e] = static_cast<std::uint8_t>(first);
+    of_edges_[e].lowest = static_cast<std::uint8_t>(1U << arrow_[e]);
     for (int s = 0; s < kSquareCount; ++s) {
       const auto [a, b] = kEdgesOfSquare[s];
-      if ((e >> a & e >> b & 1U) != 0) squares_on_[e] |= static_cast<std::uint16_t>(1U << s);
+      if ((e >> a & e >> b & 1U) != 0)
+        of_edges_[e].squares_on |= static_cast<std::uint16_t>(1U << s);
     }
   }
   for (unsigned s = 0; s < 4096; ++s) {
     for (int c = 0; c < kCubeCount; ++c) {
       const bool on = (s >> square_of_cube(c, 0) & s >> square_of_cube(c, 1) &
                        s >> square_of_cube(c, 2) & 1U) != 0;
-      if (on) cubes_on_[s] |= static_cast<std::uint8_t>(1U << c);
+      if (on) of_squares_[s].cubes_on |= static_cast<std::uint8_t>(1U << c);
     }
     pair_edges(s);
     places_begin_[s] = place_count_;
-    place_count_ += 1U << std::popcount(unsigned{cubes_on_[s]});
+    place_count_ += 1U << std::popcount(unsigned{of_squares_[s].cubes_on});
   }
 }
 
@@ -72,8 +74,8 @@ void StarTables::pair_edges(unsigned squares) {
     }
   }
   tree_[squares] = static_cast<std::uint16_t>(tree);
-  loops_[squares] = static_cast<std::uint8_t>(std::popcount(squares & ~tree));
-  joined_[squares] = static_cast<std::uint8_t>(63U & ~roots);
+  of_squares_[squares].loops = static_cast<std::uint8_t>(std::popcount(squares & ~tree));
+  of_squares_[squares].joined = static_cast<std::uint8_t>(63U & ~roots);
 }
 
 // The same on the dual, backwards: the eight triangles of the octahedron are nodes, those that are

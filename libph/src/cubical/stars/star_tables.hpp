@@ -160,30 +160,34 @@ class StarTables {
   ///        before it along a come last in the grid.
   explicit StarTables(unsigned wrapped);
 
+  struct Closed {
+    std::uint32_t star;
+    /// Not 0 if a cell of it, or the voxel, is critical: not paired inside it.
+    unsigned critical;
+  };
   /// Takes out squares that lack an edge and cubes that lack a square.
-  std::uint32_t closed(std::uint32_t raw) const {
-    const unsigned edges = raw & 63U;
-    const unsigned squares = raw >> kSquareShift & squares_on_[edges];
-    const unsigned cubes = raw >> kCubeShift & cubes_on_[squares];
-    return edges | squares << kSquareShift | cubes << kCubeShift;
+  Closed closed(std::uint32_t raw) const {
+    const unsigned e = raw & 63U;
+    const OfEdges& of_edges = of_edges_[e];
+    const unsigned s = raw >> kSquareShift & of_edges.squares_on;
+    const OfSquares& of_squares = of_squares_[s];
+    const unsigned c = raw >> kCubeShift & of_squares.cubes_on;
+    // Each cube but one in a full star takes a square that closes a loop.
+    const unsigned critical = static_cast<unsigned>(e == 0) |
+                              (e & ~unsigned{of_squares.joined} & ~unsigned{of_edges.lowest}) |
+                              (of_squares.loops ^ kBitCount[c]) | static_cast<unsigned>(c == 255);
+    return {e | s << kSquareShift | c << kCubeShift, critical};
   }
   static unsigned edges(std::uint32_t star) { return star & 63U; }
   static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
   static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
 
-  /// Whether a cell of the star, or the voxel, is critical: not paired inside the star.
-  bool has_critical(std::uint32_t star) const {
-    const unsigned e = edges(star), s = squares(star), c = cubes(star);
-    // Each cube but one in a full star takes a square that closes a loop.
-    return (static_cast<unsigned>(e == 0) | (e & ~(joined_[s] | kLowest[arrow_[e]])) |
-            (loops_[s] ^ kBitCount[c]) | static_cast<unsigned>(c == 255)) != 0;
-  }
   /// The edge with which the voxel is paired: the oldest one. Precondition: there is one.
   int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
   /// The edges not paired inside the star.
   unsigned critical_edges(std::uint32_t star) const {
     const unsigned e = edges(star);
-    return e & ~(joined_[squares(star)] | 1U << arrow_[e]);
+    return e & ~(of_squares_[squares(star)].joined | 1U << arrow_[e]);
   }
   /// The critical edges that are not marked.
   unsigned free_edges(std::uint32_t star) const {
@@ -212,7 +216,7 @@ class StarTables {
     // Which subset of the cubes that the squares allow.
     std::uint32_t place = places_begin_[squares(star)];
     int bit = 0;
-    for (unsigned rest = cubes_on_[squares(star)]; rest != 0; rest &= rest - 1, ++bit)
+    for (unsigned rest = of_squares_[squares(star)].cubes_on; rest != 0; rest &= rest - 1, ++bit)
       place += std::uint32_t{(c & rest & (0U - rest)) != 0} << bit;
     return place;
   }
@@ -227,7 +231,6 @@ class StarTables {
   const GridOrder<kCubeCount>& cube_order() const { return cube_order_; }
 
  private:
-  static constexpr std::array<std::uint8_t, kEdgeCount> kLowest{1, 2, 4, 8, 16, 32};
   static constexpr auto kBitCount = [] {
     std::array<std::uint8_t, 256> counts{};
     for (unsigned i = 1; i < 256; ++i)
@@ -241,11 +244,19 @@ class StarTables {
   GridOrder<kSquareCount> square_order_;
   GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
-  std::array<std::uint16_t, 64> squares_on_{};  // by edges: squares that have both
-  std::array<std::uint8_t, 4096> cubes_on_{};   // by squares: cubes that have all three
-  std::array<std::uint8_t, 4096> joined_{};     // by squares: edges paired with one of them
-  std::array<std::uint16_t, 4096> tree_{};      // by squares: those paired with an edge
-  std::array<std::uint8_t, 4096> loops_{};      // by squares: how many are not
+  // What each voxel asks for lies side by side.
+  struct OfEdges {
+    std::uint16_t squares_on;  // squares that have both
+    std::uint8_t lowest;       // the oldest edge, as a bit
+  };
+  struct OfSquares {
+    std::uint8_t cubes_on;  // cubes that have all three
+    std::uint8_t joined;    // edges paired with one of them
+    std::uint8_t loops;     // how many are not paired with an edge
+  };
+  std::array<OfEdges, 64> of_edges_{};
+  std::array<OfSquares, 4096> of_squares_{};
+  std::array<std::uint16_t, 4096> tree_{};  // by squares: those paired with an edge
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
   std::array<std::uint32_t, 4096> places_begin_{};  // by squares
   std::uint32_t place_count_ = 0;

@@ -17,7 +17,6 @@
 namespace ph {
 namespace {
 
-using cubical::GridFrame;
 using cubical::GridShape;
 using cubical::PartLayout;
 using cubical::WholeImage;
@@ -148,10 +147,16 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   const Cubical cubical(image_of(image, layout.turned(layout.own(part)), axis), own_options,
                         context);
   const CubicalImage voxels = cubical.cubical_image();
-  if (!GridFrame::can_hold(voxels))
-    throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
-                                                 "fewer than about 2^31; more parts have fewer",
-                                                 voxels.size()));
+  if (!cubical::LayeredImage::can_cut(voxels))
+    throw Error(ErrorKind::resource,
+                fmt::format("part of an image: found layers of {} voxels, expected at most about "
+                            "2^29",
+                            axis.stride));
+  if (state_->whole.loops && !cubical::GridFrame::can_hold(voxels))
+    throw Error(ErrorKind::resource,
+                fmt::format("part of an image: found {} voxels, expected fewer than about 2^31 for "
+                            "loops; more parts have fewer",
+                            voxels.size()));
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   if (state_->whole.loops) {
@@ -159,10 +164,10 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
     auto& own = state_->own.emplace(cubical, layout, part, context);
     state_->pairs.add(own.stars, layout.first_voxel(part), pairs, &own.free);
   } else {
-    const GridFrame frame(voxels);
-    cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
+    const cubical::LayeredImage layers(voxels);
+    cubical::Slabs slabs(layers, cubical::Slabs::layers_that_fit(layers, context), context,
                          layout.place(part), layout.first_voxel(part));
-    for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
+    for (std::uint64_t slab = 0; slab < slabs.count(); ++slab) {
       context.report({"slabs", slab, slabs.count()});
       if (shape.top_dim() <= 3)
         state_->pairs.add(slabs.stars(slab), slabs.first_voxel(slab), pairs);
