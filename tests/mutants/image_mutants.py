@@ -102,8 +102,6 @@ MUTANTS = [
      "age_[dies] > age_[stays]", "age_[dies] < age_[stays]", ["many_axes_part_tests"]),
     ("parts of many axes: a cell is in a star without its faces", "libph/src/cubical/layers/top_star.cpp",
      "        if (!is_in) continue;\n", "", ["many_axes_part_tests"]),
-    ("slabs: places have 32 bits", "libph/src/cubical/slabs/slabs.hpp",
-     "    return first_ +\n", "    return static_cast<std::uint32_t>(first_) +\n", ["slabs_tests"]),
     ("slabs: ghosts of one axis have cells", "libph/src/cubical/stars/star_grid.cpp",
      "if (this->is_ghost(first + k)) stars[k] = 0;", "", ["slabs_tests"]),
     ("slabs: of one axis what comes from the other end comes before", "libph/src/cubical/stars/star_grid.cpp",
