@@ -162,29 +162,35 @@ def ply(rng, rows, faces):
 
 # Distances: `d[i][j]`, infinite where two points never join.
 
+def square_file(rng, rows):
+    """A full matrix, whatever its numbers mean."""
+    n = len(rows)
+    if rng.random() < 0.5:
+        return (*zipped(rng, "a.txt", table(rng, rows)), ["--format", "distance"])
+    return "a.npy", npy(rng, (n, n), [x for row in rows for x in row]), ["--format", "distance"]
+
+
 def distances_file(rng, d):
     n = len(d)
     lower = [d[i][:i] for i in range(n)]
     flat = [x for row in d for x in row]
-    ways = ["npy", "dipha"]
+    ways = ["dipha"]
     if n > 1:
-        ways += ["distance", "lower-distance", "upper-distance"]
+        ways += ["square", "square", "lower-distance", "upper-distance"]
         if fits(flat, "float32"):
             ways.append("binary")
     joined = {i for i in range(n) for j in range(n) if i != j and d[i][j] < math.inf}
     if n - 1 in joined:
         ways += ["sparse", "dipha-sparse"]
     way = rng.choice(ways)
-    if way == "distance":
-        return (*zipped(rng, "a.txt", table(rng, d)), ["--format", "distance"])
+    if way == "square":
+        return square_file(rng, d)
     if way == "lower-distance":
         rows = lower[1:] if rng.random() < 0.5 else [[x for row in lower for x in row]]
         return "a.txt", table(rng, rows), ["--format", way]
     if way == "upper-distance":
         rows = [d[i][i + 1:] for i in range(n - 1)]
         return "a.txt", table(rng, rows), ["--format", way]
-    if way == "npy":
-        return "a.npy", npy(rng, (n, n), flat), ["--format", "distance"]
     if way == "binary":
         return "a.bin", packed([x for row in lower for x in row], "float32"), ["--format", "binary"]
     if way == "dipha":

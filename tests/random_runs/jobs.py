@@ -64,6 +64,42 @@ def some_threshold(rng, values):
     return value if rng.random() < 0.6 else value + rng.random() * (max(finite) - min(finite)) / 2
 
 
+def lost_rows(rng, rows):
+    """Some rows with a NaN among others. @return all rows."""
+    rows = list(rows)
+    for _ in range(rng.randint(1, 3)):
+        row = [float(rng.randint(0, 3)) for _ in rows[0]]
+        row[rng.randrange(len(row))] = math.nan
+        rows.insert(rng.randrange(len(rows) + 1), row)
+    return rows
+
+
+def odd_matrix(rng, matrix, finite):
+    """A file that says a distance matrix in another way: as correlations, by two entries for a pair, or
+    with NaN where a pair never joins. @return name, content, options."""
+    n = len(matrix)
+    way = rng.choice(["correlation", "twice"] if finite else ["nan"])
+    if way == "correlation":
+        rows = [[1 - x for x in row] for row in matrix]
+        return *formats.square_file(rng, rows)[:2], ["--format", "distance", "--from-correlation"]
+    rows = [list(row) for row in matrix]
+    if way == "nan":
+        rows = [[math.nan if x == INF else x for x in row] for row in rows]
+        return *formats.square_file(rng, rows)[:2], ["--format", "distance", "--nan", "drop"]
+    which = rng.choice(["max", "min", "lower"])
+    for i, j in itertools.combinations(range(n), 2):
+        other = rng.choice([0.0, 0.5, 1.0])
+        if which == "max":
+            u, v = rng.choice([(i, j), (j, i)])
+            rows[u][v] = max(0.0, matrix[i][j] - other)
+        elif which == "min":
+            u, v = rng.choice([(i, j), (j, i)])
+            rows[u][v] = matrix[i][j] + other
+        else:
+            rows[i][j] = other
+    return *formats.square_file(rng, rows)[:2], ["--format", "distance", "--symmetrise", which]
+
+
 def rips(rng):
     """Vietoris-Rips of points or distances."""
     style = rng.choice(["grid", "grid", "dyadic", "wide", "unit"])
@@ -87,7 +123,10 @@ def rips(rng):
             options += ["--delay", f"{windows},{step}"]
         if metric == "cosine" and any(not any(p) for p in points):
             metric = "euclidean"
-        name, content, more = formats.points_file(rng, rows, is_series)
+        if not is_series and rng.random() < 0.1:
+            rows = lost_rows(rng, rows)
+            options += ["--nan", "drop"]
+        name, content, more = formats.points_file(rng, rows, is_series or rows is not points)
         options += more
         if metric != "euclidean" or rng.random() < 0.1:
             options += ["--metric", metric]
@@ -96,7 +135,7 @@ def rips(rng):
         kind = "rips of points"
     else:
         n = rng.randint(1, 9)
-        value = rng.choice([lambda: float(rng.randint(0, 4)), lambda: rng.randint(1, 64) / 16, rng.random])
+        value = rng.choice([lambda: float(rng.randint(0, 4)), lambda: rng.randint(1, 32) / 16, rng.random])
         hole = rng.choice([0, 0, 0.3])
         matrix = [[0.0] * n for _ in range(n)]
         for i, j in itertools.combinations(range(n), 2):
@@ -104,13 +143,18 @@ def rips(rng):
         if not any(0 < x < INF for row in matrix for x in row):
             hole = 0
         metric, tolerance = None, 0.0
-        name, content, more = formats.distances_file(rng, matrix)
+        if n > 2 and rng.random() < 0.3 and all(x == INF or x <= 2 and x * 16 == int(x * 16)
+                                                for row in matrix for x in row):
+            finite = all(x < INF for row in matrix for x in row)
+            name, content, more = odd_matrix(rng, matrix, finite)
+        else:
+            name, content, more = formats.distances_file(rng, matrix)
         options += more
         kind = "rips of distances"
     files.append((name, content))
     n = len(matrix)
     chosen = list(range(n))
-    plain = True
+    plain = "--nan" not in options
     if rng.random() < 0.1:
         count = rng.randint(1, n)
         if tolerance == 0 and "sparse" not in options and options[-1] != "dipha":
