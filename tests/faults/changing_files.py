@@ -9,16 +9,11 @@ import sys
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
+import files  # noqa: E402
 import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
 SHAPE = (96, 256, 256)  # 24 MiB of float32: files from 16 MiB on are mapped
-
-
-def header(shape):
-    text = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}"
-    text += " " * (-(11 + len(text)) % 64) + "\n"
-    return b"\x93NUMPY\1\0" + struct.pack("<H", len(text)) + text.encode()
 
 
 class ChangingFiles(ProgramTest):
@@ -27,7 +22,7 @@ class ChangingFiles(ProgramTest):
         self.rng = random.Random(5)
         layer = struct.pack(f"<{SHAPE[1] * SHAPE[2]}f", *[self.rng.random() for _ in range(SHAPE[1] * SHAPE[2])])
         layers = [layer[4 * shift:] + layer[:4 * shift] for shift in self.rng.sample(range(1000), SHAPE[0])]
-        self.volume = header(SHAPE) + b"".join(layers)
+        self.volume = files.npy("<f4", SHAPE, b"".join(layers))
         row = "".join(f"{self.rng.random():.6f} {self.rng.random():.6f}\n" for _ in range(4000)).encode()
         self.table = row * (17 * 2 ** 20 // len(row) + 1)
 

@@ -11,10 +11,13 @@ import os
 import pathlib
 import re
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support"))
+import files  # noqa: E402
+from program import has_page  # noqa: E402
 
 ERRORS = {
     "read": ("EIO", "EINTR"), "pread64": ("EIO", "EINTR"), "write": ("EIO", "ENOSPC", "EINTR"),
@@ -38,12 +41,6 @@ CODES = {0, 66, 69, 73, 74, 75}
 POINTS = "0 0\n1 0\n1 1\n0 1.25\n"
 
 
-def array(shape, values):
-    text = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}"
-    text += " " * (-(11 + len(text)) % 64) + "\n"
-    return b"\x93NUMPY\1\0" + struct.pack("<H", len(text)) + text.encode() + struct.pack(f"<{len(values)}f", *values)
-
-
 def cloud():
     """A table, seen as a camera sees it, with a box on it."""
     rows = [(x / 100, y / 100, 0.9 if 10 <= x < 22 and 10 <= y < 22 else 1.0)
@@ -57,23 +54,27 @@ def cloud():
 Scene = collections.namedtuple("Scene", "name inputs before program arguments outputs")
 
 
-def scenes(has_page):
+def scenes(programs):
     values = [float((7 * i * i + i) % 23) for i in range(4096)]
-    report = ["--report", "page.html"] if has_page else []
+    report = ["--report", "page.html"] if has_page(programs[0]) else []
     yield Scene("points to a table, a picture, a page", {"a.txt": POINTS}, [], 0,
                 ["a.txt", "-o", "bars.csv", "--plot", "p.svg", *report, "--threads", "2"],
-                ["bars.csv", "p.svg", *(["page.html"] if has_page else [])])
-    yield Scene("a mapped array to DIPHA, in slabs", {"a.npy": array((16, 16, 16), values)}, [], 0,
+                ["bars.csv", "p.svg", *report[1:]])
+    yield Scene("a mapped array to DIPHA, in slabs", {"a.npy": files.array((16, 16, 16), values, "<f4")}, [], 0,
                 ["a.npy", "-o", "bars.dipha", "--slab-layers", "2", "--threads", "2"], ["bars.dipha"])
     yield Scene("packed text to standard output", {"a.txt": POINTS}, [["gzip", "-kn", "a.txt"]], 0,
                 ["a.txt.gz", "--threads", "1"], [])
-    yield Scene("a part that takes the place of another", {"a.npy": array((16, 256), values), "p.ph": "old"}, [], 0,
+    yield Scene("a part that takes the place of another", {"a.npy": files.array((16, 256), values, "<f4"), "p.ph": "old"}, [], 0,
                 ["a.npy", "--complex", "cubical", "--part", "1/2", "-o", "p.ph", "--force"], ["p.ph"])
     yield Scene("a folder to a folder", {"in/a.txt": POINTS, "in/b.txt": POINTS}, [], 0,
                 ["in", "-o", "out/", "--threads", "2"], ["out/a.csv", "out/b.csv"])
     yield Scene("a scene to labels, objects, a picture", {"s.pcd": cloud()}, [], 1,
                 ["s.pcd", "--labels", "l.npy", "-o", "o.pcd", "--plot", "p.svg", "--no-check"],
                 ["l.npy", "o.pcd", "p.svg"])
+
+
+def contents_of(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
 class Run:
@@ -85,7 +86,7 @@ class Run:
                 (here / name).write_bytes(content if isinstance(content, bytes) else content.encode())
             for command in scene.before:
                 subprocess.run(command, cwd=folder, check=True)
-            before = self.files(here)
+            self.old = contents_of(here)
             trace = ["-e", f"trace={inject[0]}", "-e", "inject={}:error={}:when={}".format(*inject)] if inject else []
             with tempfile.NamedTemporaryFile() as log:
                 run = subprocess.run(["strace", "-f", "-o", log.name, *trace, programs[scene.program],
@@ -94,13 +95,8 @@ class Run:
                 self.trace = pathlib.Path(log.name).read_text(errors="replace")
             self.code, self.out = run.returncode, run.stdout
             self.lines = run.stderr.decode(errors="replace").splitlines()
-            self.files = self.files(here)
-            self.left = sorted(set(self.files) - set(before) - set(scene.outputs))
-            self.old = before
-
-    @staticmethod
-    def files(folder):
-        return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+            self.files = contents_of(here)
+            self.left = sorted(set(self.files) - set(self.old) - set(scene.outputs))
 
 
 def fault_of(run, whole, scene, name):
@@ -111,7 +107,8 @@ def fault_of(run, whole, scene, name):
         return f"found exit {run.code}, expected one of {sorted(CODES)}"
     if run.left and name != "unlink":
         return f"found {run.left} in the folder"
-    errors = [line for line in run.lines if "note: " not in line and ": read " not in line]
+    # A batch says at last how many inputs failed.
+    errors = [line for line in run.lines if line not in whole.lines and not line.endswith(" inputs failed")]
     for output in scene.outputs:
         content = run.files.get(output)
         if output.endswith(".html"):  # has times in it
@@ -122,10 +119,8 @@ def fault_of(run, whole, scene, name):
             return f"found {output} {'missing' if content is None else 'other than it is'}"
     if run.code == 0:
         return None if run.out == whole.out else "found another standard output"
-    if run.lines and not errors:
-        return "found an error without a message"
     # What cannot be written to standard error is lost.
-    return None if errors or name == "write" else f"found {run.lines}, expected a message"
+    return None if len(errors) == 1 or name == "write" else f"found {run.lines}, expected one error"
 
 
 def main():
@@ -138,9 +133,8 @@ def main():
     if probe.returncode != 0:
         print("skipped: strace cannot look at programs here")
         sys.exit(77)
-    said = subprocess.run([programs[0], "--version", "--verbose"], check=True, text=True, stdout=subprocess.PIPE).stdout
     faults, runs, codes, unknown = [], 0, collections.Counter(), set()
-    for scene in scenes(re.search("reports +built in", said) is not None):
+    for scene in scenes(programs):
         whole = Run(programs, scene)
         assert whole.code == 0, (scene.name, whole.lines)
         assert not whole.left, (scene.name, whole.left)

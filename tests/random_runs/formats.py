@@ -4,10 +4,12 @@ import gzip
 import json
 import math
 import struct
-import zlib
+import zipfile
 
-TYPES = {"float64": "d", "float32": "f", "int64": "q", "int32": "i", "uint32": "I", "int16": "h",
-         "uint16": "H", "int8": "b", "uint8": "B"}
+import files
+
+TYPES = {"float64": "f8", "float32": "f4", "int64": "i8", "int32": "i4", "uint32": "u4", "int16": "i2",
+         "uint16": "u2", "int8": "i1", "uint8": "u1"}
 
 
 def fits(values, kind):
@@ -25,42 +27,30 @@ def fits(values, kind):
     return all(low <= v < high for v in values)
 
 
+def descr(kind, big=False):
+    """As in NumPy."""
+    return ("|" if kind.endswith("int8") else ">" if big else "<") + TYPES[kind]
+
+
 def packed(values, kind, big=False):
-    if not kind.startswith("float"):
-        values = [int(v) for v in values]
-    return struct.pack((">" if big else "<") + f"{len(values)}{TYPES[kind]}", *values)
+    return files.packed(descr(kind, big), values)
 
 
 def any_kind(rng, values):
     return rng.choice([k for k in TYPES if fits(values, k)])
 
 
-def npy(rng, shape, values, kind=None):
+def npy(rng, shape, values):
     """@param values in C order."""
-    kind = kind or any_kind(rng, values)
     fortran = rng.random() < 0.3 and len(shape) > 1
     if fortran:
         values = [values[place(shape, at)] for at in indices(shape[::-1], reverse=True)]
-    big = rng.random() < 0.3
-    letter = {"f": "f", "i": "i", "u": "u"}[kind[0]]
-    size = struct.calcsize(TYPES[kind])
-    text = f"{{'descr': '{'>' if big and size > 1 else '<' if size > 1 else '|'}{letter}{size}', " \
-           f"'fortran_order': {fortran}, 'shape': ({', '.join(map(str, shape))},), }}"
-    version = rng.choice([1, 2, 3])
-    prefix = b"\x93NUMPY" + bytes([version, 0])
-    length = struct.calcsize("<H" if version == 1 else "<I")
-    text += " " * (-(len(prefix) + length + len(text) + 1) % 64) + "\n"
-    head = prefix + struct.pack("<H" if version == 1 else "<I", len(text)) + text.encode()
-    return head + packed(values, kind, big)
+    kind, big = any_kind(rng, values), rng.random() < 0.3
+    return files.npy(descr(kind, big), shape, packed(values, kind, big), fortran, rng.choice([1, 2, 3]))
 
 
-def npz(rng, shape, values, kind=None):
-    import io
-    import zipfile
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", rng.choice([zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])) as archive:
-        archive.writestr("a.npy", npy(rng, shape, values, kind))
-    return buffer.getvalue()
+def npz(rng, shape, values):
+    return files.npz({"a.npy": npy(rng, shape, values)}, rng.choice([zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED]))
 
 
 def indices(shape, reverse=False):
@@ -194,7 +184,7 @@ def distances_file(rng, d):
     if way == "binary":
         return "a.bin", packed([x for row in lower for x in row], "float32"), ["--format", "binary"]
     if way == "dipha":
-        return "a.dipha", struct.pack("<3q", 8067171840, 7, n) + packed(flat, "float64"), ["--format", "dipha"]
+        return "a.dipha", files.dipha(7, n, *flat), ["--format", "dipha"]
     pairs = [(i, j, d[i][j]) for i in range(n) for j in range(i) if d[i][j] < math.inf]
     rng.shuffle(pairs)
     if way == "sparse":
@@ -206,7 +196,7 @@ def distances_file(rng, d):
         ends = rng.choice([[(i, j)], [(j, i)], [(i, j), (j, i)]])
         for u, v in ends:
             at[u].append((v, x))
-    content = struct.pack("<3q", 8067171840, 8, n) + packed([len(a) for a in at], "int64")
+    content = files.dipha(8, n) + packed([len(a) for a in at], "int64")
     content += packed([v for a in at for v, _ in a], "int64") + packed([x for a in at for _, x in a], "float64")
     return "a.dipha", content, ["--format", "dipha"]
 
@@ -258,41 +248,23 @@ def image_file(rng, shape, values, periodic):
         return "a.pgm", f"P5 {shape[1]} {shape[0]} {most}\n".encode() + \
             packed(values, "uint8" if most < 256 else "uint16", True), ["--format", "pgm", *kept]
     if way == "png":
-        return "a.png", png(rng, shape, values), ["--format", "png", *kept]
+        return "a.png", picture(rng, shape, values), ["--format", "png", *kept]
     if way == "dipha":
-        return "a.dipha", struct.pack(f"<4q{len(shape)}q", 8067171840, 1, len(values), len(shape),
-                                      *shape[::-1]) + packed(values, "float64"), \
+        return "a.dipha", files.dipha_image(shape[::-1], values), \
             ["--format", "dipha", *around({len(shape) - 1 - k for k in periodic})]
     if way == "perseus":
         sizes = [-n if k in periodic else n for k, n in enumerate(shape)]
         content = f"{len(shape)}\n" + "".join(f"{n}\n" for n in sizes) + "".join(
             number(rng, v) + "\n" for v in fortran)
         return "a.txt", content.encode(), ["--format", "perseus"]
-    kind = rng.choice([k for k in TYPES if fits(values, k)])
-    code = {"uint8": 2, "int16": 4, "int32": 8, "float32": 16, "float64": 64, "int8": 256, "uint16": 512,
-            "uint32": 768, "int64": 1024}[kind]
-    big = rng.random() < 0.3
-    e = ">" if big else "<"
-    head = bytearray(352)
-    struct.pack_into(e + "i", head, 0, 348)
-    struct.pack_into(e + "8h", head, 40, len(shape), *shape, *[1] * (7 - len(shape)))
-    struct.pack_into(e + "2h", head, 70, code, 8 * struct.calcsize(TYPES[kind]))
-    struct.pack_into(e + "8f", head, 76, *[1.0] * 8)
-    struct.pack_into(e + "f", head, 108, 352.0)
-    head[344:348] = b"n+1\0"
-    return (*zipped(rng, "a.nii", bytes(head) + packed(fortran, kind, big)), ["--format", "nifti", *kept])
+    content = files.nifti(descr(any_kind(rng, values), rng.random() < 0.3), shape, fortran)
+    return (*zipped(rng, "a.nii", content), ["--format", "nifti", *kept])
 
 
-def png(rng, shape, values):
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    bits = 8 if max(values) < 256 and rng.random() < 0.7 else 16
-    lines = b""
-    for i in range(shape[0]):
-        row = values[i * shape[1]:(i + 1) * shape[1]]
-        lines += b"\0" + packed(row, "uint8" if bits == 8 else "uint16", True)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", shape[1], shape[0], bits, 0, 0, 0, 0)) + \
-        chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")
+def picture(rng, shape, values):
+    kind = "uint8" if max(values) < 256 and rng.random() < 0.7 else "uint16"
+    rows = [packed(values[i * shape[1]:(i + 1) * shape[1]], kind, True) for i in range(shape[0])]
+    return files.png(shape[1], shape[0], 8 if kind == "uint8" else 16, files.GREY, rows)
 
 
 # Filtered complexes: cells in an order in which faces come first.
@@ -318,7 +290,7 @@ def boundary_file(rng, cells, values):
     for _, facets in cells:
         offsets.append(len(flat))
         flat += facets
-    content = struct.pack("<5q", 8067171840, 0, 0, len(cells), max(d for d, _ in cells))
+    content = files.dipha(0, 0, len(cells), max(d for d, _ in cells))
     content += packed([d for d, _ in cells], "int64") + packed(values, "float64")
     content += packed(offsets, "int64") + struct.pack("<q", len(flat)) + packed(flat, "int64")
     return [("a.dipha", content)], ["--format", "dipha"], False
@@ -358,7 +330,7 @@ def read_barcode(content, form):
                 rows.append((dim, birth, death.strip() or math.inf))
     elif form == "dipha":
         magic, kind, count = struct.unpack_from("<3q", content)
-        assert (magic, kind) == (8067171840, 2) and len(content) == 24 + 24 * count
+        assert (magic, kind) == (files.DIPHA_MAGIC, 2) and len(content) == 24 + 24 * count
         rows = [struct.unpack_from("<qdd", content, 24 + 24 * i) for i in range(count)]
         rows = [(d, b, e) if d >= 0 else (-d - 1, b, math.inf) for d, b, e in rows]
     else:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 
 namespace ph {
 namespace {
@@ -53,7 +54,8 @@ std::uint64_t physical_memory() {
 }
 
 std::size_t machine_memory() {
-  std::uint64_t bytes = physical_memory();
+  const std::uint64_t physical = physical_memory();
+  std::uint64_t bytes = physical > 0 ? physical : std::numeric_limits<std::uint64_t>::max();
   std::ifstream memberships("/proc/self/cgroup");
   bytes = std::min(bytes, control_group_limit(memberships, "/sys/fs/cgroup").value_or(bytes));
   rlimit address_space{};

@@ -13,7 +13,7 @@ namespace ph {
 std::uint64_t physical_memory();
 
 /// What the machine, or the container we run in, has for us; nine tenths of it, so that a budget
-/// is met before the system kills the process.
+/// is met before the system kills the process. As good as no limit where the system does not say.
 std::size_t machine_memory();
 
 /// The least memory limit of the control groups a process is in, of both versions.
