@@ -220,9 +220,15 @@ def check_errors(place):
 def check_damage(place):
     """A message that changes on its way is found."""
     volume(place.folder / "image.npy", (48, 96, 96))
-    run = Run(place, 2, "image.npy", "-o", "bars.csv")
+    # Part 1 goes on once part 2 is stopped: its first message lies there.
+    arguments = ["image.npy", "-o", "bars.csv"]
+    run = Run(place, 2, *arguments, only=[1])
+    place.wait_for("ph-run/*/hello-1")
+    run.processes[1].send_signal(signal.SIGSTOP)
+    run.start(2, 2, arguments)
     place.wait_for("ph-run/*/hello-2")
-    run.processes[2].send_signal(signal.SIGSTOP)  # before part 1 has sent anything
+    run.processes[2].send_signal(signal.SIGSTOP)
+    run.processes[1].send_signal(signal.SIGCONT)
     message = place.wait_for("ph-run/*/part-2/1-0")
     content = bytearray(message.read_bytes())
     content[len(content) // 2] ^= 16
