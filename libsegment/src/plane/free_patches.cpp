@@ -16,23 +16,37 @@ namespace {
 class SquaredPaper {
  public:
   static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
-  struct Place {
+  struct Run {
     std::uint32_t square;
-    std::uint32_t part;  ///< 0 to 63
+    std::uint64_t parts;
+    std::size_t points;
   };
 
   SquaredPaper(const CloudView& cloud, const Plane& plane, double side) : cloud_(cloud) {
     const Eigen::Vector3d n(plane.normal.data()), eye(cloud.viewpoint.data());
     const double part = side / kParts;
-    axes_[0] = n.unitOrthogonal() / part;
-    axes_[1] = n.cross(axes_[0]);
-    for (std::size_t k = 0; k < 2; ++k) foot_[k] = axes_[k].dot(eye);
+    const Eigen::Vector3d across = n.unitOrthogonal() / part, along = n.cross(across);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      steps_[static_cast<std::size_t>(axis)] = {across[axis], along[axis]};
+    constexpr double middle = kColumns * kParts / 2;
+    origin_ = Eigen::Array2d(middle - across.dot(eye), middle - along.dot(eye));
   }
-  /// What a point is over.
-  Place of(Index i) const {
-    const float* p = cloud_.point(static_cast<std::size_t>(i));
-    const std::uint32_t x = column(p, 0), y = column(p, 1);
-    return {y / kParts * std::uint32_t{kColumns} + x / kParts, y % kParts * kParts + x % kParts};
+  /// Points in the order of an image stay over a square for long: one call of `use` for each run of
+  /// points over the same square, with a bit for each part that they are over.
+  template <class Use>
+  void for_each_run(const std::vector<Index>& points, Use&& use) const {
+    Run run{};
+    for (const Index i : points) {
+      const auto [x, y] = place_of(cloud_.point(static_cast<std::size_t>(i)));
+      const std::uint32_t square = y / kParts * std::uint32_t{kColumns} + x / kParts;
+      if (square != run.square) {
+        if (run.points > 0) use(run);
+        run = {square, 0, 0};
+      }
+      run.parts |= std::uint64_t{1} << (y % kParts * kParts + x % kParts);
+      ++run.points;
+    }
+    if (run.points > 0) use(run);
   }
   /// The square of the distance of its centre from the foot, in sides.
   static double farness(std::size_t square) {
@@ -46,18 +60,22 @@ class SquaredPaper {
  private:
   static constexpr std::uint32_t kParts = 8;  // a side
 
-  /// In parts.
-  std::uint32_t column(const float* p, std::size_t k) const {
-    const double place = axes_[k][0] * p[0] + axes_[k][1] * p[1] + axes_[k][2] * p[2] - foot_[k];
-    // Shifted by a multiple of the columns to what is positive, so that a cast rounds it down.
-    constexpr double shift = 1ULL << 40, middle = kColumns * kParts / 2;
-    const double shifted = std::clamp(place + (shift + middle), 0.0, 2 * shift);
-    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(shifted) % (kColumns * kParts));
+  /// Column and row, in parts.
+  std::array<std::uint32_t, 2> place_of(const float* p) const {
+    // Beside this number neighbouring doubles differ by one: the sum is rounded, its last bits are
+    // a whole number, negative ones too. What is farther away than that is over any part.
+    constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;  // rounds down
+    const Eigen::Array2d place = steps_[0] * p[0] + steps_[1] * p[1] + steps_[2] * p[2] + origin_;
+    const Eigen::Array2d shifted = (place - half) + whole;
+    const auto last_bits = [](double number) {
+      return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) % (kColumns * kParts));
+    };
+    return {last_bits(shifted[0]), last_bits(shifted[1])};
   }
 
   const CloudView& cloud_;
-  std::array<Eigen::Vector3d, 2> axes_;
-  std::array<double, 2> foot_{};
+  std::array<Eigen::Array2d, 3> steps_;  // to the next point along an axis of the cloud
+  Eigen::Array2d origin_;
 };
 
 /// Evenly by how far they are.
@@ -75,23 +93,18 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
-  constexpr std::size_t most = 32;  // squares: what it takes is bounded
+  constexpr std::size_t most = 24;  // squares: what it takes is bounded
   // Parts, not points: points that are there twice tell nothing new.
   constexpr int most_above = 2;  // an object covers more, flying pixels fewer
   constexpr int fewest = 32;     // of 64
   const SquaredPaper paper(cloud, plane, side);
   std::vector<std::uint64_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
-  const auto mark = [](std::vector<std::uint64_t>& squares, const SquaredPaper::Place& place) {
-    squares[place.square] |= std::uint64_t{1} << place.part;
-  };
-  for (const Index i : beyond) mark(above, paper.of(i));
-  std::vector<std::uint16_t> square_of;
-  square_of.reserve(on_plane.size());
-  for (const Index i : on_plane) {
-    const SquaredPaper::Place place = paper.of(i);
-    square_of.push_back(static_cast<std::uint16_t>(place.square));
-    mark(on, place);
-  }
+  std::vector<SquaredPaper::Run> runs;
+  paper.for_each_run(beyond, [&](const SquaredPaper::Run& r) { above[r.square] |= r.parts; });
+  paper.for_each_run(on_plane, [&](const SquaredPaper::Run& r) {
+    on[r.square] |= r.parts;
+    runs.push_back(r);
+  });
   std::vector<std::size_t> squares;
   for (std::size_t s = 0; s < on.size(); ++s)
     if (std::popcount(on[s]) >= fewest && std::popcount(above[s]) <= most_above)
@@ -99,8 +112,12 @@ std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>
   std::vector<bool> chosen(SquaredPaper::kCount);
   for (const std::size_t s : some_of(std::move(squares), most)) chosen[s] = true;
   std::vector<Index> found;
-  for (std::size_t k = 0; k < on_plane.size(); ++k)
-    if (chosen[square_of[k]]) found.push_back(on_plane[k]);
+  auto first = on_plane.begin();
+  for (const SquaredPaper::Run& run : runs) {
+    const auto end = first + static_cast<std::ptrdiff_t>(run.points);
+    if (chosen[run.square]) found.insert(found.end(), first, end);
+    first = end;
+  }
   return found;
 }
 
