@@ -27,6 +27,10 @@ const std::vector<Target>& targets() {
     list.push_back({"cloud_part", &run_cloud_part});
     list.push_back({"inputs_part", &run_inputs_part});
     list.push_back({"engines", &run_engines});
+    list.push_back({"diagrams", &run_diagrams});
+#ifdef PH_FUZZ_C
+    list.push_back({"c", &run_c});
+#endif
 #ifdef PH_FUZZ_ALPHA
     list.push_back({"alpha", &run_alpha});
     list.push_back({"alpha_signs", &run_alpha_signs});

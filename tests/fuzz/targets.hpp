@@ -44,6 +44,11 @@ void run_cloud_part(std::string_view bytes);
 void run_inputs_part(std::string_view bytes);
 /// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.
 void run_engines(std::string_view bytes);
+/// Distances of small diagrams beside all matchings; vectors of them.
+void run_diagrams(std::string_view bytes);
+// Where there is a C interface:
+/// Calls beside the same calls of the C++ library; some have sizes and pointers that no input has.
+void run_c(std::string_view bytes);
 // Where there are alpha complexes:
 /// Chooses points, of any doubles; bars and simplices must have the properties of an alpha complex.
 void run_alpha(std::string_view bytes);

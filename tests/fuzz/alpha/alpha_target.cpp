@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Alpha complexes of any doubles.
+#include "chosen_numbers.hpp"
 #include "libph/alpha/alpha_oracle.hpp"
 #include "ph/persistence.hpp"
-#include "sites_of_bytes.hpp"
 #include "targets.hpp"
 #include "violation.hpp"
 
@@ -94,14 +94,14 @@ bool is_of_few_digits(PointsView points, std::vector<double> numbers) {
 }  // namespace
 
 void run_alpha(std::string_view bytes) {
-  SitesOfBytes choices(bytes);
+  ChosenNumbers choices(bytes);
   const Index coordinates = choices.choice(2) + 1;
   const int most = choices.choice(3) == 0 ? 30 : 6;
   const Index count = choices.choice(most);
   const bool weighted = choices.choice(2) == 0, squared = weighted || choices.choice(1) == 1;
   const Points points = choices.points(count, coordinates);
   AlphaOptions options;
-  if (weighted) options.weights = choices.weights(count);
+  if (weighted) options.weights = choices.numbers(count);
   options.unit = squared ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
   try {
     const Alpha alpha(points, options);

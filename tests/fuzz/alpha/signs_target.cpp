@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <optional>
 
+#include "chosen_numbers.hpp"
 #include "libph/alpha/exact_spheres.hpp"
 #include "ph/error.hpp"
-#include "sites_of_bytes.hpp"
 #include "targets.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {
 
 void run_alpha_signs(std::string_view bytes) {
-  SitesOfBytes choices(bytes);
+  ChosenNumbers choices(bytes);
   const Index coordinates = choices.choice(2) + 1, count = choices.choice(3) + 2;
   const bool weighted = choices.choice(1) == 1;
   const Points points = choices.points(count, coordinates);
-  const std::vector<double> weights = weighted ? choices.weights(count) : std::vector<double>();
+  const std::vector<double> weights = weighted ? choices.numbers(count) : std::vector<double>();
   RunContext context;
   std::optional<alpha::Sites> sites;
   try {
