@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a device is asked for and cannot do is refused; what it does: gpu/gpu_forest_tests.cpp.
+#include "ph/barcode.hpp"
 #include "ph/rips.hpp"
 #include "support/expect_error.hpp"
 
