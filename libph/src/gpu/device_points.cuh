@@ -10,6 +10,8 @@
 #include <cuda/atomic>
 #include <cuda/std/bit>
 
+#include "ph/detail/metric/metric.hpp"
+
 // What all of the device's code speaks of. Compiled without products fused into sums (-fmad=false):
 // a number is the same wherever it is computed.
 
@@ -64,7 +66,7 @@ PH_DEVICE double of_bits(std::uint64_t bits) { return cuda::std::bit_cast<double
 
 // Distances as PointMetric computes them where no square of a coordinate overflows.
 
-inline constexpr double kLeastPlainSquare = 1e-280;
+inline constexpr double kLeastPlainSquare = PointMetric::kLeastPlainSquare;
 
 PH_DEVICE double square_of_distance(const double* x, const double* y, int axes) {
   double sum = 0;

@@ -137,7 +137,7 @@ class PairSearch final : public Search {
 
   void ask(Positions& asked, const BoruvkaView& v, const RunContext& context) override {
     sort_by_component(asked, v.component);
-    const std::uint32_t least = 16 * kTile, most_ranges = 64;
+    const std::uint32_t least = 16 * kTile, most_ranges = 32;
     const std::uint32_t share = (size() + most_ranges - 1) / most_ranges;
     const std::uint32_t range = std::max(least, (share + kTile - 1) / kTile * kTile);
     const std::uint32_t ranges = (size() + range - 1) / range;
