@@ -25,6 +25,13 @@ endfunction()
 if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
   return()
 endif()
+if(PH_WITH_CUDA)  # it loads the driver, which is a shared library
+  if(NOT PH_STATIC_PROGRAMS STREQUAL "AUTO")
+    message(FATAL_ERROR "PH_STATIC_PROGRAMS: programs with PH_WITH_CUDA cannot be static")
+  endif()
+  message(STATUS "Programs: linked dynamically, as PH_WITH_CUDA needs")
+  return()
+endif()
 
 find_library(PH_ARCHIVE_ZLIB libz.a)
 find_library(PH_ARCHIVE_PNG libpng.a)

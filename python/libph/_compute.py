@@ -26,7 +26,8 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
          weights: ArrayLike | str | None = None, dtm_neighbors: int | None = None,
          weight_exponent: float | None = None, subsample: int | None = None,
          subsample_radius: float | None = None, approximation: float | None = None,
-         merge_equal_points: bool | None = None, collapse: str | bool = "auto",
+         merge_equal_points: bool | None = None, device: str = "cpu",
+         collapse: str | bool = "auto",
          representatives: str | None = None, loops: str | None = None,
          min_persistence: float = 0.0, cells: bool = True, engine: str = "auto",
          nan: str = "error", diagonal: str = "zero", symmetrise: str | None = None,
@@ -73,6 +74,9 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         1 + epsilon at most.
     merge_equal_points : bool, optional
         Whether equal points become one vertex. Default: where bars of positive length allow it.
+    device : {"cpu", "gpu"}
+        What finds the components of points with Euclidean distances (``max_dim=0``): the same ones.
+        "gpu" is one of NVIDIA, where that is built in.
     collapse : {"auto", True, False}
         Whether edges are collapsed first, which leaves the bars as they are.
     representatives : {None, "cycles", "cocycles"}

@@ -60,6 +60,10 @@ class VoxelValue(_Enum):
     occupancy: ClassVar[VoxelValue]
     density: ClassVar[VoxelValue]
 
+class Device(_Enum):
+    cpu: ClassVar[Device]
+    gpu: ClassVar[Device]
+
 class WeightExponent(_Enum):
     one: ClassVar[WeightExponent]
     two: ClassVar[WeightExponent]
@@ -150,7 +154,7 @@ class RipsRecipe(Recipe):
                  dtm_neighbours: int | None, weight_exponent: WeightExponent,
                  subsample: int | None, subsample_radius: float | None,
                  approximation: float | None, merge_equal_points: bool | None,
-                 ids: _Buffer | None) -> None: ...
+                 device: Device, ids: _Buffer | None) -> None: ...
 
 class AlphaRecipe(Recipe):
     def __init__(self, space: MetricSpace, value: str, squared: bool, weights: _Buffer | None,

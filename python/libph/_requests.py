@@ -149,6 +149,7 @@ def rips_request(o: dict[str, Any]) -> Request:
     merge = o["merge_equal_points"]
     if merge is not None:
         merge = _options.flag("merge_equal_points", merge)
+    device = _options.choice("device", o["device"], ["cpu", "gpu"])
     for name, value in (("subsample", subsample), ("subsample_radius", radius),
                         ("approximation", approximation)):
         if value is None:
@@ -160,7 +161,8 @@ def rips_request(o: dict[str, Any]) -> Request:
     task = _task_of(o, _loops_of(o, "tight"))
     recipe = _core.RipsRecipe(
         source.space, threshold, births, neighbours, getattr(_core.WeightExponent, exponent),
-        subsample, radius, approximation, merge, source.ids)
+        subsample, radius, approximation, merge,
+        getattr(_core.Device, device), source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
     others = {name: o[name] for name in ("subsample", "subsample_radius")}
     # What is not looked at is not checked either.

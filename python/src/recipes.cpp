@@ -93,6 +93,7 @@ Built RipsRecipe::build(const Options& task, const RunContext& context) const {
   options.threshold = choices_.threshold;
   options.weight_exponent = choices_.weight_exponent;
   options.approximation = choices_.approximation;
+  options.device = choices_.device;
   // An engine asked for by name has its reasons.
   const bool is_free = task.engine == Engine::automatic || task.engine == Engine::union_find;
   options.only_components = task.max_dim == 0 && is_free && !choices_.approximation;
@@ -131,8 +132,8 @@ Built RipsRecipe::build(const Data& data, RipsOptions options, const Options& ta
 
 bool RipsRecipe::is_short(const Options& task) const {
   // A simplex that is listed has max_dim + 2 vertices at most.
-  return task.engine == Engine::automatic &&
-         std::pow(static_cast<double>(space_->size()), task.max_dim.value_or(1) + 2) < kFewSimplices;
+  return task.engine == Engine::automatic && std::pow(static_cast<double>(space_->size()),
+                                                      task.max_dim.value_or(1) + 2) < kFewSimplices;
 }
 
 Rips RipsRecipe::collapsed(const RunContext& context) const {
@@ -243,13 +244,14 @@ void bind_complexes(py::module_& m) {
       .value("one", WeightExponent::one)
       .value("two", WeightExponent::two)
       .value("infinity", WeightExponent::infinity);
+  py::enum_<Device>(m, "Device").value("cpu", Device::cpu).value("gpu", Device::gpu);
   py::class_<Recipe>(m, "Recipe");
   py::class_<RipsRecipe, Recipe>(m, "RipsRecipe")
       .def(py::init([](std::shared_ptr<MetricSpace> space, std::optional<double> threshold,
                        const std::optional<py::buffer>& births, std::optional<Index> dtm_neighbours,
                        WeightExponent weight_exponent, std::optional<Index> subsample,
                        std::optional<double> subsample_radius, std::optional<double> approximation,
-                       std::optional<bool> merge_equal_points,
+                       std::optional<bool> merge_equal_points, Device device,
                        const std::optional<py::buffer>& ids) {
              RipsRecipe::Choices choices;
              choices.threshold = threshold;
@@ -263,12 +265,14 @@ void bind_complexes(py::module_& m) {
              }
              choices.approximation = approximation;
              choices.merge_equal_points = merge_equal_points;
+             choices.device = device;
              if (ids) choices.ids = vector_of<Index>(*ids);
              return std::make_unique<RipsRecipe>(std::move(space), std::move(choices));
            }),
            py::arg("space"), py::arg("threshold"), py::arg("births"), py::arg("dtm_neighbours"),
            py::arg("weight_exponent"), py::arg("subsample"), py::arg("subsample_radius"),
-           py::arg("approximation"), py::arg("merge_equal_points"), py::arg("ids"));
+           py::arg("approximation"), py::arg("merge_equal_points"), py::arg("device"),
+           py::arg("ids"));
   py::class_<CubicalRecipe, Recipe>(m, "CubicalRecipe");
   using Construction = CubicalOptions::Construction;
   m.def(

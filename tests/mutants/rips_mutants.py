@@ -262,4 +262,13 @@ MUTANTS = [
      "sets.find(tree_.row(p)) == tree_.row(p)",
      "true",
      ["beta_skeleton_tests"]),
+    ("device: the CPU steps in", "libph/src/rips/rips.cpp",
+     "  if (options.device == Device::gpu)\n"
+     "    return RipsGraph::forest_on_gpu(points, options.threshold, context);\n", "",
+     ["device_tests"]),
+    ("device: births are left out", "libph/src/rips/rips.cpp",
+     'if (!options.births.empty()) return "births of vertices";', "", ["device_tests"]),
+    ("device: any distance is taken for the Euclidean one", "libph/src/rips/rips.cpp",
+     'if (options.distance != PointDistance::euclidean) return "another distance";', "",
+     ["device_tests"]),
 ]

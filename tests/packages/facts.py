@@ -22,7 +22,8 @@ from pathlib import Path
 FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "PNG": "libpng-dev",
          "Freetype": "libfreetype-dev", "CLI11": "libcli11-dev", "pybind11": "pybind11-dev",
          "PCL": "libpcl-dev", "GTest": "libgtest-dev", "Python3": "python3-dev", "Threads": None,
-         "CGAL": "libcgal-dev", "benchmark": None, "MPI": None}  # the last two are off in debian/rules
+         "CGAL": "libcgal-dev",
+         "benchmark": None, "MPI": None, "CUDAToolkit": None}  # off in debian/rules
 # Components that are in no package: each cluster has an MPI of its own.
 OF_NO_PACKAGE = {"licence", "mpi"}
 # Folders whose targets a package is not built of.

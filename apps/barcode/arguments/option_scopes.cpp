@@ -50,6 +50,7 @@ constexpr std::array kScopes{
     OptionScope{"voxel", kVoxels, "points with --complex cubical"},
     OptionScope{"voxel-value", kVoxels, "points with --complex cubical"},
     OptionScope{"collapse", kRips, kOfRips},
+    OptionScope{"device", kPoints, "Rips complexes of points"},
     OptionScope{"subsample", kAllPairs, kOfAllPairs},
     OptionScope{"subsample-radius", kAllPairs, kOfAllPairs},
     OptionScope{"approximate", kAllPairs, kOfAllPairs},

@@ -40,6 +40,10 @@ void add_rips_options(CLI::App& app, Arguments& a) {
                constexpr std::array kWays{Collapse::automatic, Collapse::on, Collapse::off};
                a.options.collapse = kWays[i];
              });
+  add_choice(app, "--device", {"cpu", "gpu"},
+             "what finds the components of points with Euclidean distances, --max-dim 0 (default "
+             "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
+             [&a](std::size_t i) { a.rips.device = i == 0 ? Device::cpu : Device::gpu; });
   const auto limits = [&a]() -> GreedyLimits& {
     if (!a.subsample) a.subsample.emplace();
     return *a.subsample;

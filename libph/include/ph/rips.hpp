@@ -54,6 +54,10 @@ struct RipsOptions {
   /// of 1 to 4 coordinates, all zero or of a size from 1e-120 to 1e150, without births. Without a
   /// threshold there is none. `holds_points_alone` in ph/persistence.hpp says where this pays.
   bool only_points = false;
+  /// Device::gpu: the forest of only_components is found there, the same one, edge for edge. For
+  /// Euclidean points without births, whose largest coordinate is 0 or of a size from 1e-140 to
+  /// 1e150.
+  Device device = Device::cpu;
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -67,7 +71,9 @@ class Rips {
   /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean
   /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
   /// negative threshold; Error (usage, bad_data) as RipsVertices; Error (resource) if the context's
-  /// memory limit would be exceeded.
+  /// memory limit would be exceeded; with a device other than the CPU Error (usage) if it cannot do
+  /// what is asked for, Error (not_built_in), Error (resource) if there is none or its memory is
+  /// too small.
   explicit Rips(PointsView points, const RipsOptions& options = {},
                 const RunContext& context = default_context());
   explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},

@@ -24,6 +24,8 @@ Points rows_of(PointsView points, std::span<const std::uint32_t> rows) {
 RipsGraph graph_of_all_points(PointsView points, const RipsOptions& options,
                               const VertexWeights& weights, const RunContext& context) {
   const bool is_weighted = !weights.births().empty();
+  if (options.device == Device::gpu)
+    return RipsGraph::forest_on_gpu(points, options.threshold, context);
   if (options.approximation) {
     const GreedyPermutation order =
         greedy_permutation(points, {}, options.distance, options.minkowski_p, context);
@@ -63,6 +65,27 @@ RipsGraph graph_of_distinct_points(PointsView points, const RipsOptions& options
   return graph_of_all_points(points, options, weights, context);
 }
 
+/// What is asked for that a GPU does not do; empty: nothing.
+std::string_view beyond_gpu(const RipsOptions& options) {
+  if (options.distance != PointDistance::euclidean) return "another distance";
+  if (!options.births.empty()) return "births of vertices";
+  if (!options.only_components || options.only_points)
+    return "more than components; max_dim 0 asks for them alone, without an approximation, a check "
+           "or an engine by name";
+  return "";
+}
+
+/// @param data what the filtration is of, if not of points.
+void check_device(const RipsOptions& options, std::string_view data = "") {
+  if (options.device == Device::cpu) return;
+  const std::string_view found = data.empty() ? beyond_gpu(options) : data;
+  if (!found.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("device gpu: computes components (H0) of points with Euclidean "
+                            "distances, found {}",
+                            found));
+}
+
 void check_together(const RipsOptions& options) {
   if (options.only_points)
     throw Error(ErrorKind::usage,
@@ -85,6 +108,7 @@ void check_points_alone(PointsView points, const RipsOptions& options) {
 RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
                           const RunContext& context) {
   RipsGraph::check_size(points.rows());
+  check_device(options);
   if (options.only_points)
     check_points_alone(points, options);
   else
@@ -102,6 +126,7 @@ RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
 
 RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& options,
                           const RunContext& context) {
+  check_device(options, "some distances");
   if (options.only_points) check_together(options);
   if (options.approximation)
     throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found some of them");
@@ -129,6 +154,7 @@ RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& o
 template <Metric M>
 RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, const RunContext& context) {
   RipsGraph::check_size(metric.size());
+  check_device(options, "distances");
   check_together(options);
   const RipsVertices vertices(metric.size(), options.vertices, options.births,
                               options.weight_exponent, options.threshold, context);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "gpu/gpu_forest.hpp"
 #include "metric/pairs_within.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
@@ -108,6 +109,16 @@ RipsGraph RipsGraph::forest_of_points(PointsView points, PointDistance distance,
   const double limit = threshold.value_or(kNoLimit);
   return of_forest(points.rows(), limit, spanning_forest(points, distance, p, limit, context),
                    context);
+}
+
+RipsGraph RipsGraph::forest_on_gpu(PointsView points, std::optional<double> threshold,
+                                   const RunContext& context) {
+  check_arguments(points.rows(), threshold);
+  const double limit = threshold.value_or(kNoLimit);
+  BinnedEdges edges(gpu::spanning_forest(PointMetric(points), limit, context));  // in order
+  RipsGraph graph(points.rows(), limit, std::move(edges), context);
+  graph.is_forest_ = true;
+  return graph;
 }
 
 RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> edges,

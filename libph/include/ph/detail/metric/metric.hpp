@@ -53,6 +53,12 @@ enum class PointDistance {
   hamming,    ///< the number of coordinates that differ
 };
 
+/// What computes.
+enum class Device {
+  cpu,
+  gpu,  ///< of NVIDIA, in a libph that was built with PH_WITH_CUDA
+};
+
 /// A set of points with one of the named distances. Keeps a view of the points.
 /// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
 class PointMetric {

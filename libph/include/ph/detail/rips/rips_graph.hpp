@@ -63,6 +63,10 @@ class RipsGraph {
   /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
                                     std::optional<double> threshold, const RunContext& context);
+  /// The same by a GPU. @throws Error (not_built_in, resource); Error (usage) as
+  /// gpu::spanning_forest.
+  static RipsGraph forest_on_gpu(PointsView points, std::optional<double> threshold,
+                                 const RunContext& context);
   static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
                                    std::optional<double> threshold, const RunContext& context,
                                    const VertexWeights& weights = {});

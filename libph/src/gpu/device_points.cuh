@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <thrust/device_vector.h>
+#include <thrust/execution_policy.h>
+#include <thrust/system/cuda/error.h>
+#include <thrust/system_error.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cuda/atomic>
+#include <cuda/std/bit>
+
+#include "ph/detail/metric/metric.hpp"
+
+// What all of the device's code speaks of. Compiled without products fused into sums (-fmad=false):
+// a number is the same wherever it is computed.
+
+namespace ph::gpu {
+
+#define PH_DEVICE __host__ __device__ inline
+
+inline constexpr std::uint32_t kNone = UINT32_MAX;
+
+template <class T>
+T* raw(thrust::device_vector<T>& v) {
+  return thrust::raw_pointer_cast(v.data());
+}
+
+/// @throws thrust::system_error
+inline void check(cudaError_t error) {
+  if (error != cudaSuccess) throw thrust::system_error(error, thrust::cuda_category());
+}
+
+template <class Body>
+__global__ void call_body(std::uint32_t count, Body body) {
+  const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < count) body(i);
+}
+/// Calls body(i) for i < count, on the device. What is asked for later waits for it.
+template <class Body>
+void for_each_index(std::uint32_t count, Body body) {
+  constexpr std::uint32_t threads = 128;
+  if (count == 0) return;
+  call_body<<<count / threads + 1, threads>>>(count, body);
+  check(cudaGetLastError());
+}
+
+template <class T>
+PH_DEVICE T load(T& cell) {
+  return cuda::atomic_ref<T, cuda::thread_scope_device>(cell).load(cuda::memory_order_relaxed);
+}
+template <class T>
+PH_DEVICE void store(T& cell, T value) {
+  cuda::atomic_ref<T, cuda::thread_scope_device>(cell).store(value, cuda::memory_order_relaxed);
+}
+/// Makes it `value` unless it is less. Most do not lower it: a look is cheap.
+PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
+  if (value < load(cell))
+    cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(cell).fetch_min(
+        value, cuda::memory_order_relaxed);
+}
+
+/// Of doubles that are not negative these have the order.
+PH_DEVICE std::uint64_t bits_of(double x) { return cuda::std::bit_cast<std::uint64_t>(x); }
+PH_DEVICE double of_bits(std::uint64_t bits) { return cuda::std::bit_cast<double>(bits); }
+
+// Distances as PointMetric computes them where no square of a coordinate overflows.
+
+inline constexpr double kLeastPlainSquare = PointMetric::kLeastPlainSquare;
+
+PH_DEVICE double square_of_distance(const double* x, const double* y, int axes) {
+  double sum = 0;
+  for (int k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
+  return sum;
+}
+/// @param square from square_of_distance: where it is tiny it has lost digits.
+PH_DEVICE double distance_of_square(double square, const double* x, const double* y, int axes) {
+  if (square >= kLeastPlainSquare || square == 0) return std::sqrt(square);
+  double largest = 0;
+  for (int k = 0; k < axes; ++k) largest = std::fmax(largest, std::fabs(x[k] - y[k]));
+  double sum = 0;
+  for (int k = 0; k < axes; ++k) {
+    const double t = (x[k] - y[k]) / largest;
+    sum += t * t;
+  }
+  return largest * std::sqrt(sum);
+}
+/// The square that nothing at distance <= d exceeds, whether of points or of boxes around them.
+PH_DEVICE double reach_of(double d, int axes) {
+  return std::fmax(d * d * (1 + 4e-16 * (axes + 8)), kLeastPlainSquare);
+}
+
+/// A point and the one that is nearest to it among those of other components.
+struct Nearest {
+  double distance;
+  std::uint32_t position;  ///< kNone: there is none up to that distance
+};
+
+}  // namespace ph::gpu

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Stands in for what CUDA compiles.
+#include "gpu/gpu_forest.hpp"
+#include "ph/error.hpp"
+
+namespace ph::gpu {
+
+FlagEdges spanning_forest(const PointMetric&, double, const RunContext&) {
+  throw Error(ErrorKind::not_built_in,
+              "device gpu: not built in: it needs CUDA 12 or later and a libph that was "
+              "configured with -DPH_WITH_CUDA=ON");
+}
+
+}  // namespace ph::gpu
