@@ -5,6 +5,7 @@ Nothing here writes to what it is given.
 """
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -174,6 +175,16 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     if mask is not None:
         numbers[mask] = np.nan
     return numbers
+
+
+def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
+    """An array of float64 to be filled in, refused where the memory has no room: the system would
+    promise it."""
+    needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
+    if needed > _LARGE and needed > _core.memory_left():
+        raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
+                               "the memory")
+    return np.empty(shape)
 
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:

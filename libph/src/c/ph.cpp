@@ -10,6 +10,7 @@
 #include <future>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <system_error>
@@ -76,6 +77,8 @@ ph_status guarded(Use&& use) noexcept {
   } catch (const Error& error) {
     return fail(status_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
+    return fail(PH_RESOURCE, "out of memory");
+  } catch (const std::length_error&) {  // more than any memory holds
     return fail(PH_RESOURCE, "out of memory");
   } catch (const std::system_error& error) {  // of std::async
     return fail(PH_RESOURCE, error.what());
@@ -188,7 +191,10 @@ RipsOptions rips_options(const ph_options& given) {
 
 Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
   RipsOptions rips = rips_options(options);
-  rips.only_points = holds_points_alone(points, rips, task_of(options));
+  const Options task = task_of(options);
+  rips.only_components = task.max_dim == 0;
+  rips.merge_equal_points = !rips.only_components && task.min_persistence >= 0;
+  rips.only_points = !rips.only_components && holds_points_alone(points, rips, task);
   return Rips(points, rips, context);
 }
 

@@ -188,6 +188,7 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
     Points points = random.points(n, random.integer(1, 6), ties);
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
+    if (random.coin()) points(0, 0) = 1;  // beside a point whose squares are plain
     const PointDistance distance = distances[random.integer(0, 3)];
     const double p = 1 + 3 * random.real();
     const PointMetric given(points, distance, p);
