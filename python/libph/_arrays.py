@@ -184,7 +184,8 @@ def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
                                "the memory")
-    return np.empty(shape)
+    array: NDArray[np.float64] = np.empty(shape)
+    return array
 
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:

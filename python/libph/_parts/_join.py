@@ -47,7 +47,7 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
     ImagePart(1 to 2 of 4, shape=(8, 9), ... bytes)
     """
     _run.check_names("join_parts", run, join_parts)
-    chosen = _options.several("parts", parts, "a list of ImagePart or CloudPart")
+    chosen: list[_P] = _options.several("parts", parts, "a list of ImagePart or CloudPart")
     for part in chosen:
         if not isinstance(part, (ImagePart, CloudPart)):
             raise UsageError(
