@@ -249,9 +249,9 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
   // The p-norms fall as p grows: the Euclidean one bounds those below 2, the largest coordinate
   // bounds them all, and needs no squares.
   const double largest = largest_coordinate(tree.points());
-  const bool are_squares_plain =
-      kSmallestPlain < largest && largest < kLargestPlain && !has_tiny_node(tree);
   const bool is_euclidean = distance == PointDistance::euclidean;
+  const bool are_squares_plain =
+      kSmallestPlain < largest && largest < kLargestPlain && !(is_euclidean && has_tiny_node(tree));
   if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
     return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean());
