@@ -33,6 +33,11 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
+/// Of Euclidean distances where squares underflow: of what is nearer they are 0, as in the metric.
+struct TinyGaps : ChebyshevGaps {
+  static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
+};
+
 /// @tparam Axes number of coordinates; 0: any.
 template <class Gaps, int Axes>
 class Search final : public NeighbourSearch {
@@ -250,9 +255,10 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
   // bounds them all, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
-  const bool are_squares_plain =
-      kSmallestPlain < largest && largest < kLargestPlain && !(is_euclidean && has_tiny_node(tree));
+  const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
   if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
+  if (is_euclidean && are_squares_plain && has_tiny_node(tree))
+    return make_search<TinyGaps>(tree, metric, false);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
     return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean());
   return make_search<ChebyshevGaps>(tree, metric, false);
