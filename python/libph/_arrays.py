@@ -5,6 +5,7 @@ Nothing here writes to what it is given.
 """
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -176,14 +177,30 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     return numbers
 
 
+def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
+    """An array of float64 to be filled in, refused where the memory has no room: the system would
+    promise it."""
+    needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
+    if needed > _LARGE and needed > _core.memory_left():
+        raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
+                               "the memory")
+    array: NDArray[np.float64] = np.empty(shape)
+    return array
+
+
+def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
+    """The same numbers in C order without gaps: the array itself where they are."""
+    return array if array.flags.c_contiguous else _copied(array, array.dtype, name)
+
+
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
-    """A copy of another type. The system promises more memory than it has: a large one is refused
-    before it is made."""
+    """A copy of another type, in C order. The system promises more memory than it has: a large one
+    is refused before it is made."""
     needed = array.size * np.dtype(dtype).itemsize
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
                                f"copy of type {np.dtype(dtype)} would exceed the memory")
-    return array.astype(dtype)
+    return array.astype(dtype, order="C")
 
 
 def is_aligned(array: NDArray[Any]) -> bool:
@@ -242,7 +259,7 @@ def as_values(data: Any, name: str, count: int | None = None, of: str = "number"
     if array.ndim != 1 or (count is not None and array.shape[0] != count):
         expected = "one axis" if count is None else f"{count} numbers, one for each {of}"
         raise UsageError(f"{name}: found an array of shape {array.shape}, expected {expected}")
-    return np.ascontiguousarray(as_float64(array, name))
+    return side_by_side(as_float64(array, name), name)
 
 
 def as_integers(data: Any, name: str) -> NDArray[np.int64]:

@@ -71,7 +71,7 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     run = {k: v for k, v in options.items() if k not in defaults}
     _run.check_names(function.__name__, run, keywords)
     requests: list[Request] = []
-    for i, given in enumerate(inputs):
+    for i, given in enumerate(_options.several(f"{what}s", inputs, "a list of them")):
         try:
             requests.append(request_of(_arguments(given, places, keywords)))
         except Error as error:

@@ -396,7 +396,7 @@ def _metric(kind: str, order: float = 1.0, ground: float = math.inf, relative_er
         kind, _options.real("order", order, "a number, at least 1"),
         _options.real("ground", ground, "a number, at least 1, or inf"),
         _options.real("relative_error", relative_error, "a number, at least 0", 0),
-        _options.real("at_most", at_most), _options.whole("directions", directions, 1, 2**31 - 1))
+        _options.real("at_most", at_most, "a number, at least 0", 0), _options.whole("directions", directions, 1, 2**31 - 1))
 
 
 def _refuse_options_of_others(distance: str, order: float, ground: float, relative_error: float,

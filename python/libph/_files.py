@@ -113,7 +113,9 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         raise _options.refuse("raw_dtype", raw_dtype, "whole numbers or floats") from None
     options = {
         "nan": _options.choice("nan", nan, ["error", "drop"]),
-        "columns": [] if columns is None else [str(column) for column in columns],
+        "columns": [] if columns is None else [str(column) for column in (
+            columns.split(",") if isinstance(columns, str)
+            else _options.several("columns", columns, "names or numbers of columns"))],
         "array": _options.choice("array", array, ["auto", "rips", "image", "points", "distances"]),
         "symmetrise": _options.choice("symmetrise", symmetrise,
                                       [None, "max", "min", "lower"]) or "none",
@@ -122,12 +124,16 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         "channel": _options.choice("channel", channel,
                                    ["auto", "grey", "red", "green", "blue", "alpha"]),
         "raw_shape": None if raw_shape is None else [
-            _options.whole("raw_shape", extent, 0) for extent in raw_shape],
+            _options.whole("raw_shape", extent, 0)
+            for extent in _options.several("raw_shape", raw_shape, "the extents of an image")],
         "raw_type": f"{dtype.kind}{dtype.itemsize}",
         "raw_big_endian": dtype.newbyteorder("=") != dtype,
         "raw_skip": _options.whole("raw_skip", raw_skip, 0)}
-    if isinstance(columns, str):
-        options["columns"] = columns.split(",")
+    if raw_shape is not None and name == "auto":
+        name = "raw"
+    if name != "raw" and (raw_shape is not None or dtype != np.uint8 or options["raw_skip"]):
+        raise _errors.UsageError("raw_shape, raw_dtype, raw_skip: found format "
+                                 f"{name!r}, expected 'raw' and a raw_shape")
     file = path_of(path)
     if format is None and columns is None and _is_barcode(file):
         raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "

@@ -24,7 +24,7 @@ def refuse(name: str, value: Any, expected: str) -> UsageError:
     >>> str(refuse("max_dim", -1, "at least 0"))
     'max_dim: found -1, expected at least 0'
     """
-    found = repr(value)
+    found = " ".join(repr(value).split())  # arrays take several lines
     if len(found) > 60:
         found = f"{type(value).__name__} {found[:50]}…"
     return UsageError(f"{name}: found {found}, expected {expected}")
@@ -103,6 +103,13 @@ def size(name: str, value: Any) -> int:
     if not 1 <= amount < 2**63:
         raise refuse(name, value, expected)
     return int(amount)
+
+
+def several(name: str, values: Any, what: str) -> list[Any]:
+    """What can be iterated over, as a list; no text and no mapping."""
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+        raise refuse(name, values, what)
+    return list(values)
 
 
 def axes(name: str, value: Any, count: int) -> list[bool]:

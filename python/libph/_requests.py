@@ -83,10 +83,12 @@ def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, mi
     how = {"auto": "automatic", True: "on", False: "off", "on": "on", "off": "off"}[
         _options.choice("collapse", collapse, ["auto", True, False, "on", "off"])]
     kind = _options.choice("representatives", representatives, [None, *kinds]) or "none"
+    highest = None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS)
+    lowest = _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS)
+    if highest is not None and lowest > highest:
+        raise _options.refuse("min_dim", lowest, f"at most max_dim, {highest}")
     return _core.Task(
-        None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS),
-        _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS),
-        _options.whole("field", field, 2, 2**31 - 1), known, getattr(_core.Collapse, how),
+        highest, lowest, _options.whole("field", field, 2, 2**31 - 1), known, getattr(_core.Collapse, how),
         _options.real("min_persistence", min_persistence), getattr(_core.Representatives, kind),
         _options.flag("cells", cells), getattr(_core.LoopChoice, loops))
 

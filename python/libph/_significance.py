@@ -282,6 +282,10 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
         i, j = (int(k) for k in np.argwhere(matrix != matrix.T)[0])
         raise DataError(f"distances: found {matrix[i, j]} at row {i}, column {j} and {matrix[j, i]} "
                         f"at row {j}, column {i}, expected a symmetric matrix without NaN")
+    if np.diagonal(matrix).any():
+        i = int(np.argmax(np.diagonal(matrix) != 0))
+        raise DataError(f"distances: row {i}, column {i}: found {matrix[i, i]}, expected 0 on the "
+                        "diagonal")
     labels = np.asarray(groups)
     if labels.shape != (len(matrix),):
         raise UsageError(f"groups: found an array of shape {labels.shape}, expected {len(matrix)}, "

@@ -3,18 +3,24 @@
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "samples"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "entries"), os.path.join(HERE, os.pardir, "samples")]
 
+import alpha_points
+import barcode_files
 import cells
 import characters
 import command_lines
 import compressed
 import headers
 import matrices
+import part_files
+import scene_files
 import shapes
 import system
 import truncated
 
 ENTRIES = sorted((*characters.ENTRIES, *cells.ENTRIES, *matrices.ENTRIES, *truncated.ENTRIES,
                   *headers.ENTRIES, *compressed.ENTRIES, *command_lines.ENTRIES, *system.ENTRIES,
-                  *shapes.ENTRIES), key=lambda entry: entry.row)
+                  *shapes.ENTRIES, *barcode_files.ENTRIES, *part_files.ENTRIES,
+                  *scene_files.ENTRIES, *alpha_points.ENTRIES), key=lambda entry: entry.row)

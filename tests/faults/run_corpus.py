@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""run_corpus.py PH_BARCODE PH_SEGMENT PEAK [WORDS…]: every entry of the corpus (whose name has the
+"""run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: every entry of the corpus (whose name has the
 words) in a folder of its own, against the promise: the exit code, one line on stderr that names the
 file or the option, nothing on stdout, nothing written, no temporary file, within a second, within
 16 MiB and 50 ms where a header lies. PEAK is the program of peak.c."""
@@ -19,7 +19,8 @@ SECONDS = 1  # of CPU; on the clock a busy machine gives ten times as many
 TRIES = 3  # for times only: a loaded machine is slow now and then, a program is each time
 FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
 NOBODY = 65534
-OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd"}
+OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd", "ph-distance": "out.csv",
+          "ph-vectorise": "out.csv"}
 
 
 def named_options(text):
@@ -33,12 +34,11 @@ def options_of(program):
 
 
 class Runner:
-    def __init__(self, barcode, segment, peak):
-        self.programs = {"ph-barcode": os.path.abspath(barcode),
-                         "ph-segment": os.path.abspath(segment)}
+    def __init__(self, *programs, peak):
+        self.programs = {os.path.basename(path): os.path.abspath(path) for path in programs}
         self.peak = os.path.abspath(peak)
         self.options = {name: options_of(program) for name, program in self.programs.items()}
-        with open(barcode, "rb") as file:
+        with open(programs[0], "rb") as file:
             self.sanitized = b"__asan_init" in file.read()  # its own memory and time count too
         self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 
@@ -165,8 +165,8 @@ class Runner:
 
 
 def main():
-    runner = Runner(*sys.argv[1:4])
-    words = sys.argv[4:]
+    runner = Runner(*sys.argv[1:5], peak=sys.argv[5])
+    words = sys.argv[6:]
     entries = [entry for entry in corpus.ENTRIES if all(word in entry.name for word in words)]
     of_row = collections.Counter()
     faults = skipped = 0

@@ -28,6 +28,8 @@ MUTANTS = [
      ["masked_images_tests"]),
     ("cubical: NaN without a mask is taken", CUBICAL,
      "if (!image.masked) refuse_nan(grid_, context);", "", ["masked_images_tests"]),
+    ("parts: NaN is taken for a value", "libph/src/core/bytes/byte_reader.hpp",
+     "if (std::isnan(value)) refuse(what);", "", ["image_part_tests"]),
     ("parts: what is open before some layers is taken for old", "libph/src/cubical/slabs/seam_forest.hpp",
      "return (root.kind == Kind::critical) == backwards ? 2 : 1;",
      "return root.kind == Kind::critical ? 1 : 2;", ["image_part_tests"]),

@@ -88,8 +88,14 @@ InputsPart InputsPart::of_bytes(std::span<const std::byte> bytes) {
       bar.dim = from.get<std::int32_t>("bar");
       bar.birth = from.get<double>("bar");
       bar.death = from.get<double>("bar");
+      if (bar.dim < 0 || !(bar.birth <= bar.death)) from.refuse("bar");
       result.bars.add(bar);
     }
+    constexpr int most_code = 255;  // that the system passes on
+    const bool failed = result.code != 0;
+    if (result.code < 0 || result.code > most_code || failed == result.failure.empty() ||
+        (failed && result.bars.size() > 0))
+      from.refuse("code");
   }
   from.expect_end();
   // Each input of its parts, and no other, once.

@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "common/arguments/command_line.hpp"
 #include "io/bytes/json_cursor.hpp"
@@ -64,8 +69,11 @@ class Reader {
 
   Fit read() {
     bool has_format = false, has_kind = false;
+    std::set<std::string> seen;
+    std::optional<std::int64_t> length;
     for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
+      if (!seen.insert(name).second) json_.fail(place, {name, "it again", "it once", {}});
       if (name == "format") {
         if (const std::string value = json_.string(); value != kFormat)
           json_.fail(place, {"format", printable(value, 40), std::string(kFormat), {}});
@@ -75,6 +83,8 @@ class Reader {
       } else if (name == "kind") {
         fit_.kind = static_cast<Kind>(word("kind", kKinds));
         has_kind = true;
+      } else if (name == "length") {
+        length = json_.integer(1, std::numeric_limits<std::int64_t>::max(), "length");
       } else if (name == "infinite") {
         read_infinite();
       } else if (name == "layers") {
@@ -104,7 +114,15 @@ class Reader {
                    "a member is missing",
                    R"("format": "ph-vectorise fit", "kind" and "blocks")",
                    {}});
+    for (const char* const parameter : parameters_of(fit_.kind))
+      if (!seen.contains(parameter))
+        input_.fail({"not a fit", fmt::format("no {}", parameter), "it with this kind", {}});
     check();
+    if (length && static_cast<std::uint64_t>(*length) != length_of(fit_))
+      input_.fail({"length",
+                   fmt::format("{}", *length),
+                   fmt::format("{}, as the blocks have", length_of(fit_)),
+                   {}});
     return std::move(fit_);
   }
 
@@ -139,10 +157,31 @@ class Reader {
     else
       fit_.infinite = {Rule::cap, json_.number()};
   }
+  /// What changes the vectors of a kind, beside its blocks.
+  static std::vector<const char*> parameters_of(Kind kind) {
+    switch (kind) {
+      case Kind::landscape:
+        return {"layers"};
+      case Kind::lengths:
+        return {"count"};
+      case Kind::silhouette:
+      case Kind::image:
+        return {"power"};
+      case Kind::entropy:
+        return {"normalised"};
+      case Kind::euler:
+        return {"construction", "superlevel"};
+      default:
+        return {};
+    }
+  }
   void read_block() {
     Block& block = fit_.blocks.emplace_back();
+    std::vector<std::size_t>& shape = shapes_.emplace_back();
     for_each_member([&](const std::string& name) {
-      if (name == "dim")
+      if (name == "shape")
+        for_each_element([&] { shape.push_back(count("number")); });
+      else if (name == "dim")
         block.dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
       else if (name == "grid")
         read_range(block.grid.lo, block.grid.hi, "points", block.grid.points);
@@ -193,9 +232,16 @@ class Reader {
       input_.fail({"blocks", fmt::format("{}", fit_.blocks.size()), "one of an Euler curve", {}});
     const RunContext& context = input_.context() ? *input_.context() : default_context();
     try {
-      for (const Block& block : fit_.blocks) {
+      for (std::size_t i = 0; i < fit_.blocks.size(); ++i) {
+        const Block& block = fit_.blocks[i];
         std::size_t length = 1;
-        for (const std::size_t n : shape_of(fit_, block)) length *= n;
+        const std::vector<std::size_t> shape = shape_of(fit_, block);
+        if (!shapes_[i].empty() && shapes_[i] != shape)
+          input_.fail({"shape",
+                       fmt::format("[{}]", fmt::join(shapes_[i], ", ")),
+                       fmt::format("[{}], as the grids have", fmt::join(shape, ", ")),
+                       {}});
+        for (const std::size_t n : shape) length *= n;
         if (length > static_cast<std::size_t>(kMost))
           input_.fail({"shape", fmt::format("{} numbers", length), "at most 2^30", {}});
         std::pmr::vector<double> out(length, &context.memory);
@@ -213,6 +259,7 @@ class Reader {
   const Input& input_;
   JsonCursor json_;
   Fit fit_;
+  std::vector<std::vector<std::size_t>> shapes_;  // as they are stated
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <future>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <system_error>
@@ -77,6 +78,8 @@ ph_status guarded(Use&& use) noexcept {
     return fail(status_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(PH_RESOURCE, "out of memory");
+  } catch (const std::length_error&) {  // more than any memory holds
+    return fail(PH_RESOURCE, "out of memory");
   } catch (const std::system_error& error) {  // of std::async
     return fail(PH_RESOURCE, error.what());
   } catch (const std::exception& error) {
@@ -115,6 +118,10 @@ Options task_of(const ph_options& given) {
   if (given.max_dim < -1)
     throw Error(ErrorKind::usage,
                 fmt::format("ph_options::max_dim: found {}, expected -1 or more", given.max_dim));
+  if (given.max_dim >= 0 && given.min_dim > given.max_dim)
+    throw Error(ErrorKind::usage, fmt::format("ph_options::min_dim: found {}, expected at most "
+                                              "max_dim, {}",
+                                              given.min_dim, given.max_dim));
   Options options;
   if (given.max_dim >= 0) options.max_dim = given.max_dim;
   options.min_dim = given.min_dim;
@@ -188,7 +195,10 @@ RipsOptions rips_options(const ph_options& given) {
 
 Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
   RipsOptions rips = rips_options(options);
-  rips.only_points = holds_points_alone(points, rips, task_of(options));
+  const Options task = task_of(options);
+  rips.only_components = task.max_dim == 0;
+  rips.merge_equal_points = !rips.only_components && task.min_persistence >= 0;
+  rips.only_points = !rips.only_components && holds_points_alone(points, rips, task);
   return Rips(points, rips, context);
 }
 

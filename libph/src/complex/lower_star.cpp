@@ -47,8 +47,12 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
   simplices.check_layout();
   Closure closure(&context.memory);
   std::pmr::vector<Index> face;
+  std::size_t looked_at = 0;
+  const auto poll = [&] {
+    if (++looked_at % 4096 == 0) context.poll();
+  };
   for (std::size_t i = 0; i < simplices.size(); ++i) {
-    if (i % 4096 == 0) context.poll();
+    poll();
     const auto given = simplices.simplex(i);
     const auto where = [&] { return name ? name(i) : fmt::format("simplex {}", i); };
     std::pmr::vector<Index> vertices(given.begin(), given.end());
@@ -68,6 +72,7 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
     }
     if (closure.contains(vertices)) continue;  // and with it all its faces
     for (std::size_t mask = 1; mask < (std::size_t{1} << vertices.size()); ++mask) {
+      poll();
       face.clear();
       for (std::size_t k = 0; k < vertices.size(); ++k)
         if (mask >> k & 1) face.push_back(vertices[k]);

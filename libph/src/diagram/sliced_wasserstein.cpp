@@ -48,9 +48,11 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
     throw Error(ErrorKind::usage,
                 fmt::format("sliced_wasserstein_distance: found {} directions, expected at least 1",
                             directions));
-  // Bars in parts, and points of both for all; numbers of both for each thread.
+  const auto count = static_cast<std::size_t>(directions);
+  // Bars in parts, and points of both for all; numbers of both for each thread; a sum a direction.
   const MemoryClaim claim(
-      context.memory, (a.size() + b.size()) * sizeof(double) * (12 + 2 * thread_count(context)));
+      context.memory,
+      sizeof(double) * (count + (a.size() + b.size()) * (12 + 2 * thread_count(context))));
   const DiagramParts first(a, "sliced_wasserstein_distance"),
       second(b, "sliced_wasserstein_distance");
   if (!diagram::have_as_many_infinite(first, second)) return kInfinity;
@@ -61,7 +63,6 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
   const int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
   const std::vector<Point> points[2] = {with_diagonal(first, second, exponent),
                                         with_diagonal(second, first, exponent)};
-  const auto count = static_cast<std::size_t>(directions);
   std::vector<double> sums(count);
   for_each_piece("sliced Wasserstein distance", count, 1, context,
                  [&](std::size_t begin, std::size_t end) {

@@ -53,7 +53,8 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours, Poi
     std::vector<double> distances(others);
     for (std::size_t i = begin; i < end; ++i) {
       const auto leaf = static_cast<KdTree::Node>(tree.first_leaf() + i);
-      search->nearest(leaf, others, std::numeric_limits<double>::infinity(), found);
+      search->nearest(leaf, others, std::numeric_limits<double>::infinity(),
+                      NeighbourSearch::Ties::any, found);
       for (KdTree::Position q = tree.begin(leaf); q < tree.end(leaf); ++q) {
         const Neighbour* const list = &found[(q - tree.begin(leaf)) * others];
         for (std::size_t k = 0; k < others; ++k) distances[k] = list[k].distance;

@@ -33,6 +33,11 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
+/// Of Euclidean distances where squares underflow: of what is nearer they are 0, as in the metric.
+struct TinyGaps : ChebyshevGaps {
+  static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
+};
+
 /// @tparam Axes number of coordinates; 0: any.
 template <class Gaps, int Axes>
 class Search final : public NeighbourSearch {
@@ -45,7 +50,8 @@ class Search final : public NeighbourSearch {
         slack_(slack(axes_)),
         is_root_of_sum_(is_root_of_sum) {}
 
-  void nearest(Node leaf, std::size_t k, double limit, std::span<Neighbour> found) const override {
+  void nearest(Node leaf, std::size_t k, double limit, Ties ties,
+               std::span<Neighbour> found) const override {
     const Position begin = tree_.begin(leaf), end = tree_.end(leaf);
     std::array<double, KdTree::kLeafSize> reach;
     reach.fill(Gaps::reach(limit, slack_));
@@ -62,7 +68,7 @@ class Search final : public NeighbourSearch {
           const double sum = gap_to_point(p, q);
           if (sum > reach_of_p || p == q) continue;
           insert({distance(p, q, sum), q}, list);
-          reach_of_p = Gaps::reach(list.back().distance, slack_);
+          reach_of_p = reach_beside(list.back(), ties);
         }
       }
       farthest = *std::max_element(reach.begin(), reach.begin() + (end - begin));
@@ -72,7 +78,8 @@ class Search final : public NeighbourSearch {
              [&](Node node, double gap) { return gap > farthest || node == leaf; }, visit_leaf);
   }
 
-  Neighbour nearest_foreign(Position p, const Parts& parts, double limit) const override {
+  Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
+                            Ties ties) const override {
     const std::uint32_t own = parts.of_point[p];
     Neighbour best{limit, kNone};
     double reach = Gaps::reach(limit, slack_);
@@ -81,7 +88,7 @@ class Search final : public NeighbourSearch {
         const double sum = gap_to_point(p, q);
         if (sum > reach || parts.of_point[q] == own) continue;
         insert({distance(p, q, sum), q}, {&best, 1});
-        reach = Gaps::reach(best.distance, slack_);
+        reach = reach_beside(best, ties);
       }
     };
     traverse([&](Node node) { return gap_to_box(p, node); },
@@ -161,6 +168,12 @@ class Search final : public NeighbourSearch {
       if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
     return metric_(p, q);
   }
+  /// The sum that nothing exceeds that may take the place of the worst neighbour.
+  double reach_beside(const Neighbour& worst, Ties ties) const {
+    constexpr double nothing = -1;
+    if (ties == Ties::any && worst.distance == 0) return nothing;
+    return Gaps::reach(worst.distance, slack_);
+  }
   bool is_nearer(const Neighbour& a, const Neighbour& b) const {
     if (a.distance != b.distance) return a.distance < b.distance;
     return b.position == kNone || tree_.rows()[a.position] < tree_.rows()[b.position];
@@ -207,6 +220,19 @@ class Search final : public NeighbourSearch {
   const bool is_root_of_sum_;
 };
 
+/// Whether different points are so near each other that the squares of their gaps are below what
+/// EuclideanGaps tells apart. None of a cluster of such points could be passed over.
+bool has_tiny_node(const KdTree& tree) {
+  constexpr double tiny = 1e-139;  // above the root of kSmallestPlainSquare
+  for (KdTree::Node node = 1; node < tree.node_count(); ++node) {
+    double width = 0;
+    for (Index k = 0; k < tree.points().cols(); ++k)
+      width = std::max(width, tree.box(node)[2 * k + 1] - tree.box(node)[2 * k]);
+    if (0 < width && width < tiny) return true;
+  }
+  return false;
+}
+
 template <class Gaps>
 std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetric& metric,
                                              bool is_root_of_sum) {
@@ -228,9 +254,11 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
   // The p-norms fall as p grows: the Euclidean one bounds those below 2, the largest coordinate
   // bounds them all, and needs no squares.
   const double largest = largest_coordinate(tree.points());
-  const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
   const bool is_euclidean = distance == PointDistance::euclidean;
+  const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
   if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
+  if (is_euclidean && are_squares_plain && has_tiny_node(tree))
+    return make_search<TinyGaps>(tree, metric, false);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
     return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean());
   return make_search<ChebyshevGaps>(tree, metric, false);

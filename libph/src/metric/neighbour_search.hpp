@@ -33,12 +33,17 @@ class NeighbourSearch {
 
   virtual ~NeighbourSearch() = default;
 
+  /// Which of points at one distance are found: those of the smaller rows, or any. Any is much
+  /// faster where many points are equal, all at distance 0.
+  enum class Ties { by_row, any };
+
   /// For each point of a leaf its k nearest others at distance <= limit, the nearest first.
   /// @param found k a point, point by point; what is not there is left as kNone.
-  virtual void nearest(Node leaf, std::size_t k, double limit,
+  virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                        std::span<Neighbour> found) const = 0;
   /// The nearest point of another part at distance <= limit; kNone if there is none.
-  virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit) const = 0;
+  virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
+                                    Ties ties) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
   /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an
   /// order that depends on the points alone.

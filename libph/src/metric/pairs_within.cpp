@@ -102,7 +102,10 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
   const PointMetric metric(points);
   // Measured: all pairs of so few points take little, many at a time. A tree takes longer for some.
   constexpr Index few = 1 << 14;
-  const auto visit_all = points.cols() <= 3     ? visit_by_cubes
+  // Squares of what is nearer underflow, and one cube would hold all such points.
+  constexpr double tiny = 1e-139;
+  const bool has_cubes = points.cols() == 0 || (points.cols() <= 3 && radius >= tiny);
+  const auto visit_all = has_cubes              ? visit_by_cubes
                          : points.rows() <= few ? visit_by_rows
                                                 : visit_by_tree;
   visit_all(metric, radius, visit, context);

@@ -82,7 +82,7 @@ class Boruvka {
     const auto find = [&](std::size_t begin, std::size_t end) {
       std::array<Neighbour, KdTree::kLeafSize * kKnown> found;
       for (auto leaf = static_cast<KdTree::Node>(first + begin); leaf < first + end; ++leaf) {
-        search_.nearest(leaf, kKnown, limit_, found);
+        search_.nearest(leaf, kKnown, limit_, NeighbourSearch::Ties::by_row, found);
         for (Position p = tree_.begin(leaf); p < tree_.end(leaf); ++p) {
           const Neighbour* const list = &found[(p - tree_.begin(leaf)) * kKnown];
           for (std::size_t i = 0; i < kKnown; ++i) known_[p * kKnown + i] = list[i].position;
@@ -151,7 +151,8 @@ class Boruvka {
         std::atomic<double>& reach = reach_[component_[p]];
         double within = reach.load(std::memory_order_relaxed);
         if (points_[p].first.distance > within) continue;
-        const Neighbour found = search_.nearest_foreign(p, {component_, node_component_}, within);
+        const Neighbour found = search_.nearest_foreign(p, {component_, node_component_}, within,
+                                                        NeighbourSearch::Ties::by_row);
         const bool is_none = found.position == kNone;
         points_[p] = {found, kKnown, is_none ? Knows::lower_bound : Knows::nearest};
         while (found.distance < within &&

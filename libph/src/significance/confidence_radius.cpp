@@ -91,23 +91,24 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
 
   // Of each subsample its Hausdorff distance from all points.
   std::vector<double> distances(options.subsamples);
-  for_each_piece("subsamples", options.subsamples, 1, context,
-                 [&](std::size_t begin, std::size_t end) {
-                   Subsample subsample(tree, context);
-                   for (std::size_t k = begin; k < end; ++k) {
-                     Random random(options.seed, k);
-                     subsample.choose(size, random);
-                     double farthest = 0;
-                     for (KdTree::Position p = 0; p < n; ++p) {
-                       if (p % 1024 == 0 && context.stop.stop_requested()) return;
-                       if (subsample.is_chosen(p)) continue;
-                       const auto nearest = search->nearest_foreign(
-                           p, subsample.parts(), std::numeric_limits<double>::infinity());
-                       farthest = std::max(farthest, nearest.distance);
-                     }
-                     distances[k] = farthest;
-                   }
-                 });
+  for_each_piece(
+      "subsamples", options.subsamples, 1, context, [&](std::size_t begin, std::size_t end) {
+        Subsample subsample(tree, context);
+        for (std::size_t k = begin; k < end; ++k) {
+          Random random(options.seed, k);
+          subsample.choose(size, random);
+          double farthest = 0;
+          for (KdTree::Position p = 0; p < n; ++p) {
+            if (p % 1024 == 0 && context.stop.stop_requested()) return;
+            if (subsample.is_chosen(p)) continue;
+            const auto nearest = search->nearest_foreign(p, subsample.parts(),
+                                                         std::numeric_limits<double>::infinity(),
+                                                         NeighbourSearch::Ties::any);
+            farthest = std::max(farthest, nearest.distance);
+          }
+          distances[k] = farthest;
+        }
+      });
   return 2 * significance::upper_quantile(std::move(distances), options.alpha);
 }
 

@@ -31,6 +31,7 @@ class CloudPart(Part):
     """
 
     def __init__(self, data: bytes) -> None:
+        data = self._checked(data)
         facts = _core.cloud_part_facts(data)
         super().__init__(data)
         self.parts: int = facts["parts"]

@@ -35,6 +35,7 @@ class ImagePart(Part):
     """
 
     def __init__(self, data: bytes) -> None:
+        data = self._checked(data)
         facts = _core.image_part_facts(data)
         super().__init__(data)
         self._facts = facts
@@ -79,7 +80,9 @@ class ImagePart(Part):
             If parts are missing, or loops of parts, or messages between them.
         """
         _run.check_names("barcode", run, self.barcode)
-        meta, given = self._meta(), [] if loops is None else list(loops)
+        meta = self._meta()
+        given: list[Barcode] = [] if loops is None else _options.several(
+            "loops", loops, "what ImageLoops.barcode gives of each part")
         self._check_loops(given)
         field = given[0].meta["field"] if given else 2
         bars = _run.run(_core.image_part_bars, self._bytes, [bars._bars for bars in given], field,

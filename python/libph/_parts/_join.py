@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeVar
 
-from .. import _core, _run
+from .. import _core, _options, _run
 from .._errors import DataError, UsageError
 from ._cloud import CloudPart
 from ._image import ImagePart
@@ -47,7 +47,7 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
     ImagePart(1 to 2 of 4, shape=(8, 9), ... bytes)
     """
     _run.check_names("join_parts", run, join_parts)
-    chosen = list(parts)
+    chosen: list[_P] = _options.several("parts", parts, "a list of ImagePart or CloudPart")
     for part in chosen:
         if not isinstance(part, (ImagePart, CloudPart)):
             raise UsageError(

@@ -21,6 +21,12 @@ class Part:
     def __init__(self, data: bytes) -> None:
         self._bytes = data
 
+    @staticmethod
+    def _checked(data: Any) -> bytes:
+        if not isinstance(data, (bytes, bytearray, memoryview)):
+            raise UsageError(f"data: found {type(data).__name__}, expected bytes")
+        return bytes(data)
+
     @classmethod
     def from_bytes(cls: type[_P], data: bytes) -> _P:
         """The part that `to_bytes` stored, or ``ph-barcode --part`` in a file.
@@ -30,9 +36,7 @@ class Part:
         DataError
             If it is no such part, or damaged: a part has a checksum.
         """
-        if not isinstance(data, (bytes, bytearray, memoryview)):
-            raise UsageError(f"data: found {type(data).__name__}, expected bytes")
-        return cls(bytes(data))
+        return cls(data)
 
     def to_bytes(self) -> bytes:
         """The part as bytes, the same on every machine: what a file of it has.

@@ -94,14 +94,14 @@ def _cloud(data: Any, colours: Any, run: dict[str, Any]) -> _core.Cloud:
             hint = "; a depth image needs intrinsics or camera, colours are given by colours"
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected (points, 3) or "
                          f"(rows, columns, 3){hint}")
-    points = _arrays.as_float64(array, "cloud")
+    points = _arrays.side_by_side(_arrays.as_float64(array, "cloud"), "cloud")
     infinite = np.isinf(points)
     if infinite.any():
         index = [int(i) for i in np.unravel_index(int(np.argmax(infinite)), points.shape)]
         raise DataError(f"cloud: {_arrays.place_of(index)}: found {points[tuple(index)]}, expected "
                         "a finite number, or nan for a hole")
     bytes_of = None if colours is None else _colours(colours, points.shape[:-1])
-    return _run.run(_core.cloud_of_points, np.ascontiguousarray(points), bytes_of, options=run)
+    return _run.run(_core.cloud_of_points, points, bytes_of, options=run)
 
 
 def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, run: dict[str, Any]
@@ -112,7 +112,7 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
                          "rows and columns, as a camera is given")
     if scale is None:
         scale = 1.0 if array.dtype.kind == "f" else 1000.0
-    image = np.ascontiguousarray(_arrays.as_image(array, "cloud"))
+    image = _arrays.side_by_side(_arrays.as_image(array, "cloud"), "cloud")
     bytes_of = None if colours is None else _colours(colours, array.shape)
     return _run.run(_core.cloud_of_depth, image, bytes_of, camera, scale, options=run)
 
@@ -124,7 +124,7 @@ def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
         raise UsageError(f"colours: found an array of shape {array.shape}, expected "
                          f"{(*shape, 3)}: red, green and blue of each point")
     if array.dtype == np.uint8:
-        return np.ascontiguousarray(array)
+        return _arrays.side_by_side(array, "colours")
     is_share = array.dtype.kind == "f"
     most = 1 if is_share else 255
     wrong = ~((array >= 0) & (array <= most))

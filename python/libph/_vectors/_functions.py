@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _core, _options, _run
+from .. import _arrays, _core, _options, _run
 from .._errors import DataError, UsageError
 from ._diagrams import Diagram
 from ._ranges import Range
@@ -31,7 +31,7 @@ _BLOCK = 2**20  # numbers that are made at a time
 def _filled(function: Callable[..., None], dgm: Diagram, shape: int | tuple[int, ...],
             *arguments: Any) -> Vector:
     """What a function of _core writes."""
-    out = np.empty(shape)
+    out = _arrays.new_array(shape)
     _run.run(function, dgm, *arguments, out.reshape(-1), options={})
     return out
 
@@ -151,7 +151,8 @@ def _densities(dgm: Diagram, bandwidth: float, resolution: tuple[int, int], birt
     """The sum of the densities at the centre of each pixel."""
     dgm = dgm[dgm[:, 0] < dgm[:, 1]]
     persistence = dgm[:, 1] - dgm[:, 0]
-    pixels = np.zeros((resolution[1], resolution[0]))
+    pixels = _arrays.new_array((resolution[1], resolution[0]))
+    pixels[:] = 0
     step = max(1, _BLOCK // sum(resolution))
     for first in range(0, len(dgm), step):
         part = slice(first, first + step)

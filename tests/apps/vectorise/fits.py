@@ -103,6 +103,8 @@ class Fits(ProgramTest):
         fit = self.fit("landscape", "--layers", "1000")
         for block in fit["blocks"]:
             block["grid"]["points"] = 10**6
+            block["shape"] = [1000, 10**6]
+        fit["length"] = sum(1000 * 10**6 for _ in fit["blocks"])
         self.write("large.json", json.dumps(fit))
         self.assertIn("memory", self.expect(75, "a.csv", "--fitted", "large.json", "--memory-limit", "100MB").stderr)
         fit = self.fit("silhouette")

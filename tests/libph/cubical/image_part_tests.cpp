@@ -215,7 +215,9 @@ TEST(ImagePart, RefusesDamagedBytes) {
       ImagePart whole(image, 0, 3);
       whole.join(ImagePart::of_bytes(damaged));
       whole.join(ImagePart(image, 2, 3));
-      whole.barcode();
+      const Barcode bars = whole.barcode();
+      for (std::size_t i = 0; i < bars.size(); ++i)
+        EXPECT_FALSE(std::isnan(bars[i].birth) || std::isnan(bars[i].death));
       return false;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
@@ -239,6 +241,12 @@ TEST(ImagePart, RefusesDamagedBytes) {
       refused += is_refused(sealed_part("image", damaged)) ? 1 : 0;
     }
   EXPECT_GT(refused, content.size() / 4);
+  // NaN wherever a value may stand.
+  for (std::size_t i = 0; i + sizeof(double) <= content.size(); ++i) {
+    std::vector<std::byte> damaged(content.begin(), content.end());
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(i), sizeof(double), std::byte{0xff});
+    is_refused(sealed_part("image", damaged));
+  }
   EXPECT_TRUE(is_refused(sealed_part("inputs", content)));
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ph/detail/rips/binned_edges.hpp"
@@ -117,6 +118,37 @@ TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   const std::vector<Bar> expected{{1, 1.0, kInfinity}, {1, 3.0, kInfinity}, {1, 3.5, kInfinity}};
   EXPECT_EQ(loops(Engine::edge_links), expected);
   EXPECT_EQ(loops(Engine::cohomology), expected);
+}
+
+// A few vertices that nearly all are joined to: their long lists are searched, not read.
+TEST(EdgeLists, OfHubsHaveTheBarsOfAnotherEngine) {
+  constexpr std::uint32_t vertices = 1000, hubs = 2;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const double most = seed % 2 == 0 ? 5 : 1e9;  // ties, or none
+    const auto value = [&] {
+      return std::ceil(most * static_cast<double>(random() % 1000) / 1000);
+    };
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::uint32_t hub = 0; hub < hubs; ++hub)
+      for (std::uint32_t v = hub + 1; v < vertices; ++v)
+        if (random() % 20 != 0) pairs.emplace(hub, v);
+    for (int k = 0; k < 300; ++k) {
+      const auto v = static_cast<std::uint32_t>(1 + random() % (vertices - 1));
+      pairs.emplace(static_cast<std::uint32_t>(random() % v), v);
+    }
+    std::vector<WeightedEdge> edges;
+    for (const auto& [u, v] : pairs) edges.push_back({u, v, value()});
+    const Rips complex(SparseDistances(vertices, edges));
+    for (const std::int64_t field : {2, 3}) {
+      Options options{.max_dim = 2, .field = field, .engine = Engine::edge_links};
+      const auto found = pairs_of(persistence(complex, options));
+      options.engine = Engine::cohomology;
+      EXPECT_EQ(found, pairs_of(persistence(complex, options)));
+      EXPECT_GT(found.size(), 1000U);
+    }
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,6 +36,12 @@ class ByteReader {
     std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
     at_ += sizeof(T);
     return std::bit_cast<T>(little_endian(bytes));
+  }
+  /// A filtration value: NaN, which has no place in any order, is refused.
+  double value(std::string_view what) {
+    const auto value = get<double>(what);
+    if (std::isnan(value)) refuse(what);
+    return value;
   }
   std::uint64_t get_short(std::string_view what) {
     for (std::uint64_t value = 0, shift = 0; shift < 64; shift += 7) {

@@ -36,6 +36,7 @@ void get_bars(ByteReader& from, Barcode& bars) {
     bar.dim = from.get<std::int32_t>("bar");
     bar.birth = from.get<double>("bar");
     bar.death = from.get<double>("bar");
+    if (bar.dim < 0 || !(bar.birth <= bar.death)) from.refuse("bar");
     get_numbers(birth);
     get_numbers(death);
     bars.add(bar, birth, death);

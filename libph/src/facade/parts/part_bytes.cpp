@@ -53,7 +53,7 @@ WholeImage get_whole(ByteReader& from) {
   if (whole.type > VoxelType::float64) from.refuse("type");
   whole.voxels_are_vertices = from.flag("construction");
   whole.superlevel = from.flag("sign");
-  whole.limit = from.get<double>("threshold");
+  whole.limit = from.value("threshold");
   for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim})
     *n = from.get<std::int32_t>("number");
   whole.cells = from.flag("flag of cells");
@@ -141,7 +141,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
   constexpr std::size_t bytes_of_root = 24, bytes_of_bridge = 28, bytes_of_node = 4;
   forest.roots.resize(from.count(bytes_of_root, "roots"));
   for (SeamRoot& root : forest.roots) {
-    root.value = from.get<double>("root");
+    root.value = from.value("root");
     const CellName name = get_name(from);
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
@@ -163,11 +163,11 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
       if (node != Seam::kNone && node >= forest.roots.size()) from.refuse("seam");
     }
     seam->values.resize(seam->roots.size());
-    for (double& value : seam->values) value = from.get<double>("seam");
+    for (double& value : seam->values) value = from.value("seam");
   }
   forest.bridges.resize(from.count(bytes_of_bridge, "bridges"));
   for (SeamBridge& bridge : forest.bridges) {
-    bridge.value = from.get<double>("bridge");
+    bridge.value = from.value("bridge");
     bridge.cell = get_cell(from, top_dim, bridge_dim);
     bridge.from = root();
     bridge.to = root();
@@ -229,7 +229,7 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
   constexpr std::size_t bytes_of_edge = 20;
   for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {
     const GridCell edge = get_cell(from, top, 1);
-    pairs.around.met_once.emplace(edge, from.get<double>("edge"));
+    pairs.around.met_once.emplace(edge, from.value("edge"));
   }
   get_cells(from, top, 1, state->freed.edges);
   get_cells(from, top, 2, state->freed.squares);

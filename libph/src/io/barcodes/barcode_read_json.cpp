@@ -223,26 +223,32 @@ class Reader {
     json_.peek();
     const std::size_t place = json_.place();
     Bar bar;
-    bool first = true, dim = false, birth = false, death = false;
+    bool first = true, dim = false, birth = false, death = false, born = false, died = false;
     std::string name;
     birth_.clear();
     death_.clear();
     chain_.clear();
     coefficients_.clear();
     json_.expect('{');
+    const auto once = [&](bool& seen) {
+      if (seen) json_.fail(json_.place(), {name, "it again", "it once in a bar", {}});
+      seen = true;
+    };
     while (json_.next_member(first, name)) {
       if (name == "dim") {
+        once(dim);
         bar.dim = static_cast<int>(json_.integer(0, kMostBarDimension, "dimension"));
-        dim = true;
       } else if (name == "birth") {
+        once(birth);
         bar.birth = value_of(json_);
-        birth = true;
       } else if (name == "death") {
+        once(death);
         bar.death = value_of(json_);
-        death = true;
       } else if (name == "birth_cell") {
+        once(born);
         if (!json_.accept_null()) read_cell(birth_);
       } else if (name == "death_cell") {
+        once(died);
         if (!json_.accept_null()) read_cell(death_);
       } else if (name == "representative" && representatives_ != Representatives::none) {
         read_chain();

@@ -187,6 +187,7 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
     } else if (name == "intrinsic_matrix") {
       json.peek();
       const std::size_t place = json.place();
+      if (has_matrix) json.fail(place, {"intrinsic_matrix", "it again", "it once", {}});
       std::vector<double> k;
       json.expect('[');
       for (bool first_number = true; json.next_element(first_number);) k.push_back(json.number());

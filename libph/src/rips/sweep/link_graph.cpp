@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "core/for_each_target.hpp"
 #include "ph/detail/core/parallel.hpp"
@@ -170,16 +171,31 @@ LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_grap
   constexpr std::uint8_t of_one = 1, of_both = 2;
   std::size_t count = 0;
   const bool touches = with_lists([&](const auto& lists) {
-    const auto a = lists[e.u], b = lists[e.v];
+    auto a = lists[e.u], b = lists[e.v];
+    if (a.size() < b.size()) std::swap(a, b);
     vertices_.resize(b.size() + 1);
-    for (const Vertex w : a) marks_[w] = of_one;
-    for (const Vertex w : b) {
-      vertices_[count] = w;
-      count += marks_[w];
-      marks_[w] *= of_both;
+    // Who has many neighbours has many edges, too: all are not read for each of them.
+    constexpr std::size_t many_times = 32;
+    const bool is_hub = a.size() / many_times > b.size();
+    if (is_hub) {
+      for (const Vertex w : b) {
+        if (!std::ranges::binary_search(a, w)) continue;
+        vertices_[count++] = w;
+        marks_[w] = of_both;
+      }
+    } else {
+      for (const Vertex w : a) marks_[w] = of_one;
+      for (const Vertex w : b) {
+        vertices_[count] = w;
+        count += marks_[w];
+        marks_[w] *= of_both;
+      }
     }
     const bool found = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
-    for (const Vertex w : a) marks_[w] = 0;
+    if (is_hub)
+      for (std::size_t i = 0; i < count; ++i) marks_[vertices_[i]] = 0;
+    else
+      for (const Vertex w : a) marks_[w] = 0;
     return found;
   });
   vertices_.resize(count);
