@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# sanitize.sh [asan-ubsan|tsan|debug|valgrind]…: builds with what finds faults while it runs, runs the
+# C++ tests with few random inputs, and the programs over the commands of tests/platforms, whose
+# outputs have to be those of build/release. Without arguments: each kind. Installs what is missing.
+#   asan-ubsan  Clang: addresses, leaks, undefined behaviour, integers that wrap or lose digits
+#   tsan        Clang: threads
+#   debug       GCC: the checks of libstdc++'s debug mode
+#   valgrind    the programs of `debug`, some of the commands: memory that was never written
+# REFERENCE: the build to compare with (default: build/release, built here); JOBS: how many at a
+# time; TESTS: a regular expression of the tests that are run. A line for each kind comes last.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+jobs=${JOBS:-$(nproc)}
+# What was compiled in another clone counts here, precompiled headers included.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
+export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+programs=(ph-barcode ph-distance ph-segment ph-vectorise)
+options=$PWD/tests/analysis
+export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
+export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
+summary=()
+
+reference() {
+  [ -z "${REFERENCE:-}" ] || return 0
+  REFERENCE=build/release
+  cmake --preset release >/dev/null
+  cmake --build --preset release -j "$jobs" --target "${programs[@]}"
+}
+
+# outputs KIND BUILD [WHAT RUNS IT…]: the commands, and the line that counts them.
+outputs() {
+  local kind=$1 status=0
+  shift
+  python3 -B tests/platforms/same_outputs.py "$REFERENCE" "$@" | tee "build/$kind.log" || status=$?
+  counts+="${counts:+; }$(tail -1 "build/$kind.log")"
+  return "$status"
+}
+
+tests() {
+  local status=0
+  ctest --test-dir "build/$1" -L quick -R "${TESTS:-.}" -j "$jobs" --output-on-failure --no-tests=error \
+    --output-junit "$PWD/build/$1/tests.xml" || status=$?
+  counts=$(awk -F'"' '/^[ \t]*tests=/ { tests = $2 } /^[ \t]*failures=/ { failed = $2 } /<testcase/ { exit }
+    END { printf "%d of %d test programs passed", tests - failed, tests }' "build/$1/tests.xml")
+  return "$status"
+}
+
+run() {
+  local kind=$1 status=0 counts=
+  case $kind in
+    asan-ubsan|tsan|debug)
+      cmake --preset "$kind" >/dev/null
+      cmake --build --preset "$kind" -j "$jobs"
+      tests "$kind" || status=$?
+      outputs "$kind" "build/$kind" || status=$? ;;
+    valgrind)
+      cmake --preset debug >/dev/null
+      cmake --build --preset debug -j "$jobs" --target "${programs[@]}"
+      outputs valgrind --every 8 build/debug valgrind -q --error-exitcode=99 --leak-check=full \
+        --errors-for-leak-kinds=definite --suppressions="$options/valgrind.txt" || status=$? ;;
+    *) echo "sanitize.sh: found '$kind', expected asan-ubsan, tsan, debug or valgrind" >&2; return 64 ;;
+  esac
+  summary+=("$kind: $counts")
+  return "$status"
+}
+
+[ $# -gt 0 ] || set -- asan-ubsan tsan debug valgrind
+scripts/setup.sh build sanitize
+reference
+failed=0
+for kind; do run "$kind" || failed=1; done
+printf '%s\n' "${summary[@]}"
+exit "$failed"
