@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# determinism.sh [COMPILER-LEVEL[-ARCH]|CPU]…: whether the programs write the same bytes however they
+# determinism.sh [COMPILER-LEVEL[-ARCH]|Nehalem|max]…: whether the programs write the same bytes however they
 # were compiled: gcc or clang, O0 to O3, with the instructions of x86-64 (default), x86-64-v3 (AVX2,
 # FMA) or x86-64-v4 (AVX-512), such as clang-O2 or gcc-O3-v3; and, without another build, on a
-# processor that QEMU has, such as Nehalem (SSE 4.2) or Haswell (AVX2, FMA). 64-bit ARM and other
+# processor that QEMU translates: Nehalem (SSE 4.2) or max (AVX2, FMA). 64-bit ARM and other
 # C++ libraries: platforms.sh. REFERENCE: the build to compare with (default: build/release, built
 # here); JOBS: how many at a time. The last lines have the counts of each.
 set -euo pipefail
@@ -28,7 +28,7 @@ build_with() {
   cmake --build "build/determinism/$variant" -j "$jobs" --target "${programs[@]}"
 }
 
-[ $# -gt 0 ] || set -- gcc-O{0,1,2,3} gcc-O3-v{3,4} clang-O{0,1,2,3} clang-O3-v3 Nehalem Haswell
+[ $# -gt 0 ] || set -- gcc-O{0,1,2,3} gcc-O3-v{3,4} clang-O{0,1,2,3} clang-O3-v3 Nehalem max
 scripts/setup.sh build determinism
 if [ -z "${REFERENCE:-}" ]; then
   REFERENCE=build/release
@@ -41,14 +41,14 @@ for variant; do
   emulator=()
   case $variant in
     gcc-O[0-3]|gcc-O[0-3]-v[34]|clang-O[0-3]|clang-O[0-3]-v[34])
-      build_with "$variant"
+      build_with "$variant" || { summary+=("$variant: not built"); failed=1; continue; }
       other=build/determinism/$variant
       case $variant in  # what this processor lacks is translated
-        *-v3) grep -qw avx2 /proc/cpuinfo || emulator=(qemu-x86_64-static -cpu Haswell) ;;
+        *-v3) grep -qw avx2 /proc/cpuinfo || emulator=(qemu-x86_64-static -cpu max) ;;
         *-v4) grep -qw avx512f /proc/cpuinfo || { summary+=("$variant: built, not run: no AVX-512 here"); continue; } ;;
       esac ;;
-    [A-Z]*) other=$REFERENCE emulator=(qemu-x86_64-static -cpu "$variant") ;;
-    *) echo "determinism.sh: found '$variant', expected such as gcc-O0, clang-O3-v3 or Nehalem" >&2; exit 64 ;;
+    Nehalem|max) other=$REFERENCE emulator=(qemu-x86_64-static -cpu "$variant") ;;
+    *) echo "determinism.sh: found '$variant', expected such as gcc-O0, clang-O3-v3, Nehalem or max" >&2; exit 64 ;;
   esac
   log=build/determinism/$variant.log
   mkdir -p build/determinism
