@@ -1,11 +1,52 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Layout (clang-format) and naming and habits (clang-tidy) of everything tracked.
+# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: what is found without running anything, of everything
+# tracked: layout (clang-format), naming and habits (clang-tidy), faults (cppcheck), and what GCC's
+# analyzer finds in C, the one language it is made for. Without arguments: each. Installs what is
+# missing. A line for each comes last. What is found and is none: tests/analysis.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+jobs=${JOBS:-$(nproc)}
+
+sources() { git ls-files 'libph/src/*.cpp' 'libsegment/src/*.cpp' 'libreport/*.cpp' 'apps/*.cpp'; }
+
+layout() {
+  files=$(git ls-files '*.hpp' '*.cpp' '*.ipp' ':!tests/headers/violations')
+  xargs clang-format-14 --dry-run --Werror <<<"$files"
+}
+
+clang-tidy() {
+  files=$(sources | grep -v '/pcl/')
+  cmake --preset dev >/dev/null &&
+    xargs -P "$jobs" -n 4 clang-tidy-19 --quiet --warnings-as-errors='*' \
+      --extra-arg=-Wno-sign-conversion --extra-arg=-Wno-deprecated-declarations -p build/dev <<<"$files"
+}
+
+cppcheck() {
+  files=$(sources)
+  mkdir -p build/cppcheck
+  xargs cppcheck --std=c++20 --enable=warning,portability --quiet --error-exitcode=1 \
+    --suppressions-list=tests/analysis/cppcheck.txt --cppcheck-build-dir=build/cppcheck -j "$jobs" \
+    --template='{file}:{line}: {severity}: {message} [{id}]' -I libph/include -I libph/src \
+    -I libsegment/include -I libsegment/src -I libreport -I apps <<<"$files"
+}
+
+analyzer() {
+  files=$(git ls-files '*.c')
+  xargs -n 1 gcc -O1 -Wall -Wextra -Werror -fanalyzer -I libph/include -o /dev/null -c <<<"$files"
+}
+
+[ $# -gt 0 ] || set -- layout clang-tidy cppcheck analyzer
 scripts/setup.sh build lint
-git ls-files '*.hpp' '*.cpp' '*.ipp' ':!tests/headers/violations' | xargs clang-format-14 --dry-run --Werror
-cmake --preset dev >/dev/null
-git ls-files 'libph/src/*.cpp' 'libsegment/src/*.cpp' 'libreport/*.cpp' 'apps/*.cpp' | grep -v '/pcl/' |
-  xargs -P "$(nproc)" -n 4 clang-tidy-19 --quiet --warnings-as-errors='*' \
-    --extra-arg=-Wno-sign-conversion --extra-arg=-Wno-deprecated-declarations -p build/dev
+summary=() failed=0
+for kind; do
+  case $kind in
+    layout|clang-tidy|cppcheck|analyzer) ;;
+    *) echo "lint.sh: found '$kind', expected layout, clang-tidy, cppcheck or analyzer" >&2; exit 64 ;;
+  esac
+  said=clean
+  "$kind" || { said="something was found, see above"; failed=1; }
+  summary+=("$kind: $(wc -l <<<"$files") files, $said")
+done
+printf '%s\n' "${summary[@]}"
+exit "$failed"

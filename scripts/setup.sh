@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|clang-libcxx|aarch64|mingw]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|determinism|sanitize|clang-libcxx|aarch64|mingw]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -25,9 +25,10 @@ docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-cop
 # What makes Debian packages, and what tries them.
 packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev libcgal-dev lintian diffoscope-minimal
           debootstrap autopkgtest busybox-static)
-lint=(clang-format-14 clang-tidy-19)
+lint=(clang-format-14 clang-tidy-19 cppcheck libgtest-dev libcgal-dev)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
 coverage=(gcovr libgtest-dev)
+determinism=(clang-19 libcgal-dev qemu-user-static)
 # Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
 aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
@@ -47,10 +48,12 @@ for set in "${@:-build}"; do
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
+    determinism) wanted+=("${determinism[@]}") ;;
+    sanitize) wanted+=("${sanitize[@]}") ;;
     clang-libcxx) wanted+=("${clang_libcxx[@]}") ;;
     aarch64) wanted+=("${aarch64[@]}") ;;
     mingw) wanted+=("${mingw[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz, coverage, clang-libcxx, aarch64 or mingw" >&2; exit 64 ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz, coverage, determinism, sanitize, clang-libcxx, aarch64 or mingw" >&2; exit 64 ;;
   esac
 done
 

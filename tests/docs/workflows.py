@@ -6,7 +6,7 @@ ROOT/.github/workflows has YAML files. Each job says where it runs and has steps
 a command or uses an action of a stated version. A program is one of the image or a file of this
 repository that can be executed. Presets are those of CMakePresets.json, with a build and a test of
 that name where they are built and tested. Sets are those of scripts/setup.sh, platforms those of
-scripts/platforms.sh. Forms of .github/ISSUE_TEMPLATE have a name, a description and a body.
+scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a body.
 Exit code 77: PyYAML is missing, or, as in an archive of the sources, there is no such folder.
 """
 import itertools
@@ -30,7 +30,8 @@ def names_of_presets(kind):
 def cases_of(script):
     """The words that a script of ours takes: the patterns of the `case` that says what it expected."""
     text = (SOURCE / script).read_text(encoding="utf-8")
-    return set(re.findall(r"^ +([a-z][\w-]*)\) ", text, re.MULTILINE))
+    patterns = re.findall(r"^ +([a-z][\w|-]*)\)(?: |$)", text, re.MULTILINE)
+    return {word for pattern in patterns for word in pattern.split("|")}
 
 
 def variants(text, matrix):
@@ -57,7 +58,7 @@ def command_faults(command):
         program = words[0]
         if program not in OF_THE_IMAGE and not os.access(SOURCE / program, os.X_OK):
             yield f"{part.strip()}: found no program {program}"
-        if program in ("scripts/setup.sh", "scripts/platforms.sh"):
+        if program in ("scripts/setup.sh", "scripts/platforms.sh", "scripts/sanitize.sh", "scripts/lint.sh"):
             for word in set(words[1:]) - cases_of(program):
                 yield f"{part.strip()}: {program} does not know {word}"
         yield from preset_faults(words)

@@ -6,8 +6,8 @@
 #include <climits>
 #include <limits>
 
-#include "ph/distances.hpp"
 #include "ph/distance_to_measure.hpp"
+#include "ph/distances.hpp"
 #include "ph/eigen.hpp"
 #include "ph/estimate.hpp"
 #include "ph/explicit.hpp"

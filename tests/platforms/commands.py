@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""Commands whose outputs are to be the same bytes wherever the programs were compiled.
+
+They read the files of examples/data, a sample of each format, random inputs of each kind of complex
+(those that tests/random_runs compares with the definition), and inputs whose values are rounded: what
+a compiler may not compute in another order, and what is not a sum of few digits.
+"""
+import dataclasses
+import math
+import random
+import struct
+import sys
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / folder) for folder in ("random_runs", "samples", "support")]
+import files  # noqa: E402
+import jobs  # noqa: E402
+import samples  # noqa: E402
+
+DATA = TESTS.parent / "examples/data"
+BARCODE, SEGMENT = "apps/barcode/ph-barcode", "apps/segment/ph-segment"
+VECTORISE, DISTANCE = "apps/vectorise/ph-vectorise", "apps/distance/ph-distance"
+
+
+@dataclasses.dataclass
+class Command:
+    """Files that are written begin with `out`."""
+    words: list
+    inputs: dict = dataclasses.field(default_factory=dict)  # beside those of examples/data: bytes by name
+    may_refuse: bool = False  # by exit code 64: the complex lacks what is asked for
+    # Values are those of exp, log, pow or sin of the C library, whose last bits depend on the
+    # processor: glibc has others for one without fused multiply-add.
+    of_library: bool = False
+
+
+def of_examples():
+    yield [BARCODE, "two_circles.csv", "--max-dim", "2", "--check"]
+    yield [BARCODE, "two_circles.csv", "--representatives", "cycles", "-o", "out.json", "--loops", "tight"]
+    yield [BARCODE, "two_circles.csv", "--plot", "out.svg", "--plot", "out.png", "-o", "out.csv"]
+    yield [BARCODE, "two_circles.csv", "--dry-run"]
+    yield [BARCODE, "two_circles.csv", "-o", "out-größe-→.json", "--quiet"]
+    for metric in ("manhattan", "chebyshev", "cosine", "hamming", "minkowski:3"):
+        yield [BARCODE, "torus.csv", "--metric", metric, "--subsample", "60"]
+    for engine in ("standard", "twist", "cohomology", "edge-links"):
+        yield [BARCODE, "two_circles.csv", "--engine", engine, "--threads", "2"]
+    for field in ("2", "3", "11"):
+        yield [BARCODE, "torus.csv", "--field", field, "--threshold", "1.2", "--max-dim", "1"]
+    yield [BARCODE, "correlations.csv", "--from-correlation"]
+    yield [BARCODE, "pulse.csv", "--threads", "2"]
+    for image in ("blobs.pgm", "phantom.nii.gz"):
+        for more in ([], ["--superlevel"], ["--representatives", "cycles", "-o", "out.json"]):
+            yield [BARCODE, image, *more]
+    yield [BARCODE, "hills.ply", "-o", "out.npy"]
+    yield [BARCODE, "stack.pcd", "--subsample", "80", "-o", "out.dipha"]
+    for cloud in ("table.pcd", "stack.pcd"):
+        yield [SEGMENT, cloud, "-o", "out.pcd", "--labels", "out.npy", "--json", "out.json"]
+        yield [SEGMENT, cloud, "--parts", "--plot", "out.svg", "--plot-kind", "cloud"]
+        for method in ("paper", "supervoxels"):
+            yield [SEGMENT, cloud, "--method", method, "--labels", "out.csv", "--json", "out.json",
+                   "--tree", "out-tree.json", "--barcode", "out-bars.csv"]
+    yield [SEGMENT, "stack.pcd", "--explain", "1,2"]
+    yield [SEGMENT, "stack.pcd", "--signatures", "--surfaces", "out.npy", "--json", "out.json"]
+    yield [SEGMENT, "table.pcd", "--plot", "out.png"]
+    for kind in ("statistics", "betti", "landscape", "silhouette", "image", "entropy", "life-entropy", "lengths",
+                 "atol", "euler"):
+        yield [VECTORISE, "bars", "--kind", kind, "-o", "out.npy", "--fit", "out.json"]
+    yield [VECTORISE, "bars", "--kind", "atol", "--contrast", "gauss"]
+    yield [VECTORISE, "bars", "--kind", "image", "--power", "1.7"]
+    yield [VECTORISE, "blobs.pgm", "phantom.nii.gz", "--kind", "euler"]
+    for options in ([], ["--distance", "wasserstein"], ["--distance", "wasserstein", "--order", "3", "--ground", "1.5"],
+                    ["--distance", "sliced"]):
+        matching = [] if "sliced" in options else ["--matching", "out.csv"]
+        yield [DISTANCE, "bars", *options, *matching, "-o", "out.json"]
+    yield [DISTANCE, "bars", "bars", "--dim", "1", "--matrix", "out.npy"]
+
+
+PROGRAMS = {"ph-barcode": BARCODE, "ph-segment": SEGMENT}
+
+
+def of_samples():
+    """A file of each format. Barcodes are for programs that take them."""
+    for sample in samples.SAMPLES:
+        inputs = {sample.name: sample.content}
+        for name in sample.needs:
+            inputs[name] = next(s.content for s in samples.SAMPLES if s.name == name)
+        if sample.program:
+            words = [argument.format(sample.name) for argument in sample.arguments]
+            yield Command([PROGRAMS[sample.program], *words], inputs)
+        elif sample.reader == "barcode":
+            yield Command([VECTORISE, sample.name], inputs)
+
+
+def of_random_inputs(count):
+    """Small inputs of each kind, with cycles or cocycles where there are some."""
+    for kind, job_of in jobs.KINDS.items():
+        for seed in range(count):
+            job = job_of(random.Random(seed))
+            more = ["--representatives", ("cycles", "cocycles")[seed // 2 % 2]] if seed % 2 else []
+            yield Command([BARCODE, job.files[0][0], *job.options, *more, "-o", "out.json"],
+                          dict(job.files), may_refuse=True)
+
+
+def rows(numbers):
+    """Each digit of a double."""
+    return "".join(",".join(map(repr, row)) + "\n" for row in numbers).encode()
+
+
+def grid(numbers, *shape):
+    return files.npy("<f8", shape, struct.pack(f"<{len(numbers)}d", *numbers))
+
+
+def of_rounded_values():
+    """Coordinates, distances and voxels that use all bits of a double."""
+    rng = random.Random(1)
+    planar, spatial, many = ({"a.csv": rows([[rng.gauss(0, 1) for _ in range(dim)] for _ in range(count)])}
+                             for dim, count in ((2, 200), (3, 120), (8, 60)))
+    entering = {**planar, "weights.txt": rows([[abs(rng.gauss(0, 0.1))] for _ in range(200)])}
+    around = {"a.csv": rows([[rng.random() for _ in range(3)] for _ in range(80)])}
+    rips = [BARCODE, "a.csv", "-o", "out.json"]
+    for points in (planar, spatial, many):
+        for metric in ("euclidean", "manhattan", "chebyshev", "cosine", "minkowski:3", "minkowski:1.5"):
+            yield Command([*rips, "--metric", metric, "--representatives", "cycles"], points,
+                          of_library=metric.startswith("minkowski"))
+        yield Command([*rips, "--max-dim", "2"], points)
+        yield Command([*rips, "--significance"], points, of_library=True)
+        yield Command([*rips, "--collapse", "on", "--threshold", "0.9"], points)
+        yield Command([*rips, "--dtm", "5", "--weight-exponent", "2"], points)
+        yield Command([*rips, "--approximate", "0.3"], points)
+        yield Command([*rips, "--subsample-radius", "0.4", "--field", "3"], points)
+        yield Command([*rips, "--max-dim", "0"], points)
+        yield Command([*rips, "--delay", "2,3"], points)
+    yield Command([*rips, "--engine", "beta-skeleton"], planar)
+    for exponent in ("1", "2", "inf"):
+        yield Command([*rips, "--vertex-weights", "weights.txt", "--weight-exponent", exponent], entering)
+    for points in (planar, spatial):
+        for kind in ("alpha", "delaunay-cech", "delaunay-rips"):
+            yield Command([*rips, "--complex", kind, "--representatives", "cycles"], points)
+        for value in ("distance", "occupancy", "density"):
+            yield Command([*rips, "--complex", "cubical", "--voxel", "0.3", "--voxel-value", value], points)
+    yield Command([*rips, "--complex", "alpha", "--weights", "weights.txt"], entering)
+    yield Command([*rips, "--complex", "alpha", "--period", "1"], around)
+    yield Command([*rips, "--complex", "alpha", "--alpha-values", "squared", "--alpha-shape", "0.5=out.ply",
+                   "--wrap", "0.7=out.off"], spatial)
+    n = 40
+    upper = {(i, j): rng.random() for j in range(n) for i in range(j)}
+    matrix = {"a.csv": rows([[0.0 if i == j else upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])}
+    yield Command([*rips, "--format", "distance", "--max-dim", "2", "--representatives", "cocycles"], matrix)
+    for shape in ((300,), (20, 30), (8, 9, 10), (4, 5, 4, 5)):
+        voxels = {"a.npy": grid([rng.gauss(0, 1) for _ in range(math.prod(shape))], *shape)}
+        cubical = [BARCODE, "a.npy", "--complex", "cubical", "-o", "out.json"]
+        for construction in ("vertices", "cells"):
+            for more in (["--superlevel"], ["--representatives", "cycles"], ["--periodic", "all"]):
+                yield Command([*cubical, "--construction", construction, *more], voxels)
+        yield Command([VECTORISE, "a.npy", "--kind", "euler"], voxels)
+    diagrams = {}
+    for name in ("one.csv", "two.csv"):
+        bars = [(rng.randrange(3), birth, birth + rng.expovariate(3)) for birth in
+                (rng.gauss(0, 1) for _ in range(150))]
+        diagrams[name] = b"dim,birth,death\n" + rows(bars)
+    for kind in ("statistics", "betti", "landscape", "silhouette", "image", "entropy", "life-entropy", "atol"):
+        yield Command([VECTORISE, *diagrams, "--kind", kind], diagrams,
+                      of_library=kind not in ("betti", "landscape"))
+    yield Command([DISTANCE, *diagrams, "--matching", "out.csv"], diagrams)
+    for order in ("1", "2", "2.5"):
+        for ground in ("inf", "2", "3"):
+            yield Command([DISTANCE, *diagrams, "--distance", "wasserstein", "--order", order, "--ground", ground,
+                           "-o", "out.json"], diagrams, of_library=True)
+    yield Command([DISTANCE, *diagrams, "--distance", "sliced", "-o", "out.json"], diagrams, of_library=True)
+    yield Command([DISTANCE, *diagrams, "--distance", "wasserstein", "--error", "0.1", "-o", "out.json"], diagrams)
+
+
+def commands():
+    yield from map(Command, of_examples())
+    yield from of_samples()
+    yield from of_random_inputs(40)
+    yield from of_rounded_values()
