@@ -171,31 +171,28 @@ LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_grap
   constexpr std::uint8_t of_one = 1, of_both = 2;
   std::size_t count = 0;
   const bool touches = with_lists([&](const auto& lists) {
-    auto a = lists[e.u], b = lists[e.v];
-    if (a.size() < b.size()) std::swap(a, b);
-    vertices_.resize(b.size() + 1);
+    auto few = lists[e.u], many = lists[e.v];
+    if (many.size() < few.size()) std::swap(few, many);
     // Who has many neighbours has many edges, too: all are not read for each of them.
-    constexpr std::size_t many_times = 32;
-    const bool is_hub = a.size() / many_times > b.size();
+    constexpr std::size_t times = 32;
+    const bool is_hub = many.size() / times > few.size();
+    vertices_.resize(few.size() + 1);
     if (is_hub) {
-      for (const Vertex w : b) {
-        if (!std::ranges::binary_search(a, w)) continue;
+      for (const Vertex w : few) {
+        if (!std::ranges::binary_search(many, w)) continue;
         vertices_[count++] = w;
         marks_[w] = of_both;
       }
     } else {
-      for (const Vertex w : a) marks_[w] = of_one;
-      for (const Vertex w : b) {
+      for (const Vertex w : few) marks_[w] = of_one;
+      for (const Vertex w : many) {
         vertices_[count] = w;
         count += marks_[w];
         marks_[w] *= of_both;
       }
     }
     const bool found = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
-    if (is_hub)
-      for (std::size_t i = 0; i < count; ++i) marks_[vertices_[i]] = 0;
-    else
-      for (const Vertex w : a) marks_[w] = 0;
+    for (const Vertex w : few) marks_[w] = 0;
     return found;
   });
   vertices_.resize(count);
