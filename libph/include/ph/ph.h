@@ -97,7 +97,8 @@ typedef struct ph_bar {
 typedef struct ph_barcode ph_barcode;
 
 /** The Vietoris-Rips filtration of points: point i, coordinate k is
- * data[i * row_stride + k * column_stride]. Row after row: strides `columns` and 1.
+ * data[i * row_stride + k * column_stride]. Row after row: strides `columns` and 1. Of equal points
+ * the first stands for all, unless bars of length 0 are asked for (min_persistence < 0).
  * @param options NULL: the defaults. @param out set on PH_OK only. */
 PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns,
                                 int64_t row_stride, int64_t column_stride,
