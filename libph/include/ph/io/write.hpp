@@ -28,6 +28,29 @@ enum class BarcodeFormat {
   none,    ///< nothing
 };
 
+// Outside of BarcodeInfo, where they are named: Clang does not let std::optional make an object
+// whose members have initialisers while the class around it is not complete.
+
+/// How points were chosen.
+struct BarcodeSubsample {
+  Index points = 0, of = 0;
+  double covering_radius = 0;
+};
+
+/// The voxels that points became.
+struct BarcodeVoxelGrid {
+  double voxel = 0;           ///< edge
+  std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
+  std::string value;          ///< "distance", "occupancy" or "density"
+};
+
+/// What the values of an alpha complex are.
+struct BarcodeAlphaValues {
+  bool squared = false;        ///< values are squares of radii
+  std::vector<double> period;  ///< of each axis, 0: it does not close up; empty: none does
+  std::vector<Index> hidden;   ///< points that have no part in it
+};
+
 /// Where a barcode came from: what the JSON format says beside the bars. Empty fields are left out;
 /// without a complex so are the field of coefficients, the dimension and the threshold.
 struct BarcodeInfo {
@@ -41,24 +64,13 @@ struct BarcodeInfo {
   /// Where vertices enter late: why and how, "dtm 5, exponent 1".
   std::string vertex_weights;
   /// Of a greedy permutation of the points; see ph/greedy_permutation.hpp.
-  struct Subsample {
-    Index points = 0, of = 0;
-    double covering_radius = 0;
-  };
+  using Subsample = BarcodeSubsample;
   std::optional<Subsample> subsample;
   /// Where points were made an image of; see ph/voxel_image.hpp.
-  struct VoxelGrid {
-    double voxel = 0;           ///< edge
-    std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
-    std::string value;          ///< "distance", "occupancy" or "density"
-  };
+  using VoxelGrid = BarcodeVoxelGrid;
   std::optional<VoxelGrid> voxels;
   /// Of an alpha complex, or another of the Delaunay triangulation.
-  struct AlphaValues {
-    bool squared = false;        ///< values are squares of radii
-    std::vector<double> period;  ///< of each axis, 0: it does not close up; empty: none does
-    std::vector<Index> hidden;   ///< points that have no part in it
-  };
+  using AlphaValues = BarcodeAlphaValues;
   std::optional<AlphaValues> alpha;
   bool superlevel = false;              ///< values are minus those of the image
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
