@@ -66,7 +66,7 @@ class RipsRecipe final : public Recipe {
     std::optional<double> approximation;
     std::optional<bool> merge_equal_points;  ///< none: where it may
     Device device = Device::cpu;
-    std::vector<Index> ids;                  ///< of the points; empty: their numbers
+    std::vector<Index> ids;  ///< of the points; empty: their numbers
   };
   RipsRecipe(std::shared_ptr<const MetricSpace> space, Choices choices)
       : space_(std::move(space)), choices_(std::move(choices)) {}

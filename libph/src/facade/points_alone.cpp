@@ -12,8 +12,8 @@
 namespace ph {
 namespace {
 
-// Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time. In R^4 it
-// is their memory that decides.
+// Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time. In R^4
+// it is their memory that decides.
 constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by coordinates
 
 /// How many edges there are for each point, about, of a sample of pairs.

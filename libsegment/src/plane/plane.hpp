@@ -58,8 +58,8 @@ struct Cleared {
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin);
 
-/// The share of all points of a cloud, holes aside, that lie behind a plane and beyond the margin; of
-/// a large cloud, by one point in some.
+/// The share of all points of a cloud, holes aside, that lie behind a plane and beyond the margin;
+/// of a large cloud, by one point in some.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
 
 /// The cosine of the angle between two planes, below zero if they face each other.

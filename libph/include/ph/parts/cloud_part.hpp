@@ -26,8 +26,8 @@ struct CloudPartOptions {
   Index sample = 0;
 };
 
-/// What parts of a cloud will take, foreseen from the numbers of points and blocks. The points, which
-/// may be a mapped file, are not counted.
+/// What parts of a cloud will take, foreseen from the numbers of points and blocks. The points,
+/// which may be a mapped file, are not counted.
 struct CloudPartForecast {
   /// Bytes, at least and at most.
   struct Bytes {
