@@ -28,6 +28,7 @@ REFUSED = [
     (ph.rips, SQUARE, "subsample_radius", [-1, NAN, INF, "x"]),
     (ph.rips, SQUARE, "approximation", [0, -1, NAN, INF, "x"]),
     (ph.rips, SQUARE, "merge_equal_points", [1, "yes", []]),
+    (ph.rips, SQUARE, "device", ["cuda", "GPU", None, 0]),
     (ph.rips, SQUARE, "collapse", ["x", None, 1, 0, []]),
     (ph.rips, SQUARE, "representatives", ["x", True, 1, "voxels", ["cycles"]]),
     (ph.rips, SQUARE, "loops", ["tight", "plain", "x"]),

@@ -267,6 +267,25 @@ class Options(ProgramTest):
                           "--output-format", "json")
         self.assertEqual(json.loads(run.stdout)["bars"][0]["birth_cell"], {"vertices": [3]})
 
+    def test_a_gpu_gives_the_same_or_is_said_to_be_missing(self):
+        self.write("line.txt", "0\n1\n3\n")
+        same = self.expect(0, "line.txt", "--max-dim", "0", "--device", "cpu", "--quiet")
+        self.assertEqual(same.stdout, "dim,birth,death\n0,0,1\n0,0,2\n0,0,inf\n")
+        run = self.run_program("line.txt", "--max-dim", "0", "--device", "gpu", "--quiet")
+        if run.returncode == 0:
+            self.assertEqual(run.stdout, same.stdout)
+        else:
+            self.assertEqual(run.stdout, "")
+            expected = {69: "device gpu: not built in: it needs CUDA", 75: "device gpu: CUDA says"}
+            self.assertIn(expected[run.returncode], run.stderr)
+        for options in ([], ["--max-dim", "0", "--metric", "manhattan"],
+                        ["--max-dim", "0", "--check"], ["--max-dim", "0", "--dtm", "2"]):
+            run = self.expect(64, "line.txt", "--device", "gpu", *options)
+            self.assertIn("device gpu: computes components (H0) of points", run.stderr)
+        self.write("matrix.txt", "0 1\n1 0\n")
+        run = self.expect(64, "matrix.txt", "--format", "distance", "--device", "gpu")
+        self.assertIn("--device: makes sense for Rips complexes of points only", run.stderr)
+
     def test_approximate(self):
         generator = random.Random(4)
         self.write("cloud.txt", "".join(f"{generator.random()} {generator.random()}\n"

@@ -55,6 +55,8 @@ BARCODE = [
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
             name], "--engine: found " + name) for name in ("standard",)),
     (49, ["--collapse", "maybe"], "--collapse"),
+    (49, ["--device", "cuda"], "--device"),
+    (49, ["--device", "gpu", "--max-dim", "1"], "device gpu"),
     (49, ["--collapse", "on", "--min-persistence=-1"], "--collapse"),
     (49, ["--collapse", "on", "--representatives", "cocycles", "--output-format", "json"],
      "--collapse"),
