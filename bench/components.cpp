@@ -78,7 +78,8 @@ void run(const char* name, Shape shape, ph::Index n, ph::Index d, const ph::RunC
     ph::for_each_piece("nearest", leaves, 512, context, [&](std::size_t begin, std::size_t end) {
       std::array<ph::NeighbourSearch::Neighbour, ph::KdTree::kLeafSize> found;
       for (std::size_t leaf = begin; leaf < end; ++leaf)
-        search->nearest(static_cast<ph::KdTree::Node>(leaves + leaf), 1, ph::kInfinity, found);
+        search->nearest(static_cast<ph::KdTree::Node>(leaves + leaf), 1, ph::kInfinity,
+                        ph::NeighbourSearch::Ties::by_row, found);
     });
   });
   std::optional<ph::Rips> rips;
