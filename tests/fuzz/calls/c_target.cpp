@@ -104,9 +104,9 @@ RipsOptions rips_of(const ph_options& o) {
   return rips;
 }
 
-/// Whether no C++ call could even be written down.
+/// Whether C refuses what no C++ call could even say, or what gives no bars in silence.
 bool names_nothing(const ph_options& o, bool of_points) {
-  return o.max_dim < -1 || o.threads < 0 ||
+  return o.max_dim < -1 || o.threads < 0 || (o.max_dim >= 0 && o.min_dim > o.max_dim) ||
          (of_points ? o.distance < 0 || o.distance > PH_HAMMING
                     : o.construction < 0 || o.construction > PH_CELLS);
 }
