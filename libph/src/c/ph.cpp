@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 
@@ -194,11 +195,7 @@ RipsOptions rips_options(const ph_options& given) {
 }
 
 Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
-  // Said before they are read: copies would be merged first.
-  if (points.rows() >= Index{UINT32_MAX})
-    throw Error(
-        ErrorKind::resource,
-        fmt::format("a Rips filtration holds fewer than 2^32 - 1 points, found {}", points.rows()));
+  RipsGraph::check_size(points.rows());  // before any is looked at
   RipsOptions rips = rips_options(options);
   const Options task = task_of(options);
   rips.only_components = task.max_dim == 0;

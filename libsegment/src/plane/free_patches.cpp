@@ -16,10 +16,11 @@ namespace {
 class SquaredPaper {
  public:
   static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
+  /// Points that follow each other over one square.
   struct Run {
     std::uint32_t square;
-    std::uint64_t parts;
-    std::size_t points;
+    std::uint64_t parts;  ///< a bit for each that they are over
+    std::size_t points;   ///< how many
   };
 
   SquaredPaper(const CloudView& cloud, const Plane& plane, double side) : cloud_(cloud) {
@@ -31,8 +32,7 @@ class SquaredPaper {
     constexpr double middle = kColumns * kParts / 2;
     origin_ = Eigen::Array2d(middle - across.dot(eye), middle - along.dot(eye));
   }
-  /// Points in the order of an image stay over a square for long: one call of `use` for each run of
-  /// points over the same square, with a bit for each part that they are over.
+  /// Calls `use` for each run: points in the order of an image stay over a square for long.
   template <class Use>
   void for_each_run(const std::vector<Index>& points, Use&& use) const {
     Run run{};
@@ -74,7 +74,7 @@ class SquaredPaper {
   }
 
   const CloudView& cloud_;
-  std::array<Eigen::Array2d, 3> steps_;  // to the next point along an axis of the cloud
+  std::array<Eigen::Array2d, 3> steps_;  // columns and rows a metre along each axis of the cloud
   Eigen::Array2d origin_;
 };
 
