@@ -27,7 +27,7 @@ packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev libc
           debootstrap autopkgtest busybox-static)
 lint=(clang-format-14 clang-tidy-19 cppcheck libgtest-dev libcgal-dev)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
-coverage=(gcovr libgtest-dev)
+coverage=(gcovr libgtest-dev libcgal-dev)
 determinism=(clang-19 libcgal-dev qemu-user-static)
 # Valgrind wants the symbols of the C library; libstdc++'s debug mode wants fmt and GoogleTest compiled along.
 sanitize=(clang-19 libclang-rt-19-dev valgrind libc6-dbg googletest libgtest-dev libcgal-dev)
