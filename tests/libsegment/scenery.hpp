@@ -27,7 +27,7 @@ inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) 
                   {"z", FieldType::float32, 1, 8}};
   cloud.stride = 12;
   cloud.data.resize(xyz.size() * sizeof(float));
-  std::memcpy(cloud.data.data(), xyz.data(), cloud.data.size());
+  if (!xyz.empty()) std::memcpy(cloud.data.data(), xyz.data(), cloud.data.size());
   return cloud;
 }
 

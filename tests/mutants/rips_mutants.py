@@ -8,6 +8,10 @@ ANNOTATIONS = "libph/src/rips/annotations/annotations.hpp"
 DEAD_GENERATORS = "libph/src/rips/annotations/dead_generators.hpp"
 EXTENSIONS = "libph/src/rips/surfaces/link_extensions.hpp"
 SURFACES = "libph/src/rips/surfaces/link_surfaces.hpp"
+PRIMITIVES = "libph/src/rips/volumes/link_primitives.hpp"
+PRIMITIVES_IN_ORDER = "libph/src/rips/volumes/link_primitives.ipp"
+VOLUMES = "libph/src/rips/volumes/link_volumes.hpp"
+TETRAHEDRA = "libph/src/rips/volumes/tetrahedron_cochain.hpp"
 TRIANGLES = "libph/src/rips/surfaces/triangle_cochain.hpp"
 COFACETS = "libph/include/ph/detail/rips/rips_cofacets.ipp"
 GROUPS = "libph/include/ph/detail/rips/rips_groups.hpp"
@@ -117,7 +121,7 @@ MUTANTS = [
      "neighbours, field_, words)) return false;", "neighbours, field_, words)) continue;",
      ["conformance_random_tests"]),
     ("surfaces: hubs see all of a link", "libph/src/rips/sweep/link_cover.cpp",
-     "left |= rest_[k] = component[k] & ~reached_[k];", "rest_[k] = 0;", ["conformance_random_tests"]),
+     "left |= rest_[k] = set[k] & ~reached_[k];", "rest_[k] = 0;", ["conformance_random_tests"]),
     ("surfaces: any vertex is an apex", "libph/src/rips/sweep/link_components.cpp",
      "if (missed == bits::kNone) {", "if (true) {", ["conformance_random_tests"]),
     ("surfaces: cones forget one end", EXTENSIONS,
@@ -136,6 +140,42 @@ MUTANTS = [
      "a < b ? value : shared.field.negate(value)", "value", ["conformance_random_tests"]),
     ("surfaces: stars are written with one sign", TRIANGLES,
      "v, w < u ? a : opposite", "v, a", ["conformance_random_tests"]),
+    ("volumes: one end is forgotten", VOLUMES,
+     "if (is_at_v) add_terms(s.gamma, cocycles_.terms(*j++), field_.from_int(-1));",
+     "if (is_at_v) j++;", ["link_volumes_tests"]),
+    ("volumes: both ends with one sign", VOLUMES,
+     "cocycles_.terms(*j++), field_.from_int(-1)", "cocycles_.terms(*j++), field_.from_int(1)",
+     ["link_volumes_tests"]),
+    ("volumes: loops that were given up are born", VOLUMES,
+     "if (s->is_loop() && s->is_active)", "if (s->is_loop())", ["link_volumes_tests"]),
+    ("volumes: a dead class goes on", VOLUMES,
+     "for (const Generator h : dead_) cocycles_.erase(h);", "", ["link_volumes_tests"]),
+    ("volumes: others are not corrected by the dead", VOLUMES,
+     "cocycles_.add(s.generator, other.generator, scale);", "", ["link_volumes_tests"]),
+    ("volumes: the eldest dies", PRIMITIVES_IN_ORDER,
+     "by->generator < s->generator", "by->generator > s->generator", ["link_volumes_tests"]),
+    ("volumes: a cone with one sign", PRIMITIVES,
+     "field_.from_int(hub < x ? 1 : -1)", "field_.from_int(1)", ["link_volumes_tests"]),
+    ("volumes: a link of a vertex is one part", PRIMITIVES,
+     "if (i > 0) loop_vertices_.resize", "if (false) loop_vertices_.resize",
+     ["link_volumes_tests"]),
+    ("volumes: parts in order give no loops", PRIMITIVES_IN_ORDER,
+     "if (!is_first) loop_vertices_.insert", "if (false) loop_vertices_.insert",
+     ["link_volumes_tests"]),
+    ("volumes: every potential fits", PRIMITIVES,
+     "if (extend_to(z, y, joined)) settle_mismatches();", "extend_to(z, y, joined);",
+     ["link_volumes_tests"]),
+    ("volumes: loops are not used up", PRIMITIVES,
+     "by.is_active = by.is_mismatched = false;", "by.is_mismatched = false;",
+     ["link_volumes_tests"]),
+    ("volumes: gamma of the others stays", PRIMITIVES,
+     "s->gamma.add(by.gamma, scale, words);", "", ["link_volumes_tests"]),
+    ("volumes: a star with one sign", TETRAHEDRA,
+     "is_odd ? field.negate(value) : value", "value", ["link_volumes_tests"]),
+    ("volumes: loops keep what kills H2", SURFACES,
+     "extensions_.add_gamma(*x.loop, y, e, scale);", "{}", ["link_volumes_tests"]),
+    ("volumes: no births beside deaths of H2", SURFACES,
+     "births_above_.push_back({tetrahedron, dying->loop});", "", ["link_volumes_tests"]),
     ("weights: edges forget births", WEIGHTS, "double value = std::max(born, distance);",
      "double value = distance;", ["weighted_rips_tests"]),
     ("weights: the ball of the elder is forgotten", WEIGHTS, "distance + (b / 2 + c / 2)",

@@ -191,7 +191,7 @@ def rips(rng):
     prime, of_field = field(rng)
     filtration = oracle.flag_filtration(births, lambda i, j: entry[i][j], max_dim, threshold)
     engines = ["standard", "twist", "cohomology"]
-    engines += ["union-find"] if max_dim == 0 else ["edge-links"] if max_dim <= 2 else []
+    engines += ["union-find"] if max_dim == 0 else ["edge-links"] if max_dim <= 3 else []
     if rng.random() < 0.3:
         options += ["--collapse", rng.choice(["on", "off", "auto"])]
     if kind == "rips of points" and metric == "euclidean" and plain and max_dim == 1:

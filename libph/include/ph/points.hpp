@@ -44,7 +44,7 @@ class PointsView {
       : data_(data),
         rows_(rows),
         columns_(columns),
-        row_stride_(row_stride),
+        row_stride_(columns > 0 ? row_stride : 0),  // data may be null: nothing is beside it
         column_stride_(column_stride) {}
   template <MatrixOfDoubles M>
   constexpr PointsView(const M& matrix)

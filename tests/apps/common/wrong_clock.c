@@ -2,7 +2,7 @@
 /* Preloaded into a program: from the n-th call on (PH_CLOCK_FROM=n) the clocks are wrong.
    PH_CLOCK says how:
      back    each call is an hour before the one that came last
-     ahead   each call is a hundred years after the one that came last, and once they end, at the end
+     ahead   the first call is a hundred years ahead, the others two hundred
      frozen  each call tells the same time
      fails   each call fails and leaves the time alone
      leaps   one of the others, by chance, call by call */

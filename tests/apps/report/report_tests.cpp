@@ -94,7 +94,8 @@ std::vector<T> numbers_of(const std::string& element, std::size_t count, std::si
   if (count > 0) std::memcpy(numbers.data(), unplaned.data(), unplaned.size());
   if (element.find("delta") < begin)
     for (std::size_t i = columns; i < count; ++i)
-      numbers[i] = static_cast<T>(numbers[i] + numbers[i - columns]);
+      numbers[i] = static_cast<T>(static_cast<std::uint64_t>(numbers[i]) +
+                                  static_cast<std::uint64_t>(numbers[i - columns]));
   return numbers;
 }
 

@@ -119,8 +119,9 @@ TEST(Estimates, CountTheCells) {
     }
   }
   const Rips full(DistanceMatrix(6, std::vector<double>(15, 1.0)));
-  EXPECT_EQ(estimate(full, {.max_dim = 3, .collapse = Collapse::off}).cells,
-            (std::vector<double>{6, 15, 20, 15}));
+  EXPECT_EQ(
+      estimate(full, {.max_dim = 3, .engine = Engine::cohomology, .collapse = Collapse::off}).cells,
+      (std::vector<double>{6, 15, 20, 15}));
 }
 
 TEST(Estimates, SampleTheCellsWhereTheyAreMany) {
@@ -178,7 +179,8 @@ TEST(Estimates, NameTheEngineThatWillRun) {
   const Rips rips(circle(6));
   EXPECT_EQ(estimate(rips).engine, Engine::edge_links);
   EXPECT_EQ(estimate(rips, {.max_dim = 2}).engine, Engine::edge_links);
-  EXPECT_EQ(estimate(rips, {.max_dim = 3}).engine, Engine::cohomology);
+  EXPECT_EQ(estimate(rips, {.max_dim = 3}).engine, Engine::edge_links);
+  EXPECT_EQ(estimate(rips, {.max_dim = 4}).engine, Engine::cohomology);
   EXPECT_EQ(estimate(rips).max_dim, 1);
   EXPECT_EQ(estimate(rips, {.max_dim = 0}).engine, Engine::union_find);
   EXPECT_EQ(estimate(rips, {.engine = Engine::standard}).engine, Engine::standard);

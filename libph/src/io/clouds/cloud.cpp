@@ -167,10 +167,9 @@ void Cloud::set_uint32(std::size_t field, const std::vector<std::uint32_t>& valu
       values.size() != static_cast<std::size_t>(size())) {
     throw Error(ErrorKind::internal, "cloud: set_uint32 needs a uint32 field and a value a point");
   }
-  std::byte* to = data.data() + fields[field].offset;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::memcpy(to + i * stride, &values[i], sizeof(std::uint32_t));
-  }
+  const std::size_t offset = fields[field].offset;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::memcpy(data.data() + offset + i * stride, &values[i], sizeof(std::uint32_t));
 }
 
 Points points_of(const Cloud& cloud) {

@@ -370,8 +370,8 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
   const auto [sum, is_new] = sums_.try_emplace(pair);
   if (is_new) {
     scratch_.assign(vectors_[a.id].begin(), vectors_[a.id].end());
-    add_sorted_terms<K>(scratch_, vectors_[b.id], field_.from_int(b.negated ? -1 : 1), field_,
-                        merged_);
+    add_sorted_terms(scratch_, vectors_[b.id], field_.from_int(b.negated ? -1 : 1), field_,
+                     merged_);
     *sum = intern();
   }
   return flipped ? -*sum : *sum;

@@ -47,7 +47,7 @@ class FormalRelations {
         store(relation);
         return youngest.cell;
       }
-      add_sorted_terms<K>(relation, other, field_.negate(youngest.coefficient()), field_, merged_);
+      add_sorted_terms(relation, other, field_.negate(youngest.coefficient()), field_, merged_);
     }
     return std::nullopt;
   }

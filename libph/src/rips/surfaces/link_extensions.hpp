@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "ph/detail/core/flag_filtration.hpp"
+#include "rips/annotations/link_cochains.hpp"
+#include "rips/annotations/living_cocycles.hpp"
 #include "rips/annotations/vertex_functions.hpp"
-#include "rips/surfaces/triangle_cocycles.hpp"
+#include "rips/surfaces/triangle_cochain.hpp"
 #include "rips/sweep/link_cover.hpp"
 #include "rips/sweep/link_forest.hpp"
 #include "rips/sweep/link_graph.hpp"
@@ -25,15 +27,17 @@ class LinkExtensions {
   using Vertex = std::uint32_t;
   using Element = typename K::Element;
   using Word = bits::Word;
-  using Cocycles = TriangleCocycles<K>;
-  using Cochain = typename Cocycles::Cochain;
+  using Cochain = TriangleCochain<K>;
+  using Cocycles = LivingCocycles<Cochain>;
   using Generator = typename Cocycles::Generator;
   using Function = VertexFunction<K>;
   using Unit = typename Function::Unit;
 
   struct Extension {
     Generator generator;
-    const Cochain* cocycle;
+    const Cochain* cocycle;  ///< null: of a loop
+    /// A cocycle on the link that stands for gamma and belongs to no class.
+    LinkPairs<K>* loop = nullptr;
     /// The lists of u and v, unless the cocycle is dense.
     typename Cochain::Terms at_u = {}, at_v = {};
     typename RowPool<K>::Id potential = 0;
@@ -56,8 +60,10 @@ class LinkExtensions {
         gamma_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
-  /// By ascending generator.
+  /// Loops, then classes by ascending generator.
   std::pmr::vector<Extension>& all() { return all_; }
+  /// Cocycles of the link that no potential fits. They outlive the edge.
+  void add_loops(std::span<LinkPairs<K>* const> loops);
   void clear();
   void remove(Extension* x);
 
@@ -71,6 +77,8 @@ class LinkExtensions {
 
   Unit* potential(const Extension& x) { return rows_[x.potential]; }
   Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
+  /// loop += scale * gamma.
+  void add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e, Element scale);
   /// Extends a class to the next vertex of a forest: the first edge to each part decides.
   /// @return whether another edge asks for something else; then see `mismatch`.
   bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
@@ -110,6 +118,28 @@ void LinkExtensions<K>::remove(Extension* x) {
   rows_.give(x->potential);
   if (x->is_obstructed) rows_.give(x->mismatch);
   all_.erase(all_.begin() + (x - all_.data()));
+}
+
+template <Field K>
+void LinkExtensions<K>::add_loops(std::span<LinkPairs<K>* const> loops) {
+  for (LinkPairs<K>* loop : loops) {
+    Extension x{.generator = 0, .cocycle = nullptr, .loop = loop};
+    x.potential = rows_.take();
+    x.mismatch = rows_.take();
+    x.is_obstructed = true;
+    all_.insert(all_.begin(), x);
+  }
+}
+
+template <Field K>
+void LinkExtensions<K>::add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e,
+                                  Element scale) {
+  const std::size_t words = graph_.words();
+  if (x.loop != nullptr) return loop.add(*x.loop, scale, words);
+  bits::for_each(graph_.link(), 0, words, [&](std::size_t y) {  // gamma(y,.) = -gamma(.,y)
+    if (find_gamma(x, e, static_cast<Vertex>(y), graph_.link(), words))
+      loop.add_half(static_cast<Vertex>(y), gamma_.data(), field_.negate(scale), words);
+  });
 }
 
 template <Field K>
@@ -154,7 +184,7 @@ template <Field K>
 void LinkExtensions<K>::refresh(const FlagEdge& e) {
   terms_.clear();
   for (Extension& x : all_) {
-    if (!x.is_obstructed) continue;
+    if (!x.is_obstructed || x.loop != nullptr) continue;
     x.at_u = x.cocycle->terms(e.u, cocycles_.shared());
     x.at_v = x.cocycle->terms(e.v, cocycles_.shared());
     collect_terms(x);
@@ -231,7 +261,12 @@ bool LinkExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex
     if (!is_clear) std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
     is_clear = true;
   };
-  if (x.cocycle->is_dense()) {
+  if (x.loop != nullptr) {
+    const Unit* row = x.loop->row(y);
+    if (row == nullptr) return false;
+    clear();
+    Function::add(gamma_.data(), row, field_.from_int(-1), field_, words);
+  } else if (x.cocycle->is_dense()) {
     const Vertex own = graph_.global(y);
     for (const bool at_v : {false, true}) {
       const Vertex end = at_v ? e.v : e.u;

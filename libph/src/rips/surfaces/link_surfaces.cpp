@@ -5,8 +5,8 @@ namespace ph {
 
 template class TriangleCochain<Z2>;
 template class TriangleCochain<Zp>;
-template class TriangleCocycles<Z2>;
-template class TriangleCocycles<Zp>;
+template class LivingCocycles<TriangleCochain<Z2>>;
+template class LivingCocycles<TriangleCochain<Zp>>;
 template class LinkSurfaces<Z2>;
 template class LinkSurfaces<Zp>;
 

@@ -11,7 +11,6 @@
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/surfaces/link_extensions.hpp"
-#include "rips/surfaces/triangle_cocycles.hpp"
 #include "rips/sweep/link_components.hpp"
 #include "rips/sweep/link_cover.hpp"
 #include "rips/sweep/link_forest.hpp"
@@ -45,26 +44,39 @@ class LinkSurfaces {
         field_(field),
         wanted_(wanted),
         observer_(observer),
-        cocycles_(graph.vertex_count(), field, wanted.tuning.most_terms, context),
+        cocycles_(graph.vertex_count(), context, field, graph.vertex_count(),
+                  wanted.tuning.most_terms * graph.vertex_count()),
         births_(&context.memory),
         cover_(graph, &context.memory),
         forest_(graph, &context.memory),
         extensions_(cocycles_, graph, field, &context.memory),
+        births_above_(&context.memory),
         partners_(&context.memory),
         star_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, &context.memory),
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
+  /// A cocycle of a link that kills no class of H2, and the first tetrahedron where it is none: a
+  /// class of H3 is born.
+  struct BirthAbove {
+    typename Observer::Tetrahedron birth;
+    LinkPairs<K>* loop;
+  };
+
   /// Extends the living classes to the star of an edge, the one of the graph's link; kills those
   /// that cannot be.
-  void extend(Position position, const FlagEdge& e, LinkComponents& components);
+  /// @param loops a basis of H^1 of the link, if births of H3 are wanted; others are added to them.
+  void extend(Position position, const FlagEdge& e, LinkComponents& components,
+              std::span<LinkPairs<K>* const> loops = {});
+  /// Those of the last edge.
+  std::span<const BirthAbove> births_above() const { return births_above_; }
   /// A class is born with a component of an edge's link.
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports what never dies.
   void finish();
 
  private:
-  using Cocycles = TriangleCocycles<K>;
+  using Cocycles = typename LinkExtensions<K>::Cocycles;
   using Generator = typename Cocycles::Generator;
   using Extension = typename LinkExtensions<K>::Extension;
   using Function = VertexFunction<K>;
@@ -81,7 +93,7 @@ class LinkSurfaces {
   Element mismatch_of(const Extension& x, Vertex w);
   /// Adds younger classes to those mismatched at w, so that only the youngest of them, the dying
   /// one, remains so. @param words of rows that are in use.
-  void correct_others(std::size_t dying, Vertex w, std::size_t words);
+  void correct_others(std::size_t dying, const FlagEdge& e, Vertex w, std::size_t words);
   /// @param tetrahedron joins two parts of the link, of which one has these vertices.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
@@ -102,6 +114,7 @@ class LinkSurfaces {
   LinkCover cover_;
   LinkForest forest_;
   LinkExtensions<K> extensions_;
+  std::pmr::vector<BirthAbove> births_above_;
   std::pmr::vector<std::size_t> partners_;  // by extension: what is to be added to it
   std::pmr::vector<Unit> star_;             // on the link
   std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
@@ -140,15 +153,19 @@ void LinkSurfaces<K>::finish() {
 }
 
 template <Field K>
-void LinkSurfaces<K>::extend(Position position, const FlagEdge& e, LinkComponents& components) {
+void LinkSurfaces<K>::extend(Position position, const FlagEdge& e, LinkComponents& components,
+                             std::span<LinkPairs<K>* const> loops) {
+  births_above_.clear();
   const bool is_obstructed = extensions_.find(e, [&]() -> const LinkCover& {
     if (!components.has_apex() && components.count() == 1) components.find_apex(e);
     cover_.find(components);
     return cover_;
   });
-  if (is_obstructed) sweep(position, e, false);
+  extensions_.add_loops(loops);
+  if (is_obstructed || !loops.empty()) sweep(position, e, false);
   if (wanted_.zero_length) sweep(position, e, true);
-  for (const Extension& x : extensions_.all()) store(x, e, components);
+  for (const Extension& x : extensions_.all())
+    if (x.loop == nullptr) store(x, e, components);
   extensions_.clear();
 }
 
@@ -192,13 +209,20 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
     const auto dying = std::prev(std::ranges::find_if(all.rbegin(), all.rend(), [&](const auto& x) {
                                    return !field_.is_zero(mismatch_of(x, w));
                                  }).base());
-    const Generator h = dying->generator;
-    find_cocycle(h);
-    if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
-    observer_.on_death(births_[h], {position, graph_.global(y), graph_.global(w)}, cocycle_);
-    births_[h].edge = kDead;
-    correct_others(static_cast<std::size_t>(dying - all.begin()), w, words);
-    cocycles_.erase(h);
+    const typename Observer::Tetrahedron tetrahedron{position, graph_.global(y), graph_.global(w)};
+    const auto place = static_cast<std::size_t>(dying - all.begin());
+    if (dying->loop != nullptr) {
+      births_above_.push_back({tetrahedron, dying->loop});
+      correct_others(place, e, w, words);
+    } else {
+      const Generator h = dying->generator;
+      find_cocycle(h);
+      if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
+      observer_.on_death(births_[h], tetrahedron, cocycle_);
+      births_[h].edge = kDead;
+      correct_others(place, e, w, words);
+      cocycles_.erase(h);
+    }
     extensions_.remove(&*dying);
     extensions_.refresh(e);
   }
@@ -206,14 +230,17 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 }
 
 template <Field K>
-void LinkSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t words) {
-  // Each of the others takes the smallest of the younger ones, all as they are now.
+void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
+                                     std::size_t words) {
+  // Each of the others takes the smallest of the younger ones, all as they are now. Loops come
+  // before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;
   for (std::size_t i = dying; i-- > 0;) {
     partners_[i] = partner;
     const auto size_of = [&](std::size_t k) { return cocycles_[all[k].generator].size(); };
+    if (all[i].loop != nullptr) continue;
     if (!field_.is_zero(mismatch_of(all[i], w)) && size_of(i) < size_of(partner)) partner = i;
   }
   for (std::size_t i = 0; i < dying; ++i) {
@@ -221,7 +248,10 @@ void LinkSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t wo
     const Element a = mismatch_of(x, w);
     if (field_.is_zero(a)) continue;
     const Element scale = field_.negate(field_.multiply(a, field_.inverse(mismatch_of(y, w))));
-    cocycles_.add(x.generator, y.generator, scale);
+    if (x.loop != nullptr)
+      extensions_.add_gamma(*x.loop, y, e, scale);
+    else
+      cocycles_.add(x.generator, y.generator, scale);
     Function::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
     Function::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
     x.is_flat = false;

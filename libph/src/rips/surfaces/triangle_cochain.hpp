@@ -7,12 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/list_pool.hpp"
+#include "rips/annotations/cochain_lists.hpp"
 #include "rips/annotations/vertex_functions.hpp"
 #include "rips/sweep/link_graph.hpp"
-#include "rips/sweep/sorted_terms.hpp"
 
 namespace ph {
 
@@ -27,11 +25,11 @@ class TriangleCochain {
   using Function = VertexFunction<K>;
   using Unit = typename Function::Unit;
   using Word = bits::Word;
-  /// In the list of a vertex a: a pair of other vertices, named by `pair`, with phi(a, smaller,
-  /// larger).
-  using Term = Entry<std::uint32_t, K>;
-  using Terms = std::span<const Term>;
-  using ListId = typename ListPool<Term>::Id;
+  /// The other two vertices of a triangle are named by `pair`.
+  using Lists = CochainLists<K, std::uint32_t>;
+  using Term = typename Lists::Term;
+  using Terms = typename Lists::Terms;
+  using ListId = typename Lists::ListId;
 
   /// Pairs ascend by the larger vertex, then by the smaller one.
   static std::uint32_t pair(Vertex larger, Vertex smaller) { return larger << 16 | smaller; }
@@ -41,35 +39,26 @@ class TriangleCochain {
   static constexpr std::size_t kMostVertices = 1 << 16;
 
   /// What all cochains of a complex share.
-  struct Shared {
+  struct Shared : Lists::Shared {
     Shared(const K& field_, std::size_t vertices, std::size_t most_terms_,
            std::pmr::memory_resource* memory)
-        : field(field_),
+        : Lists::Shared(field_, memory),
           blocks((vertices + 63) / 64),
           most_terms(most_terms_ * Function::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
           rows(blocks, memory),
-          lists(memory),
-          merged(memory),
-          star(memory),
-          own(memory) {}
-    const K& field;
+          star(memory) {}
     std::size_t blocks;
     std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
     std::size_t living = 0;  // cochains in use
     RowPool<K> rows;
-    ListPool<Term> lists;
-    std::pmr::vector<Term> merged, star;
-    std::pmr::vector<ListId> own;  // lists that others are about to be added to
+    std::pmr::vector<Term> star;
   };
 
   explicit TriangleCochain(std::pmr::memory_resource* memory) : lists_(memory), at_(memory) {}
 
   bool is_dense() const { return !at_.empty(); }
   /// The list of a vertex, unless it is dense.
-  Terms terms(Vertex a, const Shared& shared) const {
-    const auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
-    return at != lists_.end() && at->vertex == a ? Terms(shared.lists[at->list]) : Terms();
-  }
+  Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
   /// Whether a triangle at a, the other two vertices in a link, may have a value; no false "no".
   /// @param terms those of a.
   bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
@@ -78,12 +67,12 @@ class TriangleCochain {
     return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
   }
   /// What it costs to add it to another one, more or less.
-  std::size_t size() const { return is_dense() ? row_count_ * at_.size() : term_count_; }
+  std::size_t size() const { return is_dense() ? row_count_ * at_.size() : lists_.term_count(); }
 
   /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices of triangles, perhaps,
   /// that were not, are no longer.
   template <class OnEnter, class OnLeave>
-  void add(const TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
+  void add(TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
   /// phi(u,v,w) += star(w) for all w; u > v, and no such triangle has a value yet.
   template <class OnEnter>
@@ -97,10 +86,6 @@ class TriangleCochain {
   void for_each_triangle(const Shared& shared, Visit&& visit) const;
 
  private:
-  struct ListAt {
-    Vertex vertex;
-    ListId list;
-  };
   /// The edges at a vertex that have a row.
   struct RowsAt {
     explicit RowsAt(std::pmr::memory_resource* memory) : present(memory), rows(memory) {}
@@ -129,20 +114,12 @@ class TriangleCochain {
     Function::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
                      shared.field);
   }
-  /// += scale * other, both in lists.
-  template <class OnEnter, class OnLeave>
-  void add_lists(const TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
-                 OnLeave&& on_leave);
-  /// phi(a,.,.) += scale * terms.
-  template <class OnEnter, class OnLeave>
-  void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
-                 OnLeave&& on_leave);
   /// Makes it dense if it is large.
   void adapt(Shared& shared) {
     // Rows of many cochains push each other out of the caches.
     constexpr std::size_t many = 16;
     const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
-    if (!is_dense() && term_count_ > most) make_dense(shared);
+    if (!is_dense() && lists_.term_count() > most) make_dense(shared);
   }
   void make_dense(Shared& shared);
   template <class OnEnter>
@@ -155,8 +132,7 @@ class TriangleCochain {
   template <class Visit>
   void for_each_row(Visit&& visit) const;
 
-  std::pmr::vector<ListAt> lists_;  // ascending; empty if it is dense
-  std::size_t term_count_ = 0;
+  Lists lists_;                  // empty if it is dense
   std::pmr::vector<RowsAt> at_;  // by vertex; empty unless it is dense
   std::size_t row_count_ = 0;
 };
@@ -192,83 +168,24 @@ void TriangleCochain<K>::make_row(Vertex a, Vertex b, Shared& shared) {
 
 template <Field K>
 void TriangleCochain<K>::make_dense(Shared& shared) {
-  const auto memory = lists_.get_allocator().resource();
+  const auto memory = at_.get_allocator().resource();
   at_.reserve(64 * shared.blocks);
   for (std::size_t a = 0; a < 64 * shared.blocks; ++a) at_.emplace_back(memory);
-  for (const auto& [a, list] : lists_) {
+  for (const auto& [a, list, appended] : lists_.lists())
     for (const Term& t : shared.lists[list])
       add_to_row(smaller(t), larger(t), a, t.coefficient(), shared);
-    shared.lists.give(list);
-  }
-  std::pmr::vector<ListAt>(memory).swap(lists_);
+  lists_.clear(shared);
 }
 
 template <Field K>
 template <class OnEnter, class OnLeave>
-void TriangleCochain<K>::add_terms(Vertex a, Terms terms, Element scale, Shared& shared,
-                                   OnEnter&& on_enter, OnLeave&& on_leave) {
-  auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
-  if (at == lists_.end() || at->vertex != a) {
-    at = lists_.insert(at, {a, shared.lists.take()});
-    on_enter(a, at->list);
-  }
-  auto& list = shared.lists[at->list];
-  term_count_ -= list.size();
-  add_sorted_terms<K>(list, terms, scale, shared.field, shared.merged);
-  term_count_ += list.size();
-  if (!list.empty()) return;
-  shared.lists.give(at->list);
-  lists_.erase(at);
-  on_leave(a);
-}
-
-template <Field K>
-template <class OnEnter, class OnLeave>
-void TriangleCochain<K>::add_lists(const TriangleCochain& other, Element scale, Shared& shared,
-                                   OnEnter&& on_enter, OnLeave&& on_leave) {
-  // Lists are anywhere in memory: all are asked for before the first is waited for.
-  auto& lists = shared.lists;
-  auto& own = shared.own;
-  own.clear();
-  auto at = lists_.begin();
-  for (const auto& [a, list] : other.lists_) {
-    at = std::ranges::lower_bound(at, lists_.end(), a, {}, &ListAt::vertex);
-    if (at == lists_.end() || at->vertex != a) {
-      at = lists_.insert(at, {a, lists.take()});
-      on_enter(a, at->list);
-    }
-    own.push_back(at->list);
-    for (const ListId id : {list, at->list}) lists.prefetch(id);
-  }
-  for (std::size_t i = 0; i < own.size(); ++i)
-    for (const ListId id : {other.lists_[i].list, own[i]}) lists.prefetch_terms(id);
-  bool is_any_zero = false;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    auto& list = lists[own[i]];
-    term_count_ -= list.size();
-    add_sorted_terms<K>(list, Terms(lists[other.lists_[i].list]), scale, shared.field,
-                        shared.merged);
-    term_count_ += list.size();
-    is_any_zero |= list.empty();
-  }
-  if (!is_any_zero) return;
-  std::erase_if(lists_, [&](const ListAt& mine) {
-    if (!lists[mine.list].empty()) return false;
-    lists.give(mine.list);
-    on_leave(mine.vertex);
-    return true;
-  });
-}
-
-template <Field K>
-template <class OnEnter, class OnLeave>
-void TriangleCochain<K>::add(const TriangleCochain& other, Element scale, Shared& shared,
+void TriangleCochain<K>::add(TriangleCochain& other, Element scale, Shared& shared,
                              OnEnter&& on_enter, OnLeave&& on_leave) {
   adapt(shared);
   if (!is_dense() && other.is_dense()) make_dense(shared);
-  if (!is_dense()) return add_lists(other, scale, shared, on_enter, on_leave);
+  if (!is_dense()) return lists_.add(other.lists_, scale, shared, on_enter, on_leave);
   other.for_each_vertex([&](Vertex a) { enter(a, shared, on_enter); });
-  for (const auto& [a, list] : other.lists_) {
+  for (const auto& [a, list, appended] : other.lists_.lists()) {
     for (const Term& t : shared.lists[list])
       add_to_row(smaller(t), larger(t), a, shared.field.multiply(scale, t.coefficient()), shared);
   }
@@ -329,11 +246,11 @@ void TriangleCochain<K>::add_star(Vertex u, Vertex v, const Unit* star, Shared& 
       terms.emplace_back(pair(std::max(other, w), std::min(other, w)),
                          (end == u) == (other < w) ? a : field.negate(a));
     });
-    add_terms(end, terms, one, shared, on_enter, on_leave);
+    lists_.add_terms(end, terms, one, shared, on_enter, on_leave);
   }
   Function::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
     const Term only(pair(u, v), field.negate(a));
-    add_terms(static_cast<Vertex>(apex), {&only, 1}, one, shared, on_enter, on_leave);
+    lists_.add_terms(static_cast<Vertex>(apex), {&only, 1}, one, shared, on_enter, on_leave);
   });
 }
 
@@ -361,15 +278,15 @@ template <Field K>
 template <class OnLeave>
 void TriangleCochain<K>::clear(Shared& shared, OnLeave&& on_leave) {
   for_each_vertex(on_leave);
-  for (const ListAt& at : lists_) shared.lists.give(at.list);
+  lists_.clear(shared);
   for_each_row([&](Vertex, Vertex, auto id) { shared.rows.give(id); });
-  *this = TriangleCochain(lists_.get_allocator().resource());
+  *this = TriangleCochain(at_.get_allocator().resource());
 }
 
 template <Field K>
 template <class Visit>
 void TriangleCochain<K>::for_each_vertex(Visit&& visit) const {
-  for (const ListAt& at : lists_) visit(at.vertex);
+  for (const auto& at : lists_.lists()) visit(at.vertex);
   for (std::size_t a = 0; a < at_.size(); ++a)
     if (!at_[a].present.empty()) visit(static_cast<Vertex>(a));
 }
@@ -377,7 +294,7 @@ void TriangleCochain<K>::for_each_vertex(Visit&& visit) const {
 template <Field K>
 template <class Visit>
 void TriangleCochain<K>::for_each_triangle(const Shared& shared, Visit&& visit) const {
-  for (const auto& [a, list] : lists_)
+  for (const auto& [a, list, appended] : lists_.lists())
     for (const Term& t : shared.lists[list])
       if (a < smaller(t)) visit(a, smaller(t), larger(t), t.coefficient());
   for_each_row([&](Vertex a, Vertex b, auto id) {

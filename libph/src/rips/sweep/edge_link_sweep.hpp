@@ -18,10 +18,11 @@
 #include "rips/sweep/link_graph.hpp"
 #include "rips/sweep/link_loops.hpp"
 #include "rips/sweep/sweep_observer.hpp"
+#include "rips/volumes/link_volumes.hpp"
 
 namespace ph {
 
-/// H0, H1 and H2 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
+/// H0 to H3 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
 ///
 /// The triangles that enter with an edge e = (u,v) are those over its link, the vertices joined to
 /// both u and v before. All over one connected component of the link say the same: one triangle a
@@ -31,7 +32,7 @@ namespace ph {
 /// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
 /// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
 /// the link is active, that is, has an annotation, nothing can happen. Where a further component
-/// kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces and
+/// kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces, LinkVolumes and
 /// docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
@@ -61,6 +62,7 @@ class EdgeLinkSweep {
         sets_(vertices, &context.memory),
         loops_(graph_, active_, components_, field, wanted, observer, context) {
     if (wanted.surfaces) surfaces_.emplace(graph_, field, wanted, observer, context);
+    if (wanted.volumes) volumes_.emplace(graph_, field, observer, context);
   }
 
   void run();
@@ -91,6 +93,7 @@ class EdgeLinkSweep {
   DisjointSets sets_;                    // each root is the oldest vertex of its component
   LinkLoops<K> loops_;
   std::optional<LinkSurfaces<K>> surfaces_;
+  std::optional<LinkVolumes<K>> volumes_;
 };
 
 template <Field K>
@@ -113,6 +116,7 @@ void EdgeLinkSweep<K>::run() {
   }
   loops_.finish();
   if (surfaces_) surfaces_->finish();
+  if (volumes_) volumes_->finish();
 }
 
 template <Field K>
@@ -151,11 +155,18 @@ void EdgeLinkSweep<K>::add_edge(Position position) {
       components_.find(e);
       for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
     }
+    if (volumes_) volumes_->look(e, components_);
     if (surfaces_) {
-      surfaces_->extend(position, e, components_);
+      surfaces_->extend(position, e, components_,
+                        volumes_ ? volumes_->loops() : std::span<LinkPairs<K>* const>());
       for (const std::size_t i : born_)
         surfaces_->give_birth({position, graph_.global(components_.root(i))}, e,
                               components_.vertices(i));
+    }
+    if (volumes_) {
+      for (const auto& [birth, loop] : surfaces_->births_above())
+        volumes_->give_birth(birth, e, *loop);
+      volumes_->extend(position, e);
     }
   }
   graph_.add(e);

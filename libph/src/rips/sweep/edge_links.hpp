@@ -13,7 +13,7 @@
 
 namespace ph {
 
-/// H0, H1 and H2 of Vietoris-Rips filtrations by the sweep of edge links, see edge_link_sweep.hpp:
+/// H0 to H3 of Vietoris-Rips filtrations by the sweep of edge links, see edge_link_sweep.hpp:
 /// the graph, as n^2 bits or as lists, and the classes alive, neither columns of triangles nor of
 /// tetrahedra.
 struct EdgeLinkEngine {
@@ -24,13 +24,15 @@ struct EdgeLinkEngine {
       return task.wants_no_sets() &&
              (task.max_dim < 2 ||
               (task.max_dim == 2 && task.representatives != Representatives::cycles &&
-               f.vertex_count() <= kMostVerticesOfSurfaces));
+               f.vertex_count() <= kMostVerticesOfSurfaces) ||
+              (task.max_dim == 3 && task.representatives == Representatives::none &&
+               !task.zero_length && f.vertex_count() <= kMostVerticesOfVolumes));
     else
       return false;
   }
   template <Filtration F>
   static Suitability suitability(const F&, const Task&) {
-    return {4, "H1 and H2 of a Rips complex need no triangles"};
+    return {4, "H1 to H3 of a Rips complex need no triangles"};
   }
   static constexpr int listed_dim(int) { return 1; }
   static constexpr bool goes_by_edges = true;
@@ -46,6 +48,7 @@ struct EdgeLinkEngine {
     if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
       const SweepRequest wanted{.surfaces = bars.max_dim() >= 2,
+                                .volumes = bars.max_dim() >= 3,
                                 .cycles = bars.representatives() == Representatives::cycles,
                                 .cocycles = bars.representatives() == Representatives::cocycles,
                                 .zero_length = bars.wants_zero_length(),
@@ -59,6 +62,7 @@ struct EdgeLinkEngine {
 
  private:
   static constexpr std::size_t kMostVerticesOfSurfaces = TriangleCochain<Z2>::kMostVertices;
+  static constexpr std::size_t kMostVerticesOfVolumes = TetrahedronCochain<Z2>::kMostVertices;
 
   /// Turns what the sweep tells into bars.
   template <class F, Field K>
@@ -69,6 +73,7 @@ struct EdgeLinkEngine {
     using Position = typename Observer::Position;
     using Triangle = typename Observer::Triangle;
     using Tetrahedron = typename Observer::Tetrahedron;
+    using Pentachoron = typename Observer::Pentachoron;
     using EdgeValues = std::span<const typename Observer::EdgeValue>;
     using TriangleValues = std::span<const typename Observer::TriangleValue>;
 
@@ -92,9 +97,11 @@ struct EdgeLinkEngine {
         give(representative);
     }
     void on_death(Triangle birth, Tetrahedron death, TriangleValues cocycle) override {
-      if (bars_.add_pair(2, f_.triangle_cell(birth.edge, birth.apex),
-                         f_.tetrahedron_cell(death.edge, death.larger, death.smaller)))
+      if (bars_.add_pair(2, f_.triangle_cell(birth.edge, birth.apex), cell_of(death)))
         give(cocycle);
+    }
+    void on_death(Tetrahedron birth, Pentachoron death) override {
+      bars_.add_pair(3, cell_of(birth), f_.pentachoron_cell(death.edge, death.others));
     }
     void on_essential(Position birth, EdgeValues representative) override {
       if (bars_.add_essential(1, f_.edge_cell(birth))) give(representative);
@@ -102,6 +109,7 @@ struct EdgeLinkEngine {
     void on_essential(Triangle birth, TriangleValues cocycle) override {
       if (bars_.add_essential(2, f_.triangle_cell(birth.edge, birth.apex))) give(cocycle);
     }
+    void on_essential(Tetrahedron birth) override { bars_.add_essential(3, cell_of(birth)); }
 
     void report_components() {
       for (Vertex v = 0; v < is_dead_.size(); ++v)
@@ -112,6 +120,9 @@ struct EdgeLinkEngine {
    private:
     auto cell_of_vertex() const {
       return [this](Vertex v) { return f_.vertex_cell(v); };
+    }
+    auto cell_of(const Tetrahedron& t) const {
+      return f_.tetrahedron_cell(t.edge, t.larger, t.smaller);
     }
     void give(EdgeValues representative) {
       if (bars_.representatives() == Representatives::none) return;

@@ -24,10 +24,17 @@ class LinkCover {
 
   /// @param graph outlives this.
   LinkCover(LinkGraph& graph, std::pmr::memory_resource* memory)
-      : graph_(graph), steps_(memory), sets_(memory), rest_(memory), reached_(memory) {}
+      : graph_(graph),
+        steps_(memory),
+        sets_(memory),
+        rest_(memory),
+        reached_(memory),
+        left_(memory) {}
 
   /// Of the graph's link.
   void find(const LinkComponents& components);
+  /// Of a set of vertices of the link, which is not empty.
+  void find(const Word* set);
 
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
@@ -35,17 +42,18 @@ class LinkCover {
   const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
 
  private:
-  /// Where to begin: among a few vertices of a component, the given one and a sample, the one with
-  /// most neighbours.
-  Vertex find_hub(const Word* component, Vertex first);
-  void cover(const Word* component, Vertex hub);
+  /// Where to begin: among a few vertices of a set, the given one and a sample, the one with most
+  /// neighbours.
+  Vertex find_hub(const Word* set, Vertex first);
+  /// Covers the component of a hub. @return whether a part of the set is left, in rest_.
+  bool cover(const Word* set, Vertex hub);
   /// Appends a step. @return its row: the neighbours in a set.
   Word* add_step(const Step& step, const Word* set);
 
   LinkGraph& graph_;
   std::pmr::vector<Step> steps_;
   std::pmr::vector<Word> sets_;  // a row for each step
-  std::pmr::vector<Word> rest_, reached_;
+  std::pmr::vector<Word> rest_, reached_, left_;
 };
 
 }  // namespace ph

@@ -46,7 +46,10 @@ class LinkForest {
   }
   /// The neighbours of y before y; words up to y's are valid.
   const Word* neighbours() const { return before_.data(); }
-  const Word* part(const Meeting& m) const { return parts_.data() + m.part * graph_.words(); }
+  const Word* part(const Meeting& m) const { return part(m.part); }
+  /// All parts; those that were united with others are empty.
+  std::size_t part_count() const { return roots_.size(); }
+  const Word* part(std::size_t i) const { return parts_.data() + i * graph_.words(); }
 
   /// Takes the vertex in. Calls `on_join(younger root, its vertices, w)` for each edge wy that
   /// joins two parts, y alone being one at first.

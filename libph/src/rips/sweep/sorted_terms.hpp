@@ -2,9 +2,9 @@
 #pragma once
 #include <algorithm>
 #include <concepts>
-#include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "ph/detail/core/chain.hpp"
@@ -14,17 +14,18 @@ namespace ph {
 
 /// list += scale * terms, both by ascending cell, each cell once and none with zero.
 /// @param terms are not part of the list. @param merged scratch; what it holds is lost.
-template <Field K>
-void add_sorted_terms(std::pmr::vector<Entry<std::uint32_t, K>>& list,
-                      std::span<const Entry<std::uint32_t, K>> terms, typename K::Element scale,
-                      const K& field, std::pmr::vector<Entry<std::uint32_t, K>>& merged) {
-  using Term = Entry<std::uint32_t, K>;
+template <class Cell, Field K>
+void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
+                      std::type_identity_t<std::span<const Entry<Cell, K>>> terms,
+                      typename K::Element scale, const K& field,
+                      std::pmr::vector<Entry<Cell, K>>& merged) {
+  using Term = Entry<Cell, K>;
   using Element = typename K::Element;
   if (8 * terms.size() < list.size()) {  // most of it stays where it is
     auto at = list.begin();
     for (const Term& t : terms) {
       at = std::lower_bound(at, list.end(), t.cell,
-                            [](const Term& a, std::uint32_t cell) { return a.cell < cell; });
+                            [](const Term& a, Cell cell) { return a.cell < cell; });
       Element value = field.multiply(scale, t.coefficient());
       if (at == list.end() || at->cell != t.cell) {
         at = list.insert(at, Term(t.cell, value));
@@ -44,7 +45,7 @@ void add_sorted_terms(std::pmr::vector<Entry<std::uint32_t, K>>& list,
   Term* out = merged.data();
   while (i != end && j != last) {
     if constexpr (std::same_as<K, Z2>) {  // which comes first is anyone's guess: no branches
-      const std::uint32_t a = i->cell, b = j->cell;
+      const Cell a = i->cell, b = j->cell;
       *out = a < b ? *i : *j;
       out += a != b ? 1 : 0;
       i += a <= b ? 1 : 0;

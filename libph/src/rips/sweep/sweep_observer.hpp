@@ -22,6 +22,7 @@ struct SweepTuning {
 /// What a sweep of edge links is to find.
 struct SweepRequest {
   bool surfaces = false;  ///< H2 too
+  bool volumes = false;   ///< H3 too; with surfaces, bars alone, without those of length zero
   bool cycles = false;    ///< of H1
   bool cocycles = false;
   bool zero_length = false;
@@ -46,6 +47,11 @@ class SweepObserver {
     Position edge;
     Vertex larger, smaller;
   };
+  /// The simplex over an edge with three more vertices, descending.
+  struct Pentachoron {
+    Position edge;
+    std::array<Vertex, 3> others;
+  };
   /// A term of a 1-chain or 1-cochain: its value on an edge, from the larger end to the smaller.
   struct EdgeValue {
     Position edge;
@@ -68,9 +74,12 @@ class SweepObserver {
   /// A class of H2 dies.
   virtual void on_death(Triangle birth, Tetrahedron death,
                         std::span<const TriangleValue> cocycle) = 0;
+  /// A class of H3 dies.
+  virtual void on_death(Tetrahedron birth, Pentachoron death) = 0;
   /// A class that never dies.
   virtual void on_essential(Position birth, std::span<const EdgeValue> representative) = 0;
   virtual void on_essential(Triangle birth, std::span<const TriangleValue> cocycle) = 0;
+  virtual void on_essential(Tetrahedron birth) = 0;
 };
 
 }  // namespace ph

@@ -4,23 +4,12 @@
 #include <numbers>
 
 #include "ph/detail/complex/filtered_graph.hpp"
-#include "rips/sweep/edge_links.hpp"
 #include "support/conformance.hpp"
+#include "support/edge_link_pairs.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {
-
-/// As the sweep of edge links finds them on the ways that large inputs take.
-template <class F>
-std::vector<Pair> pairs_of_edge_links(const F& f, int max_dim, std::int64_t field,
-                                      SweepTuning tuning, double min_persistence) {
-  const RunContext context;
-  BarcodeBuilder<F> bars(f, max_dim, min_persistence);
-  detail::with_field(field,
-                     [&](const auto& k) { EdgeLinkEngine::run(f, k, bars, context, tuning); });
-  return pairs_of(bars.finish());
-}
 
 TEST(RandomConformance, RipsOfPoints) {
   for_each_seed(4000, [](Generator& random, bool ties, std::int64_t field) {

@@ -24,7 +24,7 @@ class Engine {
   static const Engine twist;          ///< boundary matrix with clearing
   static const Engine cohomology;     ///< coboundary matrix with clearing and shortcuts
   static const Engine union_find;     ///< H0 only
-  static const Engine edge_links;     ///< Rips, H0 to H2: edge by edge
+  static const Engine edge_links;     ///< Rips, H0 to H3: edge by edge
   static const Engine beta_skeleton;  ///< Rips of points of few coordinates, H0 and H1: no edges
   static const Engine gradient;       ///< images: voxel by voxel
 

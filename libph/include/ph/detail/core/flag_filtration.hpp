@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <span>
@@ -44,6 +45,9 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
   /// The tetrahedron of the edge at a position and two other vertices; the edge is its last one.
   { f.tetrahedron_cell(i, i, i) } -> std::same_as<typename F::Cell>;
+  /// The simplex of the edge at a position and three other vertices, descending; the edge is its
+  /// last one.
+  { f.pentachoron_cell(i, std::array<std::uint32_t, 3>()) } -> std::same_as<typename F::Cell>;
   /// The triangle of three vertices that edges join, descending.
   { f.triangle_cell_of(i, i, i) } -> std::same_as<typename F::Cell>;
 };

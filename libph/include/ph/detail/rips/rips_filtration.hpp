@@ -96,6 +96,9 @@ class RipsFiltration {
   Cell tetrahedron_cell(std::uint32_t longest, std::uint32_t w, std::uint32_t x) const {
     return over_edge(longest, std::array{std::max(w, x), std::min(w, x)});
   }
+  Cell pentachoron_cell(std::uint32_t longest, const std::array<std::uint32_t, 3>& others) const {
+    return over_edge(longest, others);
+  }
   Cell triangle_cell_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const RipsAdjacency& adjacent = adjacency();
     return {std::max({adjacent.key_of(b, a), adjacent.key_of(c, a), adjacent.key_of(c, b)}),

@@ -8,31 +8,29 @@
 #include <vector>
 
 #include "ph/run_context.hpp"
-#include "rips/surfaces/triangle_cochain.hpp"
 
 namespace ph {
 
-/// Living classes of H^2 by their cocycles, and at each vertex those with triangles there.
-template <Field K>
-class TriangleCocycles {
+/// Living classes of cohomology by their cocycles, and at each vertex those with simplices there.
+/// @tparam Cochain such as TriangleCochain.
+template <class Cochain>
+class LivingCocycles {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth
   using Vertex = std::uint32_t;
-  using Cochain = TriangleCochain<K>;
-  using Element = typename K::Element;
-  using Unit = typename VertexFunction<K>::Unit;
+  using Element = typename Cochain::Element;
   using ListId = typename Cochain::ListId;
-  /// A generator with triangles at a vertex, perhaps, and their list, unless its cocycle is dense.
+  /// A generator with simplices at a vertex, perhaps, and their list, unless its cocycle is dense.
   struct At {
     Generator generator;
     ListId list;
   };
 
-  /// @param most_terms of a cocycle's lists, by vertex on average; those with more become rows.
-  TriangleCocycles(std::size_t vertices, const K& field, std::size_t most_terms,
-                   const RunContext& context)
+  /// @param shared for `Cochain::Shared`, but for the memory.
+  template <class... Arguments>
+  LivingCocycles(std::size_t vertices, const RunContext& context, const Arguments&... shared)
       : context_(context),
-        shared_(field, vertices, most_terms * vertices, &context.memory),
+        shared_(shared..., &context.memory),
         cochains_(&context.memory),
         at_(vertices, &context.memory) {}
 
@@ -44,8 +42,9 @@ class TriangleCocycles {
   void erase(Generator g);
   /// to += scale * from.
   void add(Generator to, Generator from, Element scale);
-  /// phi(u,v,w) += star(w) for all w; u > v, and no such triangle has a value yet.
-  void add_star(Generator g, Vertex u, Vertex v, const Unit* star);
+  /// As Cochain::add_star.
+  template <class Star>
+  void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
   /// By ascending generator.
   std::span<const At> at(Vertex a) const { return at_[a]; }
@@ -70,22 +69,23 @@ class TriangleCocycles {
   std::pmr::vector<std::pmr::vector<At>> at_;
 };
 
-template <Field K>
-void TriangleCocycles<K>::erase(Generator g) {
+template <class Cochain>
+void LivingCocycles<Cochain>::erase(Generator g) {
   cochains_[g].clear(shared_, [&](Vertex a) { leave(g, a); });
   --shared_.living;
 }
 
-template <Field K>
-void TriangleCocycles<K>::add(Generator to, Generator from, Element scale) {
+template <class Cochain>
+void LivingCocycles<Cochain>::add(Generator to, Generator from, Element scale) {
   context_.poll();  // a large cocycle takes long
   cochains_[to].add(
       cochains_[from], scale, shared_, [&](Vertex a, ListId list) { enter(to, a, list); },
       [&](Vertex a) { leave(to, a); });
 }
 
-template <Field K>
-void TriangleCocycles<K>::add_star(Generator g, Vertex u, Vertex v, const Unit* star) {
+template <class Cochain>
+template <class Star>
+void LivingCocycles<Cochain>::add_star(Generator g, Vertex u, Vertex v, const Star& star) {
   cochains_[g].add_star(u, v, star, shared_, [&](Vertex a, ListId list) { enter(g, a, list); });
 }
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+#include "rips/annotations/list_pool.hpp"
+#include "rips/sweep/sorted_terms.hpp"
+
+namespace ph {
+
+/// A cochain of a flag complex where it is not zero, as lists: each simplex in those of its
+/// vertices. In the list of a vertex a stands what else a simplex has, with the value of the
+/// cochain on (a, the others ascending).
+/// @tparam Others the other vertices of a simplex, as one number.
+template <Field K, class Others>
+class CochainLists {
+ public:
+  using Vertex = std::uint32_t;
+  using Element = typename K::Element;
+  using Term = Entry<Others, K>;
+  using Terms = std::span<const Term>;
+  using ListId = typename ListPool<Term>::Id;
+  struct ListAt {
+    Vertex vertex;
+    ListId list;
+    std::size_t appended = 0;  ///< terms at its end that are out of order
+  };
+
+  /// What all cochains of a complex share.
+  struct Shared {
+    Shared(const K& field_, std::pmr::memory_resource* memory)
+        : field(field_), lists(memory), merged(memory), own(memory) {}
+    const K& field;
+    ListPool<Term> lists;
+    std::pmr::vector<Term> merged;
+    std::pmr::vector<ListId> own;  // lists that others are about to be added to
+  };
+
+  explicit CochainLists(std::pmr::memory_resource* memory) : lists_(memory) {}
+
+  /// By ascending vertex; none is empty.
+  const std::pmr::vector<ListAt>& lists() const { return lists_; }
+  /// In all lists.
+  std::size_t term_count() const { return term_count_; }
+  Terms terms(Vertex a, const Shared& shared) const {
+    const auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
+    return at != lists_.end() && at->vertex == a ? Terms(shared.lists[at->list]) : Terms();
+  }
+
+  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices that have got a list,
+  /// have lost it.
+  template <class OnEnter, class OnLeave>
+  void add(CochainLists& other, Element scale, Shared& shared, OnEnter&& on_enter,
+           OnLeave&& on_leave);
+  /// The list of a += scale * terms, which ascend.
+  template <class OnEnter, class OnLeave>
+  void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
+                 OnLeave&& on_leave);
+  /// Puts terms at the end of the list of a. No simplex is there yet, nor comes twice. The list is
+  /// out of order until the next `add`.
+  template <class OnEnter>
+  void append_terms(Vertex a, Terms terms, Shared& shared, OnEnter&& on_enter) {
+    if (terms.empty()) return;
+    ListAt& at = list_at(a, shared, on_enter);
+    auto& list = shared.lists[at.list];
+    list.insert(list.end(), terms.begin(), terms.end());
+    at.appended += terms.size();
+    term_count_ += terms.size();
+  }
+  /// Makes it zero and gives back what it held.
+  void clear(Shared& shared) {
+    for (const ListAt& at : lists_) shared.lists.give(at.list);
+    std::pmr::vector<ListAt>(lists_.get_allocator()).swap(lists_);
+    term_count_ = 0;
+  }
+
+ private:
+  template <class OnEnter>
+  ListAt& list_at(Vertex a, Shared& shared, OnEnter&& on_enter) {
+    auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
+    if (at == lists_.end() || at->vertex != a) {
+      at = lists_.insert(at, ListAt{a, shared.lists.take()});
+      on_enter(a, at->list);
+    }
+    return *at;
+  }
+  void sort(Shared& shared) {
+    for (ListAt& at : lists_) {
+      if (at.appended == 0) continue;
+      auto& list = shared.lists[at.list];
+      const auto tail = list.end() - static_cast<std::ptrdiff_t>(std::exchange(at.appended, 0));
+      std::ranges::sort(tail, list.end(), {}, &Term::cell);
+      std::ranges::inplace_merge(list, tail, {}, &Term::cell);
+    }
+  }
+
+  std::pmr::vector<ListAt> lists_;
+  std::size_t term_count_ = 0;
+};
+
+template <Field K, class Others>
+template <class OnEnter, class OnLeave>
+void CochainLists<K, Others>::add_terms(Vertex a, Terms terms, Element scale, Shared& shared,
+                                        OnEnter&& on_enter, OnLeave&& on_leave) {
+  const ListAt& at = list_at(a, shared, on_enter);
+  auto& list = shared.lists[at.list];
+  term_count_ -= list.size();
+  add_sorted_terms(list, terms, scale, shared.field, shared.merged);
+  term_count_ += list.size();
+  if (!list.empty()) return;
+  shared.lists.give(at.list);
+  lists_.erase(lists_.begin() + (&at - lists_.data()));
+  on_leave(a);
+}
+
+template <Field K, class Others>
+template <class OnEnter, class OnLeave>
+void CochainLists<K, Others>::add(CochainLists& other, Element scale, Shared& shared,
+                                  OnEnter&& on_enter, OnLeave&& on_leave) {
+  sort(shared);
+  other.sort(shared);
+  // Lists are anywhere in memory: all are asked for before the first is waited for.
+  auto& lists = shared.lists;
+  auto& own = shared.own;
+  own.clear();
+  auto at = lists_.begin();
+  for (const auto& [a, list, appended] : other.lists_) {
+    at = std::ranges::lower_bound(at, lists_.end(), a, {}, &ListAt::vertex);
+    if (at == lists_.end() || at->vertex != a) {
+      at = lists_.insert(at, ListAt{a, lists.take()});
+      on_enter(a, at->list);
+    }
+    own.push_back(at->list);
+    for (const ListId id : {list, at->list}) lists.prefetch(id);
+  }
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (const ListId id : {other.lists_[i].list, own[i]}) lists.prefetch_terms(id);
+  bool is_any_zero = false;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    auto& list = lists[own[i]];
+    term_count_ -= list.size();
+    add_sorted_terms(list, Terms(lists[other.lists_[i].list]), scale, shared.field, shared.merged);
+    term_count_ += list.size();
+    is_any_zero |= list.empty();
+  }
+  if (!is_any_zero) return;
+  std::erase_if(lists_, [&](const ListAt& mine) {
+    if (!lists[mine.list].empty()) return false;
+    lists.give(mine.list);
+    on_leave(mine.vertex);
+    return true;
+  });
+}
+
+}  // namespace ph

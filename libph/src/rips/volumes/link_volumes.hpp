@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/detail/core/flag_filtration.hpp"
+#include "ph/run_context.hpp"
+#include "rips/annotations/living_cocycles.hpp"
+#include "rips/sweep/link_components.hpp"
+#include "rips/sweep/link_cover.hpp"
+#include "rips/sweep/link_graph.hpp"
+#include "rips/sweep/sweep_observer.hpp"
+#include "rips/volumes/link_primitives.hpp"
+#include "rips/volumes/tetrahedron_cochain.hpp"
+
+namespace ph {
+
+/// H3 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H2.
+///
+/// An edge e = (u,v) enters with its star, glued to what is there along the suspension of its link
+/// complex M. So a class of H3 is born with each class of H^1(M), a *loop*, that kills no class of
+/// H2, and dies with a class of H_2(M). Each living class h is held by a cocycle phi_h. It extends
+/// to the new tetrahedra by a 1-cochain of M, psi(x,y) = phi_h(u,v,x,y), whose coboundary is
+/// gamma(x,y,z) := phi_h(u,x,y,z) - phi_h(v,x,y,z). Where there is none, a class dies. See
+/// docs/explanation/engines/edge-links-h3.md.
+template <Field K>
+class LinkVolumes {
+ public:
+  using Vertex = std::uint32_t;
+  using Position = std::uint32_t;
+  using Observer = SweepObserver<K>;
+  using Tetrahedron = typename Observer::Tetrahedron;
+
+  /// @param graph the edges so far, which outlive this.
+  LinkVolumes(LinkGraph& graph, const K& field, Observer& observer, const RunContext& context)
+      : graph_(graph),
+        field_(field),
+        observer_(observer),
+        cocycles_(graph.vertex_count(), context, field),
+        births_(&context.memory),
+        cover_(graph, &context.memory),
+        primitives_(graph, field, &context.memory),
+        star_(&context.memory),
+        dead_(&context.memory),
+        loops_(&context.memory) {}
+
+  /// Looks at an edge, the one of the graph's link: finds the loops, and how the living classes
+  /// extend. @param components those of the link.
+  void look(const FlagEdge& e, LinkComponents& components);
+  /// A basis of H^1(M), until the next edge. Others may add cocycles to them.
+  std::span<LinkPairs<K>* const> loops() const { return loops_; }
+  /// A class is born with a tetrahedron over the edge; the loop is one on it.
+  void give_birth(Tetrahedron birth, const FlagEdge& e, const LinkPairs<K>& loop);
+  /// Extends the living classes to the star of the edge; kills those that cannot be.
+  void extend(Position position, const FlagEdge& e);
+  /// Reports what never dies.
+  void finish();
+
+ private:
+  using Cochain = TetrahedronCochain<K>;
+  using Cocycles = LivingCocycles<Cochain>;
+  using Generator = typename Cocycles::Generator;
+  using Search = typename LinkPrimitives<K>::Search;
+  using Element = typename K::Element;
+
+  static constexpr Position kDead = UINT32_MAX;
+
+  /// Begins a search for each class whose gamma is not zero.
+  void find_classes(const FlagEdge& e);
+  /// gamma += scale * phi_h(a,.,.,.), on the link.
+  void add_terms(LinkTriples<K>& gamma, typename Cochain::Terms terms, Element scale);
+  /// phi_h(u,v,.,.) += psi.
+  void store(Generator h, const FlagEdge& e, const LinkPairs<K>& psi);
+
+  LinkGraph& graph_;
+  const K& field_;
+  Observer& observer_;
+  Cocycles cocycles_;
+  std::pmr::vector<Tetrahedron> births_;  // by generator; edge = kDead once it died
+  // While an edge is added.
+  LinkCover cover_;
+  LinkPrimitives<K> primitives_;
+  std::pmr::vector<typename Cochain::PairValue> star_;
+  std::pmr::vector<Generator> dead_;
+  std::pmr::vector<LinkPairs<K>*> loops_;
+};
+
+template <Field K>
+void LinkVolumes<K>::look(const FlagEdge& e, LinkComponents& components) {
+  primitives_.clear();
+  loops_.clear();
+  find_classes(e);
+  if (!components.has_apex() && components.count() == 1) components.find_apex(e);
+  if (components.has_apex() && primitives_.all().empty()) return;
+  cover_.find(components);
+  primitives_.search(cover_);
+  for (Search* s : primitives_.all())
+    if (s->is_loop() && s->is_active) loops_.push_back(&s->psi);
+}
+
+template <Field K>
+void LinkVolumes<K>::find_classes(const FlagEdge& e) {
+  const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
+  auto i = at_u.begin(), j = at_v.begin();
+  while (i != at_u.end() || j != at_v.end()) {
+    const bool is_at_u = i != at_u.end() && (j == at_v.end() || i->generator <= j->generator);
+    const bool is_at_v = j != at_v.end() && (i == at_u.end() || j->generator <= i->generator);
+    Search& s = primitives_.add(is_at_u ? i->generator : j->generator);
+    if (is_at_u) add_terms(s.gamma, cocycles_.terms(*i++), field_.from_int(1));
+    if (is_at_v) add_terms(s.gamma, cocycles_.terms(*j++), field_.from_int(-1));
+    if (s.gamma.is_zero(graph_.words())) primitives_.drop_last();
+  }
+}
+
+template <Field K>
+void LinkVolumes<K>::add_terms(LinkTriples<K>& gamma, typename Cochain::Terms terms,
+                               Element scale) {
+  for (const auto& t : terms) {
+    const auto [a, b, c] = Cochain::others(t);
+    const Vertex x = graph_.local(a), y = graph_.local(b), z = graph_.local(c);
+    if (x == LinkGraph::kNone || y == LinkGraph::kNone || z == LinkGraph::kNone) continue;
+    gamma.add_at(x, y, z, field_.multiply(scale, t.coefficient()));
+  }
+}
+
+template <Field K>
+void LinkVolumes<K>::store(Generator h, const FlagEdge& e, const LinkPairs<K>& psi) {
+  star_.clear();
+  psi.for_each(graph_.words(), [&](Vertex x, Vertex y, Element a) {
+    star_.push_back({graph_.global(x), graph_.global(y), a});
+  });
+  if (!star_.empty()) cocycles_.add_star(h, e.u, e.v, star_);
+}
+
+template <Field K>
+void LinkVolumes<K>::give_birth(Tetrahedron birth, const FlagEdge& e, const LinkPairs<K>& loop) {
+  const Generator h = cocycles_.add_generator();
+  births_.push_back(birth);
+  store(h, e, loop);
+}
+
+template <Field K>
+void LinkVolumes<K>::extend(Position position, const FlagEdge& e) {
+  bool is_obstructed = false;
+  for (const Search* s : primitives_.all()) is_obstructed |= s->is_obstructed;
+  if (is_obstructed) {
+    dead_.clear();
+    primitives_.search_in_order(
+        [&](const Search& s, Vertex z, Vertex y, Vertex w) {
+          observer_.on_death(births_[s.generator],
+                             {position, {graph_.global(z), graph_.global(y), graph_.global(w)}});
+          births_[s.generator].edge = kDead;
+          dead_.push_back(s.generator);
+        },
+        [&](const Search& s, const Search& other, Element scale) {
+          cocycles_.add(s.generator, other.generator, scale);
+        });
+    for (const Generator h : dead_) cocycles_.erase(h);
+  }
+  for (const Search* s : primitives_.all())
+    if (s->is_found) store(s->generator, e, s->psi);
+}
+
+template <Field K>
+void LinkVolumes<K>::finish() {
+  for (const Tetrahedron& birth : births_)
+    if (birth.edge != kDead) observer_.on_essential(birth);
+}
+
+extern template class LinkVolumes<Z2>;
+extern template class LinkVolumes<Zp>;
+
+}  // namespace ph

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/core/field.hpp"
+#include "rips/annotations/cochain_lists.hpp"
+
+namespace ph {
+
+/// A 3-cochain phi of a flag complex, an alternating function of four vertices, stored where it is
+/// not zero, each tetrahedron in the lists of its four corners.
+template <Field K>
+class TetrahedronCochain {
+ public:
+  using Vertex = std::uint32_t;
+  using Element = typename K::Element;
+  /// The other three vertices of a tetrahedron, ascending from the lowest bits.
+  using Others = std::uint64_t;
+  using Lists = CochainLists<K, Others>;
+  using Term = typename Lists::Term;
+  using Terms = typename Lists::Terms;
+  using ListId = typename Lists::ListId;
+
+  static std::array<Vertex, 3> others(const Term& t) {
+    return {static_cast<Vertex>(t.cell & 0xFFFF), static_cast<Vertex>(t.cell >> 16 & 0xFFFF),
+            static_cast<Vertex>(t.cell >> 32)};
+  }
+  /// 16 bits for each vertex.
+  static constexpr std::size_t kMostVertices = 1 << 16;
+
+  /// A value on the tetrahedra over an edge, by their further vertices: phi(u,v,x,y).
+  struct PairValue {
+    Vertex x, y;
+    Element value;
+  };
+
+  /// What all cochains of a complex share.
+  struct Shared : Lists::Shared {
+    Shared(const K& field_, std::pmr::memory_resource* memory)
+        : Lists::Shared(field_, memory), at_u(memory), at_v(memory), at_x(memory) {}
+    std::size_t living = 0;  // cochains in use
+    std::pmr::vector<Term> at_u, at_v, at_x;
+  };
+
+  explicit TetrahedronCochain(std::pmr::memory_resource* memory) : lists_(memory) {}
+
+  static constexpr bool is_dense() { return false; }
+  Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
+
+  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices of tetrahedra that
+  /// were not, are no longer.
+  template <class OnEnter, class OnLeave>
+  void add(TetrahedronCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
+           OnLeave&& on_leave) {
+    lists_.add(other.lists_, scale, shared, on_enter, on_leave);
+  }
+  /// phi(u,v,x,y) += each value. Each pair comes in both orders, those of one x after each other.
+  /// No such tetrahedron has a value yet.
+  template <class OnEnter>
+  void add_star(Vertex u, Vertex v, std::span<const PairValue> star, Shared& shared,
+                OnEnter&& on_enter);
+  /// Makes it zero and gives back what it held. Calls `on_leave(a)` as `add` does.
+  template <class OnLeave>
+  void clear(Shared& shared, OnLeave&& on_leave) {
+    for (const auto& at : lists_.lists()) on_leave(at.vertex);
+    lists_.clear(shared);
+  }
+
+ private:
+  Lists lists_;
+};
+
+template <Field K>
+template <class OnEnter>
+void TetrahedronCochain<K>::add_star(Vertex u, Vertex v, std::span<const PairValue> star,
+                                     Shared& shared, OnEnter&& on_enter) {
+  const K& field = shared.field;
+  // phi(a,b,c,d) = value, for the list of a
+  const auto term = [&](Vertex b, Vertex c, Vertex d, Element value) {
+    const bool is_odd = ((b > c) != (b > d)) != (c > d);
+    const Vertex low = std::min({b, c, d}), high = std::max({b, c, d});
+    const Others middle = b ^ c ^ d ^ low ^ high;
+    return Term(Others{high} << 32 | middle << 16 | low, is_odd ? field.negate(value) : value);
+  };
+  auto &at_u = shared.at_u, &at_v = shared.at_v, &at_x = shared.at_x;
+  at_u.clear();
+  at_v.clear();
+  for (std::size_t i = 0; i < star.size();) {
+    const Vertex x = star[i].x;
+    at_x.clear();
+    for (; i < star.size() && star[i].x == x; ++i) {
+      const Vertex y = star[i].y;
+      const Element value = star[i].value;
+      at_x.push_back(term(u, v, y, value));  // phi(x,u,v,y)
+      if (x > y) continue;
+      at_u.push_back(term(v, x, y, value));
+      at_v.push_back(term(u, x, y, field.negate(value)));
+    }
+    lists_.append_terms(x, at_x, shared, on_enter);
+  }
+  lists_.append_terms(u, at_u, shared, on_enter);
+  lists_.append_terms(v, at_v, shared, on_enter);
+}
+
+}  // namespace ph

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// H3 by links of edges: pair by pair and cell by cell as the oracle, over several fields, with
+// ties, with both ways to keep the graph.
+#include <algorithm>
+#include <vector>
+
+#include "support/conformance.hpp"
+#include "support/edge_link_pairs.hpp"
+#include "support/for_each_seed.hpp"
+
+namespace ph::test {
+namespace {
+
+/// Distances of random groups of points, between which all are short: cycles of one group and
+/// cycles of another one have joins, which are cycles of H2, H3 and above.
+DistanceMatrix joined_groups(Generator& random, std::vector<Index> sizes, bool ties) {
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    group.insert(group.end(), static_cast<std::size_t>(sizes[i]), i);
+  // Vertices of the groups in any order.
+  for (std::size_t i = group.size(); i > 1; --i)
+    std::swap(group[i - 1],
+              group[static_cast<std::size_t>(random.integer(0, static_cast<Index>(i) - 1))]);
+  std::vector<double> lower;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool is_short = group[i] != group[j] || random.integer(0, 9) == 0;
+      lower.push_back((ties ? random.integer(0, 3) : random.real()) + (is_short ? 0 : 2));
+    }
+  return DistanceMatrix(static_cast<Index>(group.size()), lower);
+}
+
+std::size_t count_of_h3(const std::vector<Pair>& pairs) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(pairs, [](const Pair& p) { return p.bar.dim == 3; }));
+}
+
+/// @return how many classes of H3 there are.
+std::size_t check_volumes(const Rips& rips, std::int64_t field, Engine expected_by) {
+  std::size_t count = 0;
+  rips.with_filtration(3, [&](const auto& f) {
+    const auto expected = of_positive_length(pairs_of(f, 3, field, expected_by));
+    for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
+      EXPECT_EQ(pairs_of_edge_links(f, 3, field, {.layout = layout}, 0), expected);
+    count = count_of_h3(expected);
+  });
+  return count;
+}
+
+TEST(LinkVolumes, OfJoins) {
+  std::size_t count = 0;
+  for_each_seed(3000, [&](Generator& random, bool ties, std::int64_t field) {
+    std::vector<Index> sizes;
+    switch (random.integer(0, 2)) {
+      case 0:
+        sizes = {random.integer(4, 6), random.integer(4, 6)};
+        break;  // two circles
+      case 1:
+        sizes = {random.integer(2, 4), random.integer(6, 8)};
+        break;  // points and a sphere
+      default:
+        sizes = {2, 2, random.integer(2, 3), random.integer(2, 3)};
+    }
+    const Rips rips(joined_groups(random, sizes, ties),
+                    {.threshold = random.coin() ? kInf : 2.5 + random.real()});
+    count += check_volumes(rips, field, Engine::standard);
+  });
+  EXPECT_TRUE(is_enough(count, std::size_t{3000})) << count;  // the test is about something
+}
+
+TEST(LinkVolumes, OfAnyMatrix) {
+  std::size_t count = 0;
+  for_each_seed(600, [&](Generator& random, bool ties, std::int64_t field) {
+    const Index n = random.integer(8, 14);
+    const Rips rips = random.coin() ? Rips(random.distances(n, ties))
+                                    : Rips(random.sparse(n, ties, 0.5 + random.real() / 2));
+    count += check_volumes(rips, field, Engine::standard);
+  });
+  EXPECT_TRUE(is_enough(count, std::size_t{100})) << count;
+}
+
+// Many classes at a time, links without a hub that sees nearly all, rows of more than one word.
+TEST(LinkVolumes, OfManyClasses) {
+  std::size_t count = 0;
+  for_each_seed(24, [&](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.distances(random.integer(30, 42), ties));
+    count += check_volumes(rips, field, Engine::cohomology);
+    const std::vector<Index> wide = {random.integer(30, 36), random.integer(30, 36)};
+    count += check_volumes(Rips(joined_groups(random, wide, ties), {.threshold = 2.2}), field,
+                           Engine::cohomology);
+  });
+  EXPECT_TRUE(is_enough(count, std::size_t{1000})) << count;
+}
+
+// A sphere of dimension 3, whose one long class lives until its tetrahedra are many.
+TEST(LinkVolumes, OfASphere) {
+  Generator random(3);
+  Points points(60, 4);
+  for (Index i = 0; i < points.rows(); ++i) {
+    double square = 0;
+    for (Index k = 0; k < 4; ++k) square += std::pow(points(i, k) = random.real() - 0.5, 2);
+    for (Index k = 0; k < 4; ++k) points(i, k) /= std::sqrt(square);
+  }
+  for (const std::int64_t field : {2, 3})
+    EXPECT_GT(check_volumes(Rips(points), field, Engine::cohomology), 0U);
+}
+
+}  // namespace
+}  // namespace ph::test
