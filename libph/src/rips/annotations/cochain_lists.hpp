@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "ph/detail/core/chain.hpp"
@@ -29,7 +28,6 @@ class CochainLists {
   struct ListAt {
     Vertex vertex;
     ListId list;
-    std::size_t appended = 0;  ///< terms at its end that are out of order
   };
 
   /// What all cochains of a complex share.
@@ -62,15 +60,14 @@ class CochainLists {
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
                  OnLeave&& on_leave);
-  /// Puts terms at the end of the list of a. No simplex is there yet, nor comes twice. The list is
-  /// out of order until the next `add`.
+  /// Puts terms at the end of the list of a, in any order. No simplex is there yet, nor comes
+  /// twice. The lists are out of order until the next `add`.
   template <class OnEnter>
   void append_terms(Vertex a, Terms terms, Shared& shared, OnEnter&& on_enter) {
     if (terms.empty()) return;
-    ListAt& at = list_at(a, shared, on_enter);
-    auto& list = shared.lists[at.list];
+    auto& list = shared.lists[list_at(a, shared, on_enter).list];
     list.insert(list.end(), terms.begin(), terms.end());
-    at.appended += terms.size();
+    is_sorted_ = false;
     term_count_ += terms.size();
   }
   /// Makes it zero and gives back what it held.
@@ -85,16 +82,17 @@ class CochainLists {
   ListAt& list_at(Vertex a, Shared& shared, OnEnter&& on_enter) {
     auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
     if (at == lists_.end() || at->vertex != a) {
-      at = lists_.insert(at, ListAt{a, shared.lists.take()});
+      at = lists_.insert(at, {a, shared.lists.take()});
       on_enter(a, at->list);
     }
     return *at;
   }
   void sort(Shared& shared) {
-    for (ListAt& at : lists_) {
-      if (at.appended == 0) continue;
+    if (is_sorted_) return;
+    is_sorted_ = true;
+    for (const ListAt& at : lists_) {
       auto& list = shared.lists[at.list];
-      const auto tail = list.end() - static_cast<std::ptrdiff_t>(std::exchange(at.appended, 0));
+      const auto tail = std::ranges::is_sorted_until(list, {}, &Term::cell);
       std::ranges::sort(tail, list.end(), {}, &Term::cell);
       std::ranges::inplace_merge(list, tail, {}, &Term::cell);
     }
@@ -102,6 +100,7 @@ class CochainLists {
 
   std::pmr::vector<ListAt> lists_;
   std::size_t term_count_ = 0;
+  bool is_sorted_ = true;  // all lists
 };
 
 template <Field K, class Others>
@@ -130,10 +129,10 @@ void CochainLists<K, Others>::add(CochainLists& other, Element scale, Shared& sh
   auto& own = shared.own;
   own.clear();
   auto at = lists_.begin();
-  for (const auto& [a, list, appended] : other.lists_) {
+  for (const auto& [a, list] : other.lists_) {
     at = std::ranges::lower_bound(at, lists_.end(), a, {}, &ListAt::vertex);
     if (at == lists_.end() || at->vertex != a) {
-      at = lists_.insert(at, ListAt{a, lists.take()});
+      at = lists_.insert(at, {a, lists.take()});
       on_enter(a, at->list);
     }
     own.push_back(at->list);

@@ -171,7 +171,7 @@ void TriangleCochain<K>::make_dense(Shared& shared) {
   const auto memory = at_.get_allocator().resource();
   at_.reserve(64 * shared.blocks);
   for (std::size_t a = 0; a < 64 * shared.blocks; ++a) at_.emplace_back(memory);
-  for (const auto& [a, list, appended] : lists_.lists())
+  for (const auto& [a, list] : lists_.lists())
     for (const Term& t : shared.lists[list])
       add_to_row(smaller(t), larger(t), a, t.coefficient(), shared);
   lists_.clear(shared);
@@ -185,7 +185,7 @@ void TriangleCochain<K>::add(TriangleCochain& other, Element scale, Shared& shar
   if (!is_dense() && other.is_dense()) make_dense(shared);
   if (!is_dense()) return lists_.add(other.lists_, scale, shared, on_enter, on_leave);
   other.for_each_vertex([&](Vertex a) { enter(a, shared, on_enter); });
-  for (const auto& [a, list, appended] : other.lists_.lists()) {
+  for (const auto& [a, list] : other.lists_.lists()) {
     for (const Term& t : shared.lists[list])
       add_to_row(smaller(t), larger(t), a, shared.field.multiply(scale, t.coefficient()), shared);
   }
@@ -294,7 +294,7 @@ void TriangleCochain<K>::for_each_vertex(Visit&& visit) const {
 template <Field K>
 template <class Visit>
 void TriangleCochain<K>::for_each_triangle(const Shared& shared, Visit&& visit) const {
-  for (const auto& [a, list, appended] : lists_.lists())
+  for (const auto& [a, list] : lists_.lists())
     for (const Term& t : shared.lists[list])
       if (a < smaller(t)) visit(a, smaller(t), larger(t), t.coefficient());
   for_each_row([&](Vertex a, Vertex b, auto id) {
