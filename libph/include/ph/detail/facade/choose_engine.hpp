@@ -57,7 +57,7 @@ template <Filtration F>
 Plan<F> plan_for(const F& f, const Options& options) {
   check(options);
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
-  if (options.max_dim && *options.max_dim <= 2) {
+  if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
         choose_engine(f, options.engine, task_of(options, *options.max_dim));
     if (choice.engine->goes_by_edges) return {*options.max_dim, choice};
