@@ -19,6 +19,8 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
+export PATH=/usr/lib/llvm-19/bin:$PATH  # llvm-symbolizer
+export PH_TEST_PATIENCE=20  # what is checked takes longer
 export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 summary=()
 

@@ -30,7 +30,7 @@ fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
 coverage=(gcovr libgtest-dev libcgal-dev)
 determinism=(clang-19 libcgal-dev qemu-user-static)
 # Valgrind wants the symbols of the C library; libstdc++'s debug mode wants fmt and GoogleTest compiled along.
-sanitize=(clang-19 libclang-rt-19-dev valgrind libc6-dbg googletest libgtest-dev libcgal-dev)
+sanitize=(clang-19 libclang-rt-19-dev llvm-19 valgrind libc6-dbg googletest libgtest-dev libcgal-dev)
 # Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
 aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
