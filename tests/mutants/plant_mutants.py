@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
 # Rooms of libph/src.
-SOURCES = ["core", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "vectors",
+SOURCES = ["core", "gpu", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "vectors",
            "significance", "loops"]
 HAS_CGAL = Path("/usr/include/CGAL").is_dir()
 if HAS_CGAL:

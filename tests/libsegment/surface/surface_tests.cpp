@@ -331,7 +331,8 @@ TEST(Objects, SmallPartsStayByThemselves) {
   const TableScene scene = box_behind_post();
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
   const VoxelGrid grid{s.cells, s.vertices, s.counts, {}};
-  const Surface surface{s.normals, near_voxels(grid, s.voxel, RunContext()), s.viewpoint, s.plane};
+  const Surface surface{s.normals, near_voxels(grid, s.voxel, default_context()), s.viewpoint,
+                        s.plane};
   const std::vector<Index> parts = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
   EXPECT_NE(join_parts(grid, surface, s.voxel, parts, s.first_cut.min_size), parts);
   EXPECT_EQ(join_parts(grid, surface, s.voxel, parts, s.vertices.rows()), parts);
