@@ -171,6 +171,10 @@ class Builder {
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
                                                 *options.threshold));
+    if (!wanted.max_dim && wanted.min_dim > 1)
+      throw Error(ErrorKind::usage, fmt::format("--min-dim: found {}, expected at most 1, the "
+                                                "highest of a Rips complex without --max-dim",
+                                                wanted.min_dim));
     if (options.approximation) options.only_components = false;
     std::vector<double> weights = read_births(size_of(data));
     // Data that no reader can know to be wrong: a point without direction, distances that overflow.

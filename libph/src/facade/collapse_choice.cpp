@@ -42,6 +42,12 @@ int rips_max_dim(const Rips& rips, const Options& options) {
                             "the components are there",
                             max_dim));
   }
+  if (options.min_dim > max_dim) {
+    throw Error(ErrorKind::usage,
+                fmt::format("lowest dimension: found {}, expected at most {}, the highest unless "
+                            "another is given",
+                            options.min_dim, max_dim));
+  }
   if (rips.has_only_points()) {
     const std::string_view obstacle = obstacle_to_points_alone(options, max_dim);
     if (!obstacle.empty())

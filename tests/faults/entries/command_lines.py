@@ -54,6 +54,7 @@ BARCODE = [
       for name in ("csv", "ripser", "pers", "dipha", "npy", "none")),
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
             name], "--engine: found " + name) for name in ("standard",)),
+    (49, ["--min-dim", "2"], "--min-dim: found 2, expected at most 1"),
     (49, ["--collapse", "maybe"], "--collapse"),
     (49, ["--device", "cuda"], "--device"),
     (49, ["--device", "gpu", "--max-dim", "1"], "device gpu"),

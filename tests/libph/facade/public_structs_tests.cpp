@@ -273,6 +273,11 @@ TEST(PublicStructs, Options) {
   add("dimension below 0", "highest dimension: found -1", {.max_dim = -1});
   add("dimension far below 0", "highest dimension: found -2147483648", {.max_dim = INT_MIN});
   add("lowest dimension below 0", "lowest dimension: found -1", {.min_dim = -1});
+  add("lowest dimension above the highest",
+      "lowest dimension: found 2, expected at most the highest", {.max_dim = 1, .min_dim = 2});
+  cases.push_back({"lowest dimension above the usual highest", kUsage,
+                   "lowest dimension: found 2, expected at most 1",
+                   [&] { persistence(rips, {.min_dim = 2}); }});
   add("persistence NaN", "least persistence: found nan", {.min_persistence = kNan});
   for (const std::int64_t field : {INT64_MIN, std::int64_t{-2}, std::int64_t{0}, std::int64_t{1},
                                    std::int64_t{4}, std::int64_t{1} << 31, INT64_MAX}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A page of a report in headless Chromium, opened as a file, with what went wrong in it.
-import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -31,6 +31,7 @@ export async function launch({ webgl = true } = {}) {
 }
 
 const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
+process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 let written = 0;
 
 // A process for each page takes longer than most tests: what a test closes the next one opens.

@@ -46,8 +46,10 @@ class LivingCocycles {
   template <class Star>
   void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
-  /// By ascending generator.
-  std::span<const At> at(Vertex a) const { return at_[a]; }
+  /// Calls `visit(generator, at_u, at_v)` by ascending generator for each with simplices at u or
+  /// v, perhaps; null: none there.
+  template <class Visit>
+  void for_each_at(Vertex u, Vertex v, Visit&& visit) const;
   /// What the list holds; nothing if the cocycle is dense.
   typename Cochain::Terms terms(const At& at) const {
     using Terms = typename Cochain::Terms;
@@ -68,6 +70,20 @@ class LivingCocycles {
   std::pmr::vector<Cochain> cochains_;
   std::pmr::vector<std::pmr::vector<At>> at_;
 };
+
+template <class Cochain>
+template <class Visit>
+void LivingCocycles<Cochain>::for_each_at(Vertex u, Vertex v, Visit&& visit) const {
+  auto i = at_[u].begin(), j = at_[v].begin();
+  const auto end_i = at_[u].end(), end_j = at_[v].end();
+  while (i != end_i || j != end_j) {
+    const bool is_at_u = i != end_i && (j == end_j || i->generator <= j->generator);
+    const bool is_at_v = j != end_j && (i == end_i || j->generator <= i->generator);
+    const At* at_u = is_at_u ? &*i++ : nullptr;
+    const At* at_v = is_at_v ? &*j++ : nullptr;
+    visit((is_at_u ? at_u : at_v)->generator, at_u, at_v);
+  }
+}
 
 template <class Cochain>
 void LivingCocycles<Cochain>::erase(Generator g) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ph/detail/core/flag_filtration.hpp"
+#include "rips/annotations/extend_potential.hpp"
 #include "rips/annotations/link_cochains.hpp"
 #include "rips/annotations/living_cocycles.hpp"
 #include "rips/annotations/vertex_functions.hpp"
@@ -148,19 +149,15 @@ bool LinkExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
   clear();
   const LinkCover* cover = nullptr;
   bool is_obstructed = false;
-  const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
-  auto i = at_u.begin(), j = at_v.begin();
-  while (i != at_u.end() || j != at_v.end()) {
-    const bool is_at_u = i != at_u.end() && (j == at_v.end() || i->generator <= j->generator);
-    const bool is_at_v = j != at_v.end() && (i == at_u.end() || j->generator <= i->generator);
-    const Generator h = is_at_u ? i->generator : j->generator;
+  using At = typename Cocycles::At;
+  cocycles_.for_each_at(e.u, e.v, [&](Generator h, const At* at_u, const At* at_v) {
     const Cochain& cocycle = cocycles_[h];
     Extension found{.generator = h, .cocycle = &cocycle};
-    if (is_at_u) found.at_u = cocycles_.terms(*i++);
-    if (is_at_v) found.at_v = cocycles_.terms(*j++);
-    if (!(is_at_u && cocycle.touches(e.u, found.at_u, graph_)) &&
-        !(is_at_v && cocycle.touches(e.v, found.at_v, graph_)))
-      continue;
+    if (at_u != nullptr) found.at_u = cocycles_.terms(*at_u);
+    if (at_v != nullptr) found.at_v = cocycles_.terms(*at_v);
+    if (!(at_u != nullptr && cocycle.touches(e.u, found.at_u, graph_)) &&
+        !(at_v != nullptr && cocycle.touches(e.v, found.at_v, graph_)))
+      return;
     if (cover == nullptr) cover = &prepare();
     found.potential = rows_.take();
     all_.push_back(found);
@@ -176,7 +173,7 @@ bool LinkExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
       }
     }
     if (x.is_flat && !x.is_obstructed) remove(&x);
-  }
+  });
   return is_obstructed;
 }
 
@@ -318,32 +315,15 @@ bool LinkExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LinkC
 template <Field K>
 bool LinkExtensions<K>::extend_to(Extension& x, const FlagEdge& e, Vertex y,
                                   const LinkForest& forest) {
-  // An edge wy asks that p(y) be p(w) + gamma(w,y).
   const std::size_t words = LinkForest::words_to(y);
   if (!find_gamma(x, e, y, forest.neighbours(), words)) {
     if (x.is_flat) return false;
     std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
   }
-  Unit* p = potential(x);
-  const auto& meetings = forest.meetings();
-  const auto asked_at = [&](Vertex w) {
-    return field_.add(Function::value(p, w), Function::value(gamma_.data(), w));
-  };
-  const Element value = asked_at(meetings.front().at);
-  for (std::size_t i = 0; i < meetings.size(); ++i) {
-    const Element here = asked_at(meetings[i].at);
-    if (Function::difference(mismatch(x), p, gamma_.data(), here, forest.neighbours(i), field_,
-                             words))
-      x.is_mismatched = true;
-    if (here == value) continue;
-    Function::shift(p, forest.part(meetings[i]), field_.add(value, field_.negate(here)), field_,
-                    words);
-    x.is_flat = false;
-  }
-  if (!field_.is_zero(value)) {
-    Function::add_at(p, y, value, field_);
-    x.is_flat = false;
-  }
+  const PotentialStep step =
+      extend_potential(potential(x), gamma_.data(), mismatch(x), y, forest, field_);
+  if (step.mismatched) x.is_mismatched = true;
+  if (step.changed) x.is_flat = false;
   return x.is_mismatched;
 }
 

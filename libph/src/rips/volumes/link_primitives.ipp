@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // Primitives in the order of the filtration: for the classes that die.
+#include "rips/annotations/extend_potential.hpp"
 #include "rips/volumes/link_primitives.hpp"
 
 namespace ph {
@@ -8,7 +9,6 @@ namespace ph {
 template <Field K>
 bool LinkPrimitives<K>::extend_over_parts(Vertex z, Vertex y) {
   const std::size_t words = LinkForest::words_to(y);
-  const auto& meetings = parts_of_star_.meetings();
   bool is_mismatched = false;
   for (Search* s : used_) {
     if (!s->is_active) continue;
@@ -16,24 +16,10 @@ bool LinkPrimitives<K>::extend_over_parts(Vertex z, Vertex y) {
       if (s->is_flat) continue;
       std::fill_n(asked_.begin(), words * Function::kUnitsPerBlock, Unit{});
     }
-    Unit* p = rows_[s->potential];
-    const auto asked_at = [&](Vertex w) {
-      return field_.add(Function::value(p, w), Function::value(asked_.data(), w));
-    };
-    const Element value = asked_at(meetings.front().at);
-    for (std::size_t i = 0; i < meetings.size(); ++i) {
-      const Element here = asked_at(meetings[i].at);
-      if (Function::difference(rows_[s->mismatch], p, asked_.data(), here,
-                               parts_of_star_.neighbours(i), field_, words))
-        is_mismatched = s->is_mismatched = true;
-      if (here == value) continue;
-      Function::shift(p, parts_of_star_.part(meetings[i]), field_.add(value, field_.negate(here)),
-                      field_, words);
-      s->is_flat = false;
-    }
-    if (field_.is_zero(value)) continue;
-    Function::add_at(p, y, value, field_);
-    s->is_flat = false;
+    const PotentialStep step = extend_potential(rows_[s->potential], asked_.data(),
+                                                rows_[s->mismatch], y, parts_of_star_, field_);
+    if (step.mismatched) is_mismatched = s->is_mismatched = true;
+    if (step.changed) s->is_flat = false;
   }
   return is_mismatched;
 }

@@ -101,16 +101,13 @@ void LinkVolumes<K>::look(const FlagEdge& e, LinkComponents& components) {
 
 template <Field K>
 void LinkVolumes<K>::find_classes(const FlagEdge& e) {
-  const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
-  auto i = at_u.begin(), j = at_v.begin();
-  while (i != at_u.end() || j != at_v.end()) {
-    const bool is_at_u = i != at_u.end() && (j == at_v.end() || i->generator <= j->generator);
-    const bool is_at_v = j != at_v.end() && (i == at_u.end() || j->generator <= i->generator);
-    Search& s = primitives_.add(is_at_u ? i->generator : j->generator);
-    if (is_at_u) add_terms(s.gamma, cocycles_.terms(*i++), field_.from_int(1));
-    if (is_at_v) add_terms(s.gamma, cocycles_.terms(*j++), field_.from_int(-1));
+  using At = typename Cocycles::At;
+  cocycles_.for_each_at(e.u, e.v, [&](Generator h, const At* at_u, const At* at_v) {
+    Search& s = primitives_.add(h);
+    if (at_u != nullptr) add_terms(s.gamma, cocycles_.terms(*at_u), field_.from_int(1));
+    if (at_v != nullptr) add_terms(s.gamma, cocycles_.terms(*at_v), field_.from_int(-1));
     if (s.gamma.is_zero(graph_.words())) primitives_.drop_last();
-  }
+  });
 }
 
 template <Field K>
