@@ -55,6 +55,22 @@ def write_symmetric(path, count, seed):
             file.write(struct.pack(f"<{i}f", *(draw() for _ in range(i))))
 
 
+def write_orthogonal(path, count, seed):
+    """Uniform orthogonal matrices as points of R⁹: rotations (Shoemake, by quaternions), half of them
+    times -1."""
+    draw = random.Random(seed).random
+    with open(path, "w") as file:
+        for _ in range(count):
+            share, first, second = draw(), 2 * math.pi * draw(), 2 * math.pi * draw()
+            x, y = math.sqrt(1 - share) * math.sin(first), math.sqrt(1 - share) * math.cos(first)
+            z, w = math.sqrt(share) * math.sin(second), math.sqrt(share) * math.cos(second)
+            sign = 1 if draw() < 0.5 else -1
+            matrix = (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+                      2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                      2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y))
+            file.write(" ".join(f"{sign * entry:.9g}" for entry in matrix) + "\n")
+
+
 @dataclass(frozen=True)
 class Sample:
     """A generated input: `write(path, count, seed)` makes it."""
@@ -78,6 +94,8 @@ SAMPLES = {sample.name: sample for sample in (
     Sample("symmetric_60", "bin", write_symmetric, 60),
     Sample("symmetric_80", "bin", write_symmetric, 80),
     Sample("symmetric_100", "bin", write_symmetric, 100),
+    Sample("symmetric_150", "bin", write_symmetric, 150),
+    Sample("o3_8192", "txt", write_orthogonal, 8192),
     Sample("tiny_12", "bin", write_symmetric, 12),
 )}
 
@@ -123,9 +141,14 @@ ROWS = (
     Row("s2_2000", 2),
     Row("o3_1024.txt", 3, 1.8),
     Row("o3_4096.txt", 3, 1.4),
+    Row("o3_8192", 3, 1.2),
+    Row("sphere_3_192.bin", 3),
+    Row("celegans.bin", 3),
+    Row("fractal_r.bin", 3),
     Row("symmetric_60", 3),
     Row("symmetric_80", 3),
     Row("symmetric_100", 3),
+    Row("symmetric_150", 3),
     Row("random_50_16.bin", 7),
     Row("random_100_4.bin", 3),
     Row("cube_20000", 1, peers=False, usual=False),

@@ -81,7 +81,7 @@ make_binary() {
   local tree=$work/binary/$name stage=$work/binary/$target
   local build=$tree/build
   cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$tree=." -DPH_UNITY=ON -DPH_WERROR=OFF \
+    "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$tree=." -DPH_UNITY=ON \
     -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF -DPH_WITH_CGAL=OFF \
     -DPH_STATIC_PROGRAMS=ON -DPH_WITH_FREETYPE=ON -DPH_WITH_REPORT=ON >"$work/binary.log"
   cmake --build "$build" -j "${PH_JOBS:-$(nproc)}" >>"$work/binary.log" ||

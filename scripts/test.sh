@@ -11,12 +11,12 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
 scripts/setup.sh build test python viewer docs
-cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON -DPH_BUILD_BENCHMARKS=ON \
-  -DPH_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
+cmake --preset release -DPH_WERROR=ON -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON \
+  -DPH_BUILD_BENCHMARKS=ON -DPH_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 cmake --build --preset release -j "$jobs"
 
 # As on a machine without PCL and CGAL: the same objects, found in the compiler cache.
-cmake --preset release -B build/core -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF \
+cmake --preset release -B build/core -DPH_WERROR=ON -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF \
   -DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON
 cmake --build build/core -j "$jobs"
 

@@ -142,10 +142,9 @@ def build(settings):
     if not given:
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
-            "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF",
-            "-DPH_BUILD_TESTS=OFF", "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF",
-            "-DPH_INSTALL=OFF", "-DPH_WERROR=OFF", "-DPH_UNITY=ON",
-            f"-DPython3_EXECUTABLE={sys.executable}",
+            "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF", "-DPH_BUILD_TESTS=OFF",
+            "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF", "-DPH_INSTALL=OFF",
+            "-DPH_UNITY=ON", f"-DPython3_EXECUTABLE={sys.executable}",
             *pybind11_folder(), *settings.get("cmake-args", "").split())
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
     run("cmake", "--build", folder, "--target", "_core", "--parallel", jobs)
