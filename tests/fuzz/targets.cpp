@@ -28,6 +28,7 @@ const std::vector<Target>& targets() {
     list.push_back({"inputs_part", &run_inputs_part});
     list.push_back({"engines", &run_engines});
     list.push_back({"diagrams", &run_diagrams});
+    list.push_back({"report", &run_report});
 #ifdef PH_FUZZ_C
     list.push_back({"c", &run_c});
 #endif

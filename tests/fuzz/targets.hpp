@@ -46,6 +46,8 @@ void run_inputs_part(std::string_view bytes);
 void run_engines(std::string_view bytes);
 /// Distances of small diagrams beside all matchings; vectors of them.
 void run_diagrams(std::string_view bytes);
+/// Arrays and metadata of a report's page: what is written is read back.
+void run_report(std::string_view bytes);
 // Where there is a C interface:
 /// Calls beside the same calls of the C++ library; some have sizes and pointers that no input has.
 void run_c(std::string_view bytes);

@@ -2,7 +2,6 @@
 // How a report is written: its encodings, its metadata, its page. What programs make of it:
 // barcode_report.py, barcode_report_data.py, segment_report.py.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstring>
 #include <random>
@@ -15,6 +14,7 @@
 #include "report/metadata.hpp"
 #include "report/page_template.hpp"
 #include "report/report_file.hpp"
+#include "support/report_arrays.hpp"
 
 namespace ph::report {
 namespace {
@@ -61,44 +61,6 @@ TEST(Sha256, IsThatOfFips180) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-std::vector<std::uint8_t> base64_decoded(std::string_view text) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(bits >> count));
-  }
-  return bytes;
-}
-
-/// The numbers of an element, as the page reads them.
-template <class T>
-std::vector<T> numbers_of(const std::string& element, std::size_t count, std::size_t columns) {
-  const std::size_t begin = element.find('>') + 1, end = element.rfind("</script>");
-  const auto packed = base64_decoded(std::string_view(element).substr(begin, end - begin));
-  std::vector<std::uint8_t> bytes(count * sizeof(T) + 1);
-  uLongf size = bytes.size();
-  EXPECT_EQ(uncompress(bytes.data(), &size, packed.data(), packed.size()), Z_OK);
-  EXPECT_EQ(size, count * sizeof(T));
-  std::vector<std::uint8_t> unplaned(count * sizeof(T));
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    for (std::size_t i = 0; i < count; ++i) unplaned[i * sizeof(T) + k] = bytes[k * count + i];
-  std::vector<T> numbers(count);
-  if (count > 0) std::memcpy(numbers.data(), unplaned.data(), unplaned.size());
-  if (element.find("delta") < begin)
-    for (std::size_t i = columns; i < count; ++i)
-      numbers[i] = static_cast<T>(static_cast<std::uint64_t>(numbers[i]) +
-                                  static_cast<std::uint64_t>(numbers[i - columns]));
-  return numbers;
-}
-
 template <class T>
 void expect_round_trip(bool delta) {
   std::mt19937 random(7);
@@ -111,7 +73,7 @@ void expect_round_trip(bool delta) {
         write_array(sink, raw_array("a/b", std::span<const T>(numbers)),
                     {.shape = {rows, columns}, .delta = delta}, default_context());
       });
-      EXPECT_EQ(numbers_of<T>(element, numbers.size(), columns), numbers);
+      EXPECT_EQ(test::numbers_of<T>(element, numbers.size(), columns), numbers);
     }
   }
 }

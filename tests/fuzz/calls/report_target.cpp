@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What the page of a report holds: arrays of any numbers, texts of any bytes.
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "chosen_numbers.hpp"
+#include "io/bytes/json_cursor.hpp"
+#include "report/encoding/array_block.hpp"
+#include "report/metadata.hpp"
+#include "support/report_arrays.hpp"
+#include "targets.hpp"
+#include "violation.hpp"
+
+namespace ph::fuzz {
+namespace {
+
+using namespace report;
+
+/// An array is read back equal, bit by bit, and its element holds no other.
+template <class T>
+void check_array(ChosenNumbers& chosen) {
+  const auto rows = static_cast<std::size_t>(chosen.choice(9)),
+             columns = static_cast<std::size_t>(1 + chosen.choice(4));
+  std::vector<T> numbers(rows * columns);
+  for (T& x : numbers) {
+    unsigned char bytes[sizeof(T)];
+    for (unsigned char& byte : bytes) byte = chosen.byte();
+    std::memcpy(&x, bytes, sizeof x);
+  }
+  std::string element;
+  write_array([&element](std::string_view piece) { element += piece; },
+              raw_array("a/b", std::span<const T>(numbers)),
+              {.shape = {rows, columns}, .delta = std::is_integral_v<T> && chosen.coin()},
+              default_context());
+  require(std::ranges::count(element, '<') == 2 && std::ranges::count(element, '>') == 2,
+          "an array is more than an element");
+  const std::vector<T> found = test::numbers_of<T>(element, numbers.size(), columns);
+  require(found.size() == numbers.size() &&
+              (found.empty() ||
+               std::memcmp(found.data(), numbers.data(), found.size() * sizeof(T)) == 0),
+          "an array is not read back equal");
+}
+
+std::string text_of(ChosenNumbers& chosen) {
+  std::string text(static_cast<std::size_t>(chosen.choice(12)), ' ');
+  for (char& c : text) c = static_cast<char>(chosen.byte());
+  return text;
+}
+
+bool is_ascii(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+/// The metadata are JSON without a tag, whose texts and numbers are those that went in.
+void check_metadata(ChosenNumbers& chosen) {
+  Metadata meta;
+  meta.title = text_of(chosen);
+  meta.value_label = text_of(chosen);
+  meta.barcodes.push_back({text_of(chosen), CellKind::grid, Representatives::cycles});
+  meta.axes = {text_of(chosen)};
+  meta.cloud.emplace().projection = text_of(chosen);
+  meta.distances = {{1, chosen.number()}};
+  meta.provenance.command = {text_of(chosen), text_of(chosen)};
+  meta.provenance.notes = {{text_of(chosen), text_of(chosen)}};
+  meta.provenance.run.input = text_of(chosen);
+  const std::string json = metadata_json(meta);
+  require(json.find('<') == std::string::npos, "metadata hold a tag");
+
+  const Input input = Input::view(json, "metadata");
+  detail::JsonCursor cursor(input);
+  cursor.expect('{');
+  bool is_first = true, has_title = false;
+  for (std::string name; cursor.next_member(is_first, name);) {
+    if (name != "title") {
+      cursor.skip_value();
+      continue;
+    }
+    const std::string title = cursor.string();
+    require(!is_ascii(meta.title) || title == meta.title, "a title is another");
+    has_title = true;
+  }
+  cursor.expect_end();
+  require(has_title || meta.title.empty(), "a title is lost");
+}
+
+}  // namespace
+
+void run_report(std::string_view bytes) {
+  ChosenNumbers chosen(bytes);
+  switch (chosen.choice(8)) {
+    case 0:
+      return check_array<std::uint8_t>(chosen);
+    case 1:
+      return check_array<std::int8_t>(chosen);
+    case 2:
+      return check_array<std::uint16_t>(chosen);
+    case 3:
+      return check_array<std::int16_t>(chosen);
+    case 4:
+      return check_array<std::uint32_t>(chosen);
+    case 5:
+      return check_array<std::int32_t>(chosen);
+    case 6:
+      return check_array<float>(chosen);
+    case 7:
+      return check_array<double>(chosen);
+    default:
+      return check_metadata(chosen);
+  }
+}
+
+}  // namespace ph::fuzz
