@@ -31,10 +31,6 @@ void check(const Options& options) {
   };
   at_least_0("highest dimension", options.max_dim.value_or(0));
   at_least_0("lowest dimension", options.min_dim);
-  if (options.max_dim && options.min_dim > *options.max_dim)
-    throw Error(ErrorKind::usage, fmt::format("lowest dimension: found {}, expected at most the "
-                                              "highest, {}",
-                                              options.min_dim, *options.max_dim));
   if (std::isnan(options.min_persistence))
     throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
 }

@@ -42,7 +42,7 @@ int rips_max_dim(const Rips& rips, const Options& options) {
                             "the components are there",
                             max_dim));
   }
-  if (options.min_dim > max_dim) {
+  if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
                 fmt::format("lowest dimension: found {}, expected at most {}, the highest unless "
                             "another is given",

@@ -273,8 +273,6 @@ TEST(PublicStructs, Options) {
   add("dimension below 0", "highest dimension: found -1", {.max_dim = -1});
   add("dimension far below 0", "highest dimension: found -2147483648", {.max_dim = INT_MIN});
   add("lowest dimension below 0", "lowest dimension: found -1", {.min_dim = -1});
-  add("lowest dimension above the highest",
-      "lowest dimension: found 2, expected at most the highest", {.max_dim = 1, .min_dim = 2});
   cases.push_back({"lowest dimension above the usual highest", kUsage,
                    "lowest dimension: found 2, expected at most 1",
                    [&] { persistence(rips, {.min_dim = 2}); }});
