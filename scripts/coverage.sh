@@ -18,7 +18,9 @@ failed=0
 report() {
   local name=$1 least=$2 table=$build/$1.txt
   shift 2
-  gcovr --root . --object-directory "$build" --fail-under-line "$least" "$@" -o "$table" || failed=1
+  # Threads count without a lock, which is ten times as fast: a counter may become negative.
+  gcovr --root . --object-directory "$build" --gcov-ignore-parse-errors --fail-under-line "$least" \
+    "$@" -o "$table" || failed=1
   cat "$table"
   summary+=("$name: $(awk '$1 == "TOTAL" { print $3 " of " $2 " lines, " $4 }' "$table"), at least $least %")
 }
