@@ -148,7 +148,7 @@ ROWS = (
     Row("symmetric_60", 3),
     Row("symmetric_80", 3),
     Row("symmetric_100", 3),
-    Row("symmetric_150", 3),
+    Row("symmetric_150", 3, peers=False, usual=False),
     Row("random_50_16.bin", 7),
     Row("random_100_4.bin", 3),
     Row("cube_20000", 1, peers=False, usual=False),

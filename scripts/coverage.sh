@@ -18,7 +18,7 @@ failed=0
 report() {
   local name=$1 least=$2 table=$build/$1.txt
   shift 2
-  # Threads count without a lock, which is ten times as fast: a counter may become negative.
+  # Threads count without a lock, since locks make tests far slower: a counter may become negative.
   gcovr --root . --object-directory "$build" --gcov-ignore-parse-errors --fail-under-line "$least" \
     "$@" -o "$table" || failed=1
   cat "$table"

@@ -2,8 +2,8 @@
 """random_arrays.py [--runs N] [--seed S]
 
 Gives arrays of random types, shapes and layouts to libph and compares the bars with those by the
-definition (oracle.py), which reads the numbers one by one. What is no finite number must be refused
-in one line, and no array may be written to. Each run has a seed of its own: --seed S --runs 1
+definition (oracle.py), which reads the numbers one by one. NaN and what is no number must be
+refused in one line, and no array may be written to. Each run has a seed of its own: --seed S --runs 1
 repeats the run of seed S. Exits 1 at the first difference."""
 import argparse
 import collections
@@ -93,7 +93,7 @@ def plain_numbers(array):
 
 def random_numbers(draw, shape, kind):
     """Whole numbers that each type holds, with ties; for floats quarters, rarely NaN or infinity."""
-    if kind in "?":
+    if kind == "?":
         pick = [0, 1]
     elif kind[0] == "u":
         pick = range(120)
@@ -122,7 +122,7 @@ def made(draw, task, kind):
     shape = some_shape(draw, task)
     array = random_numbers(draw, shape, kind)
     if task == "distances":
-        array = np.abs(array) if kind not in "?" else array
+        array = np.abs(array) if kind != "?" else array
         array = np.maximum(array, array.T) if kind != "O" else np.where(array >= array.T, array, array.T)
         np.fill_diagonal(array, 0)
     return array
@@ -218,7 +218,7 @@ def main():
     least = arguments.runs // 20
     for outcome in ("refused", "bars of points", "bars of distances", "bars of image"):
         if counts[outcome] < least:
-            print(f"FAILED: no run ended with: {outcome}")
+            print(f"FAILED: found {counts[outcome]} runs with: {outcome}, expected at least {least}")
             return 1
     print(f"{arguments.runs} runs, 0 failures:", ", ".join(f"{n} {what}" for what, n in sorted(counts.items())))
     return 0
