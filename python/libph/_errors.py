@@ -38,7 +38,7 @@ class Timeout(Cancelled, TimeoutError):
 
 
 class NotBuiltIn(Error, NotImplementedError):
-    """A feature was left out of this build, or is none of libph's."""
+    """A feature was left out of this build, is none of libph's, or needs a GPU that is not there."""
 
 
 class InternalError(Error, RuntimeError):

@@ -10,7 +10,7 @@ enum class ErrorKind {
   usage,          ///< an argument or option makes no sense
   bad_data,       ///< the input is malformed or breaks a precondition
   no_input,       ///< the input is missing or unreadable
-  not_built_in,   ///< the feature was left out of this build
+  not_built_in,   ///< this build was made without the feature, or this machine lacks what it needs
   cannot_create,  ///< the output cannot be created
   io,             ///< reading or writing broke off
   resource,       ///< memory or another limit would be exceeded

@@ -72,8 +72,8 @@ class Rips {
   /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
   /// negative threshold; Error (usage, bad_data) as RipsVertices; Error (resource) if the context's
   /// memory limit would be exceeded; with a device other than the CPU Error (usage) if it cannot do
-  /// what is asked for, Error (not_built_in), Error (resource) if there is none or its memory is
-  /// too small.
+  /// what is asked for, Error (not_built_in) also if there is none, Error (resource) if its memory
+  /// is too small.
   explicit Rips(PointsView points, const RipsOptions& options = {},
                 const RunContext& context = default_context());
   explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},

@@ -26,7 +26,7 @@ void require_device(std::size_t points, std::size_t axes) {
   cudaError_t error = cudaGetDeviceProperties(&device, 0);
   if (error == cudaSuccess) error = cudaMemGetInfo(&free, &total);
   if (error != cudaSuccess)
-    throw Error(ErrorKind::resource,
+    throw Error(ErrorKind::not_built_in,
                 std::string("device gpu: CUDA says: ") + cudaGetErrorString(error));
   const std::size_t per_point = axes <= kMostAxesOfBoxes ? 100 + 32 * axes : 140 + 8 * axes;
   const std::size_t needed = points * per_point + (std::size_t{256} << 20);
