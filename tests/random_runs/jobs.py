@@ -22,6 +22,9 @@ class Job:
     tolerance: float = 0.0  # 0: every double as it is
     engines: tuple = ("standard", "twist")
     has_parts: bool = False  # whether --part can be asked of it
+    name_of: object = tuple  # of a cell as the program names it: its name in the filtration
+    period: tuple = None  # of images, by axis: the length in doubled coordinates; None: it is open
+    has_cells: bool = True  # whether the filtration has the cells of the program
 
 
 def coordinate(rng, style):
@@ -104,7 +107,7 @@ def rips(rng):
     """Vietoris-Rips of points or distances."""
     style = rng.choice(["grid", "grid", "dyadic", "wide", "unit"])
     tolerance = 0.0 if style in ("grid", "dyadic") else 1e-12
-    options, files = [], []
+    options, files, read = [], [], None
     if rng.random() < 0.6:
         dim = rng.choice([1, 2, 2, 3, 3, 4, 6])
         points = random_points(rng, 9, dim, style)
@@ -125,6 +128,7 @@ def rips(rng):
             metric = "euclidean"
         if not is_series and rng.random() < 0.1:
             rows = lost_rows(rng, rows)
+            read = [i for i, row in enumerate(rows) if not any(map(math.isnan, row))]
             options += ["--nan", "drop"]
         name, content, more = formats.points_file(rng, rows, is_series or rows is not points)
         options += more
@@ -198,8 +202,9 @@ def rips(rng):
         engines += ["beta-skeleton"]
     has_parts = kind == "rips of points" and metric == "euclidean" and plain and max_dim == 0 and \
         threshold == INF and len(files) == 1
+    place = {point: i for i, point in enumerate(read or chosen)}
     return Job(kind, files, options + more + of_field, filtration, prime, max_dim, tolerance, tuple(engines),
-               has_parts)
+               has_parts, name_of=lambda points: tuple(sorted(place[i] for i in points)))
 
 
 def cubical(rng):
@@ -233,8 +238,11 @@ def cubical(rng):
                                            INF if threshold is None else threshold)
     options += ["--slab-layers", str(rng.randint(1, 3))] if rng.random() < 0.15 else []
     has_parts = "--slab-layers" not in options and (max_dim == 0 or axes <= 2)
+    turned = slice(None, None, -1 if "dipha" in options else 1)  # such a file has the last axis first
     return Job(f"image of {axes} axes", [(name, content)], options + more + of_field, filtration, prime,
-               max_dim, 0.0, ("standard", "twist", "gradient"), has_parts)
+               max_dim, 0.0, ("standard", "twist", "gradient"), has_parts,
+               name_of=lambda cube: tuple(cube[turned]),
+               period=tuple(2 * n if k in periodic else None for k, n in enumerate(shape))[turned])
 
 
 def random_complex(rng, most):
@@ -280,7 +288,8 @@ def explicit(rng):
             files.append(formats.values_file(rng, numbers))
             of_format += ["--values", files[1][0] + (":a" if files[1][0].endswith("npz") else "")]
         filtration = oracle.simplicial({s: v for s, v in values.items() if v <= limit})
-    return Job("boundary matrix", files, of_format + options + more, filtration, 2, max_dim)
+    return Job("boundary matrix", files, of_format + options + more, filtration, 2, max_dim,
+               name_of=lambda row: order[row])
 
 
 def lower_star(rng):
@@ -327,7 +336,25 @@ def alpha(rng):
         options += ["--alpha-values", "squared"]
         filtration = {s: (v * v, d, b) for s, (v, d, b) in filtration.items()}
     return Job(kind, [(name, content)], options + more + of_field, filtration, prime, max_dim, 1e-7,
-               ("standard", "twist"))
+               ("standard", "twist"), has_cells=False)
 
 
-KINDS = {"rips": rips, "cubical": cubical, "explicit": explicit, "lower-star": lower_star, "alpha": alpha}
+def periodic_alpha(rng):
+    """Alpha complexes of points of a circle or a torus."""
+    dim = rng.choice([1, 2, 2])
+    points = random_points(rng, 4 if dim == 1 else 2, dim, "unit")
+    points += [[rng.random() for _ in range(dim)] for _ in range(dim)]  # images of one lie on a circle
+    points = sorted(map(list, {tuple(p) for p in points}), key=lambda _: rng.random())
+    period = [rng.choice([1.0, 1.0, rng.uniform(0.5, 1.5)]) for _ in range(dim)]
+    name, content, options = formats.points_file(rng, points)
+    options = [o for k, o in enumerate(options) if o != "--complex" and (k == 0 or options[k - 1] != "--complex")]
+    options += ["--complex", "alpha", "--period", ",".join(formats.number(rng, length) for length in period)]
+    max_dim, more = dimensions(rng, dim, dim)
+    prime, of_field = field(rng)
+    filtration = oracle.periodic_alpha_filtration(points, period)
+    return Job("alpha, periodic", [(name, content)], options + more + of_field, filtration, prime, max_dim,
+               1e-7, ("standard", "twist", "cohomology", "gradient"), has_cells=False)
+
+
+KINDS = {"rips": rips, "cubical": cubical, "explicit": explicit, "lower-star": lower_star, "alpha": alpha,
+         "periodic-alpha": periodic_alpha}

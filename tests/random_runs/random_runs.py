@@ -8,6 +8,7 @@ the commands; the files are kept in FOLDER (default: where the script is run).""
 import argparse
 import collections
 import dataclasses
+import json
 import math
 import os
 import pathlib
@@ -20,6 +21,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
+import chains  # noqa: E402
 import formats  # noqa: E402
 import jobs  # noqa: E402
 import oracle  # noqa: E402
@@ -59,6 +61,7 @@ class Output:
     name: str = None
     low: int = 0
     short: float = 0.0
+    chains: str = None  # cycles or cocycles, where it has them
 
 
 def side_options(rng, job):
@@ -81,8 +84,8 @@ def side_options(rng, job):
         output.short = rng.choice([0.5, 1.0, 0.25, 0.0])
         options.append(["--min-persistence", formats.number(rng, output.short)])
     if rng.random() < 0.15:
-        output.form = "json"
-        options.append(["--representatives", rng.choice(["cycles", "cocycles"])])
+        output.form, output.chains = "json", rng.choice(["cycles", "cocycles"])
+        options.append(["--representatives", output.chains])
     if rng.random() < 0.5:
         output.name = "out." + EXTENSIONS[output.form]
         options.append([rng.choice(["-o", "--output"]), output.name])
@@ -124,8 +127,11 @@ class Program:
         raise Difference(f"{what}\n  {shlex.join(self.command)}\n"
                          f"  exit {self.run.returncode}: {self.said[-600:]}")
 
+    def content(self, output):
+        return pathlib.Path(self.folder, output.name).read_bytes() if output.name else self.run.stdout
+
     def read(self, output):
-        content = pathlib.Path(self.folder, output.name).read_bytes() if output.name else self.run.stdout
+        content = self.content(output)
         try:
             return formats.read_barcode(content, output.form)
         except Exception as error:  # noqa: BLE001
@@ -154,7 +160,58 @@ def compare(program, job, output):
     finite = [abs(x) for bar in bars for x in bar[1:] if math.isfinite(x)]
     if not match(found, expected, tolerance, max([*finite, 1e-300]), output.short):
         program.differ(f"found {found}\n  expected {expected}")
+    if output.chains:
+        try:
+            check_chains(job, output.chains, json.loads(program.content(output))["bars"])
+        except chains.Unfit as error:
+            program.differ(f"{output.chains}: {error}")
+        return f"{job.kind}, {output.chains}"
     return job.kind
+
+
+def check_chains(job, kind, bars):
+    """@param kind cycles or cocycles. @param bars as JSON has them. @throws chains.Unfit"""
+    representatives = chains.Representatives(job.filtration, job.prime)
+    for bar in bars:
+        try:
+            check_chain(job, kind, bar, representatives)
+        except (chains.Unfit, KeyError) as error:
+            raise chains.Unfit(f"{bar}: {error!r}") from error
+
+
+def check_chain(job, kind, bar, representatives):
+    def number(value):
+        return float({None: math.inf}.get(value, value))
+
+    def content(cell):
+        return cell and next(value for key, value in cell.items() if key in ("vertices", "grid", "row"))
+
+    def named(cell):
+        return cell and job.name_of(content(cell))
+
+    ends = (bar["dim"], number(bar["birth"]), number(bar["death"]))
+    born, killer = named(bar["birth_cell"]), named(bar["death_cell"])
+    chain = representatives.chain([(named(cell), cell["coefficient"]) for cell in bar["representative"]])
+    by_value = job.has_cells and job.tolerance == 0  # else values are others in the last digits
+    if not by_value:
+        if kind == "cycles" and chains.boundary(chain, oracle.simplex_boundary, job.prime):
+            raise chains.Unfit("it has a boundary")
+    elif kind == "cycles":
+        representatives.check_cycle(chain, ends, born)
+    else:
+        representatives.check_cocycle(chain, ends, born, killer)
+    loops = [(list(map(tuple, content(loop))) if job.period else content(loop), loop["coefficient"])
+             for loop in bar.get("loops", ())]
+    # What loops of one or two vertices mean that go around a periodic space, or which edge joins the two
+    # voxels of a periodic axis, the chain tells alone.
+    if not loops or any(len(vertices) < 3 for vertices, _ in loops) or job.period and 4 in job.period:
+        return
+    run_through = {job.name_of(edge): number
+                   for edge, number in chains.sum_of_loops(loops, job.period, job.prime).items()}
+    if by_value:
+        representatives.check_cycle(run_through, ends, born)
+    elif run_through.get(born) != chain.get(born):
+        raise chains.Unfit(f"its loops sum to {run_through}")
 
 
 def in_parts(rng, program, job):

@@ -9,13 +9,26 @@ import math
 INF = math.inf
 
 
-def barcode(filtration, prime=2):
-    """All bars of positive length as a sorted list of (dim, birth, death)."""
-    order = sorted(filtration, key=lambda c: (filtration[c][0], filtration[c][1], c))
-    place = {cell: i for i, cell in enumerate(order)}
-    columns, killed, bars = {}, set(), []
-    for i, cell in enumerate(order):
-        value, dim, boundary = filtration[cell]
+class Columns:
+    """A boundary matrix whose columns have been reduced."""
+
+    def __init__(self, filtration):
+        self.filtration = filtration
+        self.order = sorted(filtration, key=lambda c: (filtration[c][0], filtration[c][1], c))
+        self.place = {cell: i for i, cell in enumerate(self.order)}
+        self.by_lowest = {}  # a column by the place of its youngest cell
+        self.killer = {}  # and the place of the column
+
+    def value_at(self, low):
+        """The value of the cell whose column has that youngest cell."""
+        return self.filtration[self.order[self.killer[low]]][0]
+
+
+def reduced_columns(filtration, prime=2):
+    result = Columns(filtration)
+    place, columns = result.place, result.by_lowest
+    for i, cell in enumerate(result.order):
+        _, _, boundary = filtration[cell]
         column = {}
         for face, coefficient in boundary:
             number = (column.get(place[face], 0) + coefficient) % prime
@@ -37,11 +50,21 @@ def barcode(filtration, prime=2):
         if column:
             low = max(column)
             columns[low] = column
-            killed |= {low, i}
-            birth = filtration[order[low]][0]
-            if birth < value:
-                bars.append((dim - 1, birth, value))
-    bars += [(filtration[c][1], filtration[c][0], INF) for i, c in enumerate(order) if i not in killed]
+            result.killer[low] = i
+    return result
+
+
+def barcode(filtration, prime=2):
+    """All bars of positive length as a sorted list of (dim, birth, death)."""
+    columns = reduced_columns(filtration, prime)
+    paired, bars = set(), []
+    for low, high in columns.killer.items():
+        paired |= {low, high}
+        birth, dim, _ = filtration[columns.order[low]]
+        death = filtration[columns.order[high]][0]
+        if birth < death:
+            bars.append((dim, birth, death))
+    bars += [(filtration[c][1], filtration[c][0], INF) for i, c in enumerate(columns.order) if i not in paired]
     return sorted((d, b + 0.0, e + 0.0) for d, b, e in bars)
 
 
@@ -157,6 +180,62 @@ def cech_filtration(points, max_dim):
             faces = (values[f] for f, _ in simplex_boundary(simplex))
             values[simplex] = max([radius, *faces])
     return simplicial(values)
+
+
+def circumscribed(points):
+    """The smallest sphere through points: centre, square of the radius; None if there is none, nearly."""
+    edges = [[x - y for x, y in zip(p, points[0])] for p in points[1:]]
+    at = solve([[2 * sum(a * b for a, b in zip(e, f)) for f in edges] for e in edges],
+               [sum(a * a for a in e) for e in edges])
+    if at is None:
+        return None
+    to = [sum(t * e[k] for t, e in zip(at, edges)) for k in range(len(points[0]))]
+    return [x + y for x, y in zip(points[0], to)], sum(x * x for x in to)
+
+
+def periodic_alpha_filtration(points, period):
+    """The alpha complex of points in general position of a torus, cell by cell: a cell is a set of
+    images, pairs (point, periods), on an empty sphere, up to translation. Where points are few it is no
+    simplicial complex: cells are ordered by their images, an order that translations leave alone."""
+    dim = len(period)
+    points = [[x % length for x, length in zip(point, period)] for point in points]
+    reach = math.sqrt(sum(length * length for length in period))  # no empty ball is wider
+    periods = [range(-math.ceil(reach / length) - 1, math.ceil(reach / length) + 2) for length in period]
+    images = {(i, t): [x + k * length for x, k, length in zip(point, t, period)]
+              for i, point in enumerate(points) for t in itertools.product(*periods)}
+
+    def home(cell):
+        first = cell[0][1]
+        return tuple((i, tuple(k - k0 for k, k0 in zip(t, first))) for i, t in cell)
+
+    def own_value(cell):
+        """The square of the radius of its smallest sphere; None if something lies inside."""
+        sphere = circumscribed([images[image] for image in cell])
+        if sphere is None or any(image not in cell and math.dist(sphere[0], x) ** 2 < sphere[1]
+                                 for image, x in images.items()):
+            return None
+        return sphere[1]
+
+    cells = {}
+    for i, point in enumerate(points):
+        first = (i, (0,) * dim)
+        near = sorted(image for image, x in images.items() if image > first and math.dist(point, x) <= reach)
+        for others in itertools.combinations(near, dim):
+            value = own_value((first, *others))
+            if value is not None:
+                cells[(first, *others)] = (value, dim, ())
+    for size in range(dim, 0, -1):
+        above = [cell for cell in cells if len(cell) == size + 1]
+        latest = {}
+        for cell in above:
+            facets = tuple((home(cell[:k] + cell[k + 1:]), (-1) ** k) for k in range(size + 1))
+            cells[cell] = (cells[cell][0], size, facets)
+            for facet, _ in facets:
+                latest[facet] = min(latest.get(facet, INF), cells[cell][0])
+        for facet, value in latest.items():
+            own = own_value(facet) if size > 1 else 0.0
+            cells[facet] = (value if own is None else own, size - 1, ())
+    return {cell: (math.sqrt(value), of, facets) for cell, (value, of, facets) in cells.items()}
 
 
 def distance(metric):

@@ -78,7 +78,8 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
 
 namespace {
 
-/// Cells of a Delta-complex with their boundaries.
+/// Cells of a Delta-complex with their boundaries. Sites have an order of their own; chains are of
+/// cells whose points ascend, so it is those that are listed.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
@@ -87,13 +88,14 @@ class CellList {
         enters_(enters),
         vertices_(vertices),
         ticker_(context, "cells"),
+        is_turned_(&context.memory),
         vertex_rows_(cells.sites.size(), kMissing, &context.memory),
         edge_rows_(cells.edge_states.size(), kMissing, &context.memory),
         facet_rows_(4 * cells.triangulation.size(), kMissing, &context.memory) {}
 
   BoundaryMatrix run() {
     for (uint32_t v = 0; v < cells_.sites.size(); ++v)
-      vertex_rows_[v] = add({&v, 1}, cells_.vertex_value(v), {});
+      vertex_rows_[v] = add_cell({&v, 1}, cells_.vertex_value(v), {});
     add_copies();
     add_edges();
     if (cells_.dim() > 1) add_facets();
@@ -102,7 +104,7 @@ class CellList {
       const auto& cell = cells_.triangulation.cells[t];
       auto boundary = size == 2 ? boundary_of_edge(cell) : std::array<Index, 4>();
       for (uint32_t k = 0; size > 2 && k < size; ++k) boundary[k] = facet_row(4 * t + k);
-      add(std::span(cell).first(size), cells_.cell_values[t], std::span(boundary).first(size));
+      add_cell(std::span(cell).first(size), cells_.cell_values[t], std::span(boundary).first(size));
     }
     return std::move(matrix_);
   }
@@ -111,33 +113,46 @@ class CellList {
   static constexpr Index kMissing = -1;
 
   /// @param boundary its facets, in the order of the vertices that they lack. @return its row.
-  Index add(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
+  Index add_cell(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
+    std::array<Index, 4> points{};
+    for (std::size_t i = 0; i < sites.size(); ++i) points[i] = cells_.sites.input[sites[i]];
+    return add(std::span(points).first(sites.size()), value, boundary);
+  }
+  /// @param points in the order of their sites; they are sorted.
+  Index add(std::span<Index> points, double value, std::span<const Index> boundary) {
     if (!enters_(value)) return kMissing;
     ticker_.tick();
     const auto row = static_cast<Index>(matrix_.dims.size());
-    matrix_.dims.push_back(static_cast<int>(sites.size()) - 1);
+    matrix_.dims.push_back(static_cast<int>(points.size()) - 1);
     matrix_.values.push_back(value);
+    const bool is_turned = sort_points(points);
+    is_turned_.push_back(is_turned);
+    vertices_.add(points, value);
     const bool is_loop = boundary.size() == 2 && boundary[0] == boundary[1];
     for (std::size_t k = 0; k < boundary.size() && !is_loop; ++k) {
+      const bool is_against = is_turned != is_turned_[static_cast<std::size_t>(boundary[k])];
       matrix_.rows.push_back(boundary[k]);
-      matrix_.incidences.push_back(k % 2 == 0 ? 1 : -1);
+      matrix_.incidences.push_back((k % 2 == 0) != is_against ? 1 : -1);
     }
     matrix_.offsets.push_back(matrix_.rows.size());
-    std::array<Index, 4> numbers{};
-    for (std::size_t i = 0; i < sites.size(); ++i) numbers[i] = cells_.sites.input[sites[i]];
-    std::sort(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(sites.size()));
-    vertices_.add(std::span(numbers).first(sites.size()), value);
     return row;
+  }
+  /// Equal ones stay in order. @return whether that is an odd permutation.
+  static bool sort_points(std::span<Index> points) {
+    bool is_odd = false;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      for (std::size_t k = i; k > 0 && points[k - 1] > points[k]; --k) {
+        std::swap(points[k - 1], points[k]);
+        is_odd = !is_odd;
+      }
+    return is_odd;
   }
   void add_copies() {
     if (!enters_(0)) return;
     for (const auto& [copy, site] : cells_.sites.copies) {
-      const Index row = add({&site, 1}, 0, {});
-      vertices_.vertices.back() = Index{copy};
-      const std::array both{site, site};
-      add(both, 0, std::array{row, vertex_rows_[site]});
-      vertices_.vertices.back() = std::max(Index{copy}, Index{cells_.sites.input[site]});
-      *(vertices_.vertices.end() - 2) = std::min(Index{copy}, Index{cells_.sites.input[site]});
+      std::array points{Index{cells_.sites.input[site]}, Index{copy}};
+      const Index row = add(std::span(points).last(1), 0, {});
+      add(points, 0, std::array{row, vertex_rows_[site]});
     }
   }
   template <class Ends>
@@ -148,7 +163,7 @@ class CellList {
     for (std::size_t e = 0; e < cells_.edge_states.size(); ++e) {
       const auto& ends = cells_.edges.ends[e];
       const auto boundary = boundary_of_edge(ends);
-      edge_rows_[e] = add(ends, cells_.edge_states[e].value, std::span(boundary).first(2));
+      edge_rows_[e] = add_cell(ends, cells_.edge_states[e].value, std::span(boundary).first(2));
     }
   }
   void add_facets() {
@@ -161,8 +176,8 @@ class CellList {
         const auto edges = cells_.facet_edges(code);
         for (std::size_t i = 0; i < 3; ++i) boundary[i] = edge_rows_[edges[i]];
       }
-      facet_rows_[code] =
-          add(std::span(v).first(size), facet_value(cells_, code), std::span(boundary).first(size));
+      facet_rows_[code] = add_cell(std::span(v).first(size), facet_value(cells_, code),
+                                   std::span(boundary).first(size));
     }
   }
   Index facet_row(uint32_t code) const { return facet_rows_[std::min(code, cells_.across(code))]; }
@@ -172,6 +187,7 @@ class CellList {
   SimplexList& vertices_;
   Ticker ticker_;
   BoundaryMatrix matrix_;
+  std::pmr::vector<bool> is_turned_;  // by row: whether the points lay in an odd permutation
   // By site, by edge, and by the usual name of a facet.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };

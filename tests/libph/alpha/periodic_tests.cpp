@@ -346,19 +346,6 @@ TEST(Periodic, ThreadsChangeNothing) {
   }
 }
 
-// By generic engines: those of loops are the edges from a point to its images.
-TEST(Periodic, Cycles) {
-  const Barcode bars = persistence(Alpha(Points{{0, 0}}, {.period = {2, 3}}),
-                                   {.field = 3, .representatives = Representatives::cycles});
-  ASSERT_EQ(bars.size(), 4U);
-  for (const std::size_t i : {1, 2}) {
-    const InputChain cycle = bars.representative(i);
-    ASSERT_EQ(cycle.size(), 1U);
-    EXPECT_TRUE(std::ranges::equal(cycle.cell(0).numbers, std::vector<Index>{0, 0}));
-  }
-  EXPECT_EQ(bars.representative(3).size(), 2U);  // both triangles
-}
-
 TEST(Periodic, UnitsArePowersOfTwoExactly) {
   const Points points = uniform_points(100, 3, 1);
   const Barcode bars = persistence(Alpha(points, {.period = {1, 0.75, 0}}));

@@ -16,7 +16,7 @@ namespace ph::alpha {
 /// of the younger one kills.
 ///
 /// Where nothing leads outside, in a periodic space that closes up in all its dimensions, the cell
-/// that enters last gives birth to a class of that dimension.
+/// that enters last gives birth to a class of that dimension. Its cycle is never asked for here.
 template <Field K>
 class Hollows {
  public:
@@ -57,7 +57,8 @@ class Hollows {
       link(younger, elder);
     }
     const std::uint32_t last = sets_.find(0);
-    if (last != sets_.find(outside_) && bars_.wants(cells_.dim())) report_last(last);
+    if (last != sets_.find(outside_) && bars_.wants(cells_.dim()))
+      bars_.essential(cells_.dim(), value(last), [&] { return cell_simplex(cells_, last); });
   }
 
  private:
@@ -99,13 +100,6 @@ class Hollows {
           bars_.add_term(facet_simplex(cells_, facet), sign * incidence(facet));
       }
     });
-    bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
-  }
-  void report_last(std::uint32_t cell) {
-    if (!bars_.essential(cells_.dim(), value(cell), [&] { return cell_simplex(cells_, cell); }))
-      return;
-    for (std::uint32_t t = 0; t < outside_; ++t)
-      bars_.add_term(cell_simplex(cells_, t), sign(t) * sign(cell));
     bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
   }
   /// Of a facet in the boundary of its cell, oriented as all cells are.
