@@ -141,7 +141,8 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
  "input": {"path": "a", "description": "d"}, "complex": "rips", "field": 3, "max_dim": 2,
  "threshold": 1.5, "vertex_weights": "dtm 2",
  "subsample": {"points": 4, "of": 9, "covering_radius": 0.5},
- "voxels": {"edge": 2, "first": [0, -1], "value": "density"}, "approximation": 0.25,
+ "voxels": {"edge": 2, "first": [0, -1], "value": "density", "x": 1}, "approximation": 0.25,
+ "alpha": {"squared": true, "period": [2, 0], "hidden": [3, 5], "x": []}, "superlevel": true,
  "engine": "twist", "shape": "round", "timings": {"read": 0.5, "plan": 1}, "peak_memory": 77,
  "bars": [{"dim": 1, "birth": 0, "death": 1, "loops": []}]})");
   const BarcodeInfo& info = read.info;
@@ -160,12 +161,21 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   EXPECT_EQ(info.voxels->voxel, 2);
   EXPECT_EQ(info.voxels->first, (std::vector<double>{0, -1}));
   EXPECT_EQ(info.voxels->value, "density");
+  ASSERT_TRUE(info.alpha);
+  EXPECT_TRUE(info.alpha->squared);
+  EXPECT_EQ(info.alpha->period, (std::vector<double>{2, 0}));
+  EXPECT_EQ(info.alpha->hidden, (std::vector<Index>{3, 5}));
+  EXPECT_TRUE(info.superlevel);
   EXPECT_EQ(info.approximation, 0.25);
   EXPECT_EQ(info.engine, "twist");
   EXPECT_EQ(info.timings,
             (std::vector<std::pair<std::string, double>>{{"read", 0.5}, {"plan", 1}}));
   EXPECT_EQ(info.peak_memory, 77U);
   EXPECT_EQ(read.left_out, (std::vector<std::string>{"loops", "shape"}));
+  EXPECT_TRUE(contains(
+      bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
+      "expected true or false"));
+  EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
   // What nobody said is not known, and not written.
   const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
   EXPECT_EQ(bare.info.complex, "");
@@ -175,6 +185,21 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
     EXPECT_FALSE(contains(text, std::string("\"") + member)) << member;
   EXPECT_EQ(stored(R"({"format": "ph-barcode", "bars": [], "threshold": "-inf"})").info.threshold,
             -kInfinity);
+}
+
+// Significance writes them beside bars.
+TEST(ReadBarcode, ValuesOfPMayFollow) {
+  const auto stored = [](const std::string& text) {
+    return read_stored_barcode(Input::view(text, "b.csv"));
+  };
+  const StoredBarcode read = stored("dim,birth,death,p\n0,0,inf,\n1,1,2,0.25\n1,1,3,\n");
+  ASSERT_EQ(read.bars.size(), 3U);
+  EXPECT_EQ(read.bars[1], (Bar{1, 1, 2}));
+  EXPECT_EQ(read.left_out, std::vector<std::string>{"p"});
+  for (const char* p : {"1.5", "-0.1", "x"})
+    EXPECT_TRUE(
+        contains(bad_data([&] { stored("dim,birth,death,p\n0,0,1," + std::string(p) + "\n"); }),
+                 "b.csv:2:7"));
 }
 
 TEST(ReadBarcode, JsonRefusesDamage) {

@@ -57,6 +57,11 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   for (const std::string& text : {kTopic, kTopic + kTopic, replaced(kTopic, "k:\n", "K:\n"),
                                   replaced(kTopic, "header:", "---\nheader:")})
     expect_usual(camera_of(text));
+  // Texts over several lines, mappings in braces, and colons within words say nothing of interest.
+  expect_usual(camera_of(replaced(
+      kTopic, "height: 480",
+      "by:  # whom\n  a:b: c\nnote: |\n  k: 1\n\n  width: 2\nmore: >-\n  d: 3\nroom: {k: 1}\n"
+      "height: 480")));
   // ROS 1, and OpenCV's FileStorage.
   expect_usual(
       camera_of("height: 480\nwidth: 640\ndistortion_model: \"plumb_bob\"\nD: [0.0, 0.0]\n"
@@ -112,6 +117,8 @@ TEST(Camera, FaultsNameTheirPlace) {
       {good + "more: [1, 2", "list without an end"},
       {good + "more: [1,, 2]\n", "empty element of a list"},
       {good + "more: &a 2\n", "anchor or alias"},
+      {good + "more: {a: 2,\n", "mapping in braces"},
+      {good + "more: [1, 2] 3\n", "something behind a list, found \"3\""},
       {good + "\tmore: 2\n", "a tab before a key"},
       {"- 1\n", "c.yaml:1:1: list, found \"- 1\", expected a key before it"},
       {"", "c.yaml: no image_width"},

@@ -193,6 +193,11 @@ TEST(ReadNpz, ChoosesAnArray) {
   EXPECT_TRUE(contains(bad_data([&] { read_image(path.string() + ":up"); }), "left, right"));
   EXPECT_TRUE(fails_with(ErrorKind::no_input, [&] { Input::open(dir.file("no.npz:up")); }));
   bad_data([&] { read_any(Input::view(zip({}), "a.npz"), Format::npz); });
+  std::vector<ZipMember> many;
+  for (char name = 'a'; name < 'n'; ++name)
+    many.push_back({std::string(1, name) + ".npy", npy_bytes({1})});
+  EXPECT_TRUE(contains(bad_data([&] { read_any(Input::view(zip(many), "a.npz")); }),
+                       "13: a, b, c, d, e, f, g, h, i, j, ..."));
 }
 
 TEST(ReadNpz, RefusesLiesAndBombs) {

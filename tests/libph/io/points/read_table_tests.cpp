@@ -236,6 +236,8 @@ TEST(ReadTable, LettersOfOtherFormatsMayBeNames) {
            {std::string("PAR1\x15\x04\x15\0PAR1", 12), "Parquet"},
            {"P3\n# by hand\n2 1\n255\n1 2 3 4 5 6\n", "PPM"},
            {"P6\n2 1\n255\n123456", "PPM"},
+           {std::string("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28", 15), "BMP"},
+           {"solid cube\n facet normal 0 0 1\n", "STL"},
            {std::string("BZh91AY&SY\0\x01\x02", 13), "bzip2"}})
     EXPECT_TRUE(contains(bad_data([&] { any(bytes); }), name)) << name;
 }
