@@ -6,6 +6,7 @@ import math
 
 import formats
 import oracle
+from voxel_sets import Picture
 
 INF = math.inf
 
@@ -25,6 +26,7 @@ class Job:
     name_of: object = tuple  # of a cell as the program names it: its name in the filtration
     period: tuple = None  # of images, by axis: the length in doubled coordinates; None: it is open
     has_cells: bool = True  # whether the filtration has the cells of the program
+    picture: Picture = None  # of images: what sets of voxels are checked against
 
 
 def coordinate(rng, style):
@@ -234,14 +236,16 @@ def cubical(rng):
     max_dim, more = dimensions(rng, axes, axes)
     prime, of_field = field(rng)
     voxels = {at: None if math.isnan(v) else v for at, v in zip(formats.indices(shape), values)}
-    filtration = oracle.cubical_filtration(shape, voxels, cells, superlevel, periodic,
-                                           INF if threshold is None else threshold)
+    limit = INF if threshold is None else threshold
+    filtration = oracle.cubical_filtration(shape, voxels, cells, superlevel, periodic, limit)
+    picture = Picture(shape, {at: INF if v is None else -v if superlevel else v for at, v in voxels.items()},
+                      cells, periodic, limit)
     options += ["--slab-layers", str(rng.randint(1, 3))] if rng.random() < 0.15 else []
     has_parts = "--slab-layers" not in options and (max_dim == 0 or axes <= 2)
     turned = slice(None, None, -1 if "dipha" in options else 1)  # such a file has the last axis first
     return Job(f"image of {axes} axes", [(name, content)], options + more + of_field, filtration, prime,
                max_dim, 0.0, ("standard", "twist", "gradient"), has_parts,
-               name_of=lambda cube: tuple(cube[turned]),
+               name_of=lambda cube: tuple(cube[turned]), picture=picture,
                period=tuple(2 * n if k in periodic else None for k, n in enumerate(shape))[turned])
 
 

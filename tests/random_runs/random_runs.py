@@ -25,6 +25,7 @@ import chains  # noqa: E402
 import formats  # noqa: E402
 import jobs  # noqa: E402
 import oracle  # noqa: E402
+import voxel_sets  # noqa: E402
 
 EXTENSIONS = {"csv": "csv", "json": "json", "pers": "pers", "ripser": "txt", "dipha": "dipha", "npy": "npy"}
 
@@ -61,7 +62,7 @@ class Output:
     name: str = None
     low: int = 0
     short: float = 0.0
-    chains: str = None  # cycles or cocycles, where it has them
+    chains: str = None  # cycles, cocycles or voxels, where it has them
 
 
 def side_options(rng, job):
@@ -83,8 +84,9 @@ def side_options(rng, job):
     if rng.random() < 0.2:
         output.short = rng.choice([0.5, 1.0, 0.25, 0.0])
         options.append(["--min-persistence", formats.number(rng, output.short)])
-    if rng.random() < 0.15:
-        output.form, output.chains = "json", rng.choice(["cycles", "cocycles"])
+    if rng.random() < 0.25:
+        kinds = ["cycles", "cocycles", "voxels"] if job.picture else ["cycles", "cocycles"]
+        output.form, output.chains = "json", rng.choice(kinds)
         options.append(["--representatives", output.chains])
     if rng.random() < 0.5:
         output.name = "out." + EXTENSIONS[output.form]
@@ -170,26 +172,47 @@ def compare(program, job, output):
 
 
 def check_chains(job, kind, bars):
-    """@param kind cycles or cocycles. @param bars as JSON has them. @throws chains.Unfit"""
+    """@param kind cycles, cocycles or voxels. @param bars as JSON has them. @throws chains.Unfit"""
     representatives = chains.Representatives(job.filtration, job.prime)
     for bar in bars:
         try:
-            check_chain(job, kind, bar, representatives)
-        except (chains.Unfit, KeyError) as error:
+            if kind == "voxels":
+                check_voxels(job, bar)
+            if "representative" in bar:
+                check_chain(job, "cocycles" if kind == "cocycles" else "cycles", bar, representatives)
+            elif kind != "voxels":
+                raise chains.Unfit("it has no representative")
+        except (chains.Unfit, voxel_sets.Unfit, KeyError) as error:
             raise chains.Unfit(f"{bar}: {error!r}") from error
 
 
-def check_chain(job, kind, bar, representatives):
-    def number(value):
-        return float({None: math.inf}.get(value, value))
+def ends_of(bar):
+    return bar["dim"], float(bar["birth"]), math.inf if bar["death"] is None else float(bar["death"])
 
+
+def check_voxels(job, bar):
+    def place(number):
+        at = []
+        for n in reversed(job.picture.shape if job.name_of((0, 1)) == (0, 1) else job.picture.shape[::-1]):
+            at.insert(0, number % n)
+            number //= n
+        return job.name_of(at)
+
+    voxels = None
+    if "voxels" in bar:
+        voxels = {place(first + k) for first, count in bar["voxels"] for k in range(count)}
+    job.picture.check(ends_of(bar), job.name_of(bar["birth_voxel"]),
+                      bar["death_voxel"] and job.name_of(bar["death_voxel"]), voxels)
+
+
+def check_chain(job, kind, bar, representatives):
     def content(cell):
         return cell and next(value for key, value in cell.items() if key in ("vertices", "grid", "row"))
 
     def named(cell):
         return cell and job.name_of(content(cell))
 
-    ends = (bar["dim"], number(bar["birth"]), number(bar["death"]))
+    ends = ends_of(bar)
     born, killer = named(bar["birth_cell"]), named(bar["death_cell"])
     chain = representatives.chain([(named(cell), cell["coefficient"]) for cell in bar["representative"]])
     by_value = job.has_cells and job.tolerance == 0  # else values are others in the last digits
