@@ -13,12 +13,6 @@ from random_runs import damaged
 INF = math.inf
 SMALL = 1e-307  # below it doubles have fewer digits
 LEAST = 1e-150  # of what all bars cost alone; squares of less vanish
-# What the program does otherwise than the docs say. Each is to go where it is mended.
-NOT_YET = {
-    "costs are roots of squares",  # of a matching, in the norm of order 2: they overflow or vanish
-    "matchings end at 1e-14",  # wasserstein.md: that the lower bound ends there does not concern the matching
-    "losses overflow",  # or vanish, with the power of the distances; then p is 1
-}
 
 
 def expected_of(task, a, b):
@@ -61,7 +55,7 @@ def is_known(task, value, lower, exact, alone):
         return False
     if lower > limit * (1 - 1e-14):
         return True
-    if "matchings end at 1e-14" not in NOT_YET and value > far * exact * (1 + 1e-12) + LEAST:
+    if value > far * exact * (1 + 1e-12) + LEAST:
         return False
     return value <= far * (lower * (1 + 1e-12) + 1e-14)
 
@@ -107,8 +101,6 @@ def check_pair(program, task, bars, row):
         exact = (death - birth) / 2 * factor if death < INF else INF
     else:
         exact = oracle.norm(*(0.0 if x == y else abs(x - y) for x, y in zip(*ends)), task.ground)
-    if "costs are roots of squares" in NOT_YET and task.ground == 2 and not 1e-150 < exact < 1e150:
-        return exact
     same = cost == exact if task.ground == INF else math.isclose(cost, exact, rel_tol=1e-14, abs_tol=SMALL)
     cell(program, same, f"cost, expected {exact!r}: {row}")
     return cost
@@ -151,18 +143,12 @@ def compare_tests(program, task, found):
     for dim, (p, loss) in found.items():
         count = len(task.names)
         square = [[0.0] * count for _ in range(count)]
-        doubtful = False
         for i, j in itertools.combinations(range(count), 2):
-            exact, alone = expected_of(task, task.of(i, dim), task.of(j, dim))
-            doubtful |= "matchings end at 1e-14" in NOT_YET and task.distance == "wasserstein" and \
-                0 < exact < alone * 1e-5 ** (1 / task.order)
-            square[i][j] = square[j][i] = exact
+            square[i][j] = square[j][i] = expected_of(task, task.of(i, dim), task.of(j, dim))[0]
         unit = max(map(max, square)) or 1.0
         square = [[x / unit for x in row] for row in square]
         exact = oracle.loss(square, task.labels, task.power)
         is_vast = abs(math.log10(unit)) * task.power > 290  # then the loss is no double
-        if doubtful or is_vast and "losses overflow" in NOT_YET:
-            continue
         scale = math.nan if is_vast else unit ** task.power
         doubt = (1 + task.error) ** task.power - 1 + 1e-11
         ends = ((exact * (1 + sign * doubt) + sign * 1e-14) * scale for sign in (-1, 1))

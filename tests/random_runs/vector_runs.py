@@ -17,14 +17,9 @@ from random_runs import damaged
 from vector_tasks import Task, output_options, random_barcodes, random_task, some_grid, with_senseless
 
 INF = math.inf
-# What the programs do otherwise than the docs say. Each is to go where it is mended.
-NOT_YET = {
-    "fitted to bars of length 0",  # grids of curves and landscapes; vectors.md: such bars do not count
-    "rounded mean of equal bars",  # a single centre of ATOL is not at the bars, its width is not 1
-}
 
 
-def counted(task, dim, with_empty=False):
+def counted(task, dim):
     """Bars of a dimension (of all, with their dimensions, where it is None) of each input that count, and
     how many are left out."""
     left_out, found = 0, []
@@ -39,7 +34,7 @@ def counted(task, dim, with_empty=False):
                     continue
                 if task.infinite != "keep":
                     e = min(e, task.infinite)
-            if b < e or with_empty:
+            if b < e:
                 kept.append((b + 0.0, e + 0.0) if dim is not None else (d, b + 0.0, e + 0.0))
         found.append(kept)
     return found, left_out
@@ -193,8 +188,6 @@ def compare_fit(program, task, fit, block, dim, diagrams):
             return  # squares of their distance vanish
         if not oracle.are_means(points, centres, 1e-12 * far):
             program.differ(f"found centres that are no means: {block}, points {points}")
-        if "rounded mean of equal bars" in NOT_YET and len(set(points)) == 1:
-            return
         widths = oracle.widths(points, centres)
         if not all(math.isclose(w, x, rel_tol=1e-9, abs_tol=1e-14 * far) for w, x in zip(block["widths"], widths)):
             program.differ(f"found widths {block['widths']}, expected {widths}")
@@ -230,9 +223,7 @@ def compare(program, task, folder, fits=None):
     for dim, block in zip(task.dims, blocks):
         diagrams, left_out = counted(task, dim)
         all_left_out += left_out
-        with_empty = "fitted to bars of length 0" in NOT_YET and task.kind in (
-            "betti", "landscape", "silhouette", "life-entropy")
-        fit = fits[dim] if fits else fit_of(task, counted(task, dim, with_empty)[0], block)
+        fit = fits[dim] if fits else fit_of(task, diagrams, block)
         if document:
             compare_fit(program, task, fit, block, dim, diagrams)
         found[dim] = fit

@@ -33,11 +33,11 @@ Pair pair_of(const DimMatching& m, std::size_t k, double ground) {
     const Bar& bar = m.bars[of][static_cast<std::size_t>(pair.places[of])];
     const double middle = std::midpoint(bar.birth, bar.death);
     pair.ends[side] = on_diagonal ? std::array{middle, middle} : std::array{bar.birth, bar.death};
-    if (on_diagonal) pair.cost = cost.alone({bar.birth, bar.death});
+    if (on_diagonal) pair.cost = cost.distance_alone({bar.birth, bar.death});
   }
   const auto& [a, b] = pair.ends;
   if (pair.places[0] >= 0 && pair.places[1] >= 0)
-    pair.cost = cost.pair({difference(a[0], b[0]), difference(a[1], b[1])}, {0, 0});
+    pair.cost = cost.distance({difference(a[0], b[0]), difference(a[1], b[1])}, {0, 0});
   return pair;
 }
 

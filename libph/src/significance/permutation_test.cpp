@@ -56,8 +56,18 @@ void check(const DistanceMatrix& distances, std::size_t labels, const Permutatio
                             labels, distances.size()));
 }
 
+/// A unit in which powers of the largest distance neither overflow nor vanish: 1, if it is one.
+double unit_of(const DistanceMatrix& distances, double power) {
+  double largest = 0;
+  for (Index i = 0; i < distances.size(); ++i)
+    for (Index j = 0; j < i; ++j) largest = std::max(largest, distances(i, j));
+  const double least = 1e-280, most = 1e280;  // of sums, too
+  const double of_largest = std::pow(largest, power);
+  return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;
+}
+
 /// The strict lower triangle row by row, to the power.
-std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power,
+std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power, double unit,
                                    const RunContext& context) {
   const Index n = distances.size();
   std::pmr::vector<double> powers(&context.memory);
@@ -70,7 +80,7 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
                     fmt::format("permutation_test: diagrams {} and {}: found an infinite distance, "
                                 "expected finite ones; leave out bars that never die",
                                 j, i));
-      powers.push_back(power == 1 ? distance : std::pow(distance, power));
+      powers.push_back(power == 1 ? distance / unit : std::pow(distance / unit, power));
     }
   return powers;
 }
@@ -97,12 +107,15 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
                                  const PermutationOptions& options, const RunContext& context) {
   check(distances, groups.size(), options);
   const Groups observed = numbered(groups);
-  const std::pmr::vector<double> powers = powers_of(distances, options.power, context);
+  const double unit = unit_of(distances, options.power);
+  const std::pmr::vector<double> powers = powers_of(distances, options.power, unit, context);
   std::vector<double> sums;
   PermutationTest result;
-  result.loss = loss_of(powers, observed.of, observed.sizes, sums);
+  const double loss = loss_of(powers, observed.of, observed.sizes, sums);
+  result.loss =
+      unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
   // Sums in another order differ by rounding: groups that are the same in other words are a tie.
-  const double as_low = result.loss * (1 + 1e-12);
+  const double as_low = loss * (1 + 1e-12);
   std::vector<std::uint8_t> is_as_low(options.shuffles);
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {
     std::vector<double> own_sums;

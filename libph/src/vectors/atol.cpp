@@ -61,6 +61,21 @@ class KMeans {
   static constexpr std::size_t kPiece = 4096;
   struct Sum {
     double x = 0, y = 0, count = 0;
+    Place low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+
+    void add(const Sum& other) {
+      x += other.x;
+      y += other.y;
+      count += other.count;
+      for (std::size_t k = 0; k < 2; ++k) {
+        low[k] = std::min(low[k], other.low[k]);
+        high[k] = std::max(high[k], other.high[k]);
+      }
+    }
+    /// That of one place is this place, however it is rounded.
+    Place mean() const {
+      return {std::clamp(x / count, low[0], high[0]), std::clamp(y / count, low[1], high[1])};
+    }
   };
 
   /// k-means++: the next centre is a place by chance, in proportion to the square of how far it is
@@ -108,18 +123,14 @@ class KMeans {
                        const std::size_t centre = find_nearest(i);
                        if (is_new_ || nearest_[i] != centre) changed[piece] = 1;
                        nearest_[i] = static_cast<std::uint32_t>(centre);
-                       Sum& sum = sums[piece * count + centre];
-                       sum.x += heaps_[i].count * heaps_[i].place[0];
-                       sum.y += heaps_[i].count * heaps_[i].place[1];
-                       sum.count += heaps_[i].count;
+                       const auto& [place, times] = heaps_[i];
+                       sums[piece * count + centre].add(
+                           {times * place[0], times * place[1], times, place, place});
                      }
                    });
     is_new_ = false;
     sums_.assign(count, {});  // piece by piece in order: rounding does not depend on threads
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      Sum& sum = sums_[i % count];
-      sum = {sum.x + sums[i].x, sum.y + sums[i].y, sum.count + sums[i].count};
-    }
+    for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }
   std::size_t find_nearest(std::size_t i) {
@@ -139,7 +150,7 @@ class KMeans {
   void move() {
     for (std::size_t k = 0; k < centres_.size(); ++k) {
       if (sums_[k].count > 0) {
-        centres_[k] = {sums_[k].x / sums_[k].count, sums_[k].y / sums_[k].count};
+        centres_[k] = sums_[k].mean();
       } else {
         const auto farthest = std::ranges::max_element(squares_);
         centres_[k] = heaps_[static_cast<std::size_t>(farthest - squares_.begin())].place;
@@ -218,7 +229,8 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
     for (double& x : centre) x = std::ldexp(x, exponent);
   const bool has_no_unit = heaps.size() == 1;
   for (double& width : fitted.widths)
-    if (!has_no_unit) width = std::ldexp(width, exponent);
+    if (!has_no_unit)
+      width = std::max(std::ldexp(width, exponent), std::numeric_limits<double>::min());
   return fitted;
 }
 

@@ -10,6 +10,8 @@ namespace ph::vectors {
 
 /// Beyond it squares and sums could overflow.
 inline constexpr double kLargest = 1e100;
+/// What frames fitted to such bars reach.
+inline constexpr double kLargestPixel = 4 * kLargest;
 
 /// @throws Error (bad_data) on a NaN, a death before its birth, or a finite number that is too
 ///         large. @param function the name for messages.

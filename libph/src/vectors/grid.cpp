@@ -65,6 +65,7 @@ Grid fit_grid(std::span<const std::span<const Bar>> diagrams, std::size_t points
   for (const auto& bars : diagrams)
     for (const Bar& bar : bars) {
       vectors::check_bar(bar, "fit_grid");
+      if (bar.birth == bar.death) continue;  // it counts for no vector
       range.take(bar.birth);
       range.take(bar.death);
     }

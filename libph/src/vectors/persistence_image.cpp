@@ -72,12 +72,13 @@ void check_range(const PixelRange& range, std::string_view name) {
     throw Error(ErrorKind::usage,
                 fmt::format("persistence_image: {}: found {} pixels, expected 1 to 2^30", name,
                             range.pixels));
-  if (!(range.lo < range.hi) || std::abs(range.lo) > kLargest || std::abs(range.hi) > kLargest)
+  if (!(range.lo < range.hi) || std::abs(range.lo) > kLargestPixel ||
+      std::abs(range.hi) > kLargestPixel)
     throw Error(
         ErrorKind::usage,
         fmt::format("persistence_image: {}: found a range from {} to {}, expected one from a "
-                    "finite number to a larger one",
-                    name, range.lo, range.hi));
+                    "number to a larger one, at most {} in size",
+                    name, range.lo, range.hi, kLargestPixel));
 }
 
 }  // namespace

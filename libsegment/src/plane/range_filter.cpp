@@ -9,7 +9,7 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop) {
   const auto size = cloud.size();
   const auto& [vx, vy, vz] = cloud.viewpoint;
-  // Doubles hold the square of any float distance, so nothing overflows on the way.
+  // Doubles hold the square of any float distance; those from a far viewpoint may be infinite.
   const double limit = max_range * max_range;
   std::vector<Index> kept;
   kept.reserve(size);  // no more of it is touched than what is written
@@ -18,7 +18,8 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
     const double dx = p[0] - vx, dy = p[1] - vy, dz = p[2] - vz;
     const double square = dx * dx + dy * dy + dz * dz;
     // A coordinate that is not finite makes the sum NaN or infinite: one test for all three.
-    if (std::isfinite(square) && square <= limit) kept.push_back(static_cast<Index>(i));
+    const bool is_finite = std::isfinite(double{p[0]} + p[1] + p[2]);
+    if (is_finite && square <= limit) kept.push_back(static_cast<Index>(i));
   }
   if (crop) {
     std::erase_if(kept, [&](Index i) {

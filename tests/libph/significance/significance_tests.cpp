@@ -379,6 +379,20 @@ TEST(PermutationTests, AreNearTheExactTest) {
   }
 }
 
+// Powers of distances that are large or small overflow, or vanish.
+TEST(PermutationTests, UnitsDoNotMatter) {
+  const std::vector<double> places{20, 21.5, 20.25, 40, 41, 40.3};
+  const std::vector<std::int64_t> groups{0, 0, 0, 1, 1, 1};
+  const auto p_in = [&](double unit) {
+    std::vector<double> scaled = places;
+    for (double& x : scaled) x *= unit;
+    return permutation_test(matrix_of(scaled), groups, {.power = 2}).p;
+  };
+  EXPECT_LT(p_in(1), 0.2);
+  EXPECT_EQ(p_in(1e160), p_in(1));
+  EXPECT_EQ(p_in(1e-200), p_in(1));
+}
+
 TEST(PermutationTests, SeedsAndThreads) {
   std::vector<double> places;
   std::vector<std::int64_t> groups;

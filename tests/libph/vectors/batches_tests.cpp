@@ -154,6 +154,23 @@ TEST(Atol, OfFewBars) {
   EXPECT_EQ(fit_atol(Spans{close}, {.centres = 2, .most_rounds = 0}).centres.size(), 2U);
 }
 
+// The mean of equal numbers is one of them, however sums are rounded.
+TEST(Atol, OfEqualBars) {
+  const Bars three(3, {1, 0.1, 0.3});
+  const std::span<const Bar> diagrams[]{three};
+  const Atol fitted = fit_atol(diagrams, {.centres = 1});
+  EXPECT_EQ(fitted.centres, (std::vector<std::array<double, 2>>{{0.1, 0.3}}));
+  EXPECT_EQ(fitted.widths, std::vector<double>{1});
+  double vector = 0;
+  atol_vector(three, fitted, {&vector, 1});
+  EXPECT_EQ(vector, 3);
+  // Half of what lies between them vanishes.
+  const Bars small{{1, 0, 1e-20}, {1, 1e-310, 1e-20}, {1, -1e-20, 1e-20}};
+  const std::span<const Bar> of_small[]{small};
+  std::vector<double> out(3);
+  EXPECT_NO_THROW(atol_vector(small, fit_atol(of_small, {.centres = 3}), out));
+}
+
 TEST(Atol, RefusesWhatMakesNoSenseAndStops) {
   std::mt19937 random(5);
   const Bars bars = random_bars(random, 5000, 0);

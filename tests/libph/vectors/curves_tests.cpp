@@ -44,8 +44,9 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_grid(Spans{a, b}, 7), (Grid{0.5, 3, 7}));
   EXPECT_EQ(fit_grid(Spans{none}, 7), (Grid{0, 1, 7}));
   EXPECT_EQ(fit_grid(Spans{}), (Grid{0, 1, 100}));
-  EXPECT_EQ(fit_grid(Spans{one}), (Grid{3.5, 4.5, 100}));
-  const Bars large = {{0, 1e15, 1e15}};
+  EXPECT_EQ(fit_grid(Spans{one}), (Grid{0, 1, 100}));  // it counts for no curve
+  const Bars end = {{0, 4, kInfinity}}, large = {{0, 1e15, kInfinity}};
+  EXPECT_EQ(fit_grid(Spans{end, one}), (Grid{3.5, 4.5, 100}));
   EXPECT_LT(fit_grid(Spans{large}).lo, 1e15);
   const Bars c = {{0, 1, 3}, {0, 2, 2.5}};
   EXPECT_EQ(fit_image_frame(Spans{c, one}, 3, 4), (ImageFrame{{1, 2, 3}, {0, 2, 4}}));

@@ -45,6 +45,7 @@ TEST(RangeFilter, KeepsWhatIsInRangeAndNoHole) {
                                   0, 0, 3, 0,     kHole, kHole, inf, 0, 1};
   EXPECT_EQ(range_filter({xyz, {}}, 2, {}), (std::vector<Index>{0, 2}));
   EXPECT_EQ(range_filter({xyz, {}}, kInfinity, {}), (std::vector<Index>{0, 2, 3}));
+  EXPECT_EQ(range_filter({xyz, {1e200, 0, 0}}, kInfinity, {}), (std::vector<Index>{0, 2, 3}));
   EXPECT_EQ(range_filter({xyz, {0, 0, 3}}, 1, {}), (std::vector<Index>{2, 3}));
   EXPECT_EQ(range_filter({xyz, {}}, 0, {}), (std::vector<Index>{}));
 }

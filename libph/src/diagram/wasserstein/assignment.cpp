@@ -7,10 +7,10 @@
 namespace ph::diagram {
 
 Assignment::Side::Side(std::span<const Point> points, std::size_t others, const GroundCost& cost,
-                       const RunContext& context)
+                       double most, const RunContext& context)
     : tree(points, context), prices(tree, cost, context), partner(points.size(), kNone) {
   for (Position q = 0; q < points.size(); ++q) {
-    alone.push_back(cost.alone(tree.point(q)));
+    alone.push_back(std::min(cost.alone(tree.point(q)), most));
     // Both trees are halved along the same axes or nearly so.
     near.push_back(static_cast<Position>(std::uint64_t{q} * others / points.size()));
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,14 +30,17 @@ class Assignment {
     std::vector<Position> partner;  // in the other tree, or kNone
     std::vector<Position> near;     // in the other tree: where a search begins
 
-    Side(std::span<const Point> points, std::size_t others, const GroundCost& cost,
+    Side(std::span<const Point> points, std::size_t others, const GroundCost& cost, double most,
          const RunContext& context);
   };
 
   /// Nobody is paired, and prices are -infinity. Both sets have points, which outlive this.
+  /// @param most what it costs at most to leave over a point. If there is a matching that costs
+  /// less, an optimal one is the same, and prices are rounded to digits of its size.
   Assignment(std::span<const Point> a, std::span<const Point> b, const GroundCost& cost,
-             const RunContext& context)
-      : cost_(cost), sides_{Side(a, b.size(), cost_, context), Side(b, a.size(), cost_, context)} {}
+             const RunContext& context, double most = std::numeric_limits<double>::infinity())
+      : cost_(cost),
+        sides_{Side(a, b.size(), cost_, most, context), Side(b, a.size(), cost_, most, context)} {}
   Assignment(const Assignment&) = delete;
   Assignment& operator=(const Assignment&) = delete;
 

@@ -20,6 +20,16 @@ class GroundCost {
   static double to_diagonal(double ground) {
     return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);
   }
+  /// The same before it is raised to the power, in any unit: squares neither overflow nor vanish.
+  double distance(const Point& p, const Point& q) const {
+    const double x = std::abs(p[0] - q[0]), y = std::abs(p[1] - q[1]);
+    return ground_ == 2 ? std::hypot(x, y) : norm(x, y);
+  }
+  double distance_alone(const Point& p) const {
+    const double length = p[1] - p[0];
+    return to_diagonal_ * (std::isinf(length) ? p[1] / 2 - p[0] / 2 : length / 2);
+  }
+
   double pair(const Point& p, const Point& q) const {
     return power(norm(std::abs(p[0] - q[0]), std::abs(p[1] - q[1])));
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -23,6 +24,12 @@ using diagram::Point;
 // Near enough to the optimum to say that it is: this is what sums of many costs are rounded to.
 constexpr double kRounding = 1e-13;
 
+// A matching may cost so much more than an optimal one, of what it costs; else it is sought again.
+constexpr double kUnsure = 1e-9;
+
+// To seek again pays in a unit whose power is smaller by this.
+constexpr double kFiner = 16;
+
 // Bids of a round and bar. Auctions that are not at war about equal bars need some 2 to 20.
 constexpr std::uint64_t kMostBids = 400;
 
@@ -41,7 +48,39 @@ void check(const WassersteinOptions& options, std::string_view function) {
   diagram::check(options.limits, function);
 }
 
-/// Two diagrams in a unit of length, a power of two, in which powers of lengths overflow nowhere.
+/// (Σ x^order)^(1/order), of any size.
+double norm_of(std::span<const double> lengths, double order) {
+  const double largest = lengths.empty() ? 0 : std::ranges::max(lengths);
+  if (largest == 0 || largest == kInfinity) return largest;
+  double sum = 0;
+  for (const double length : lengths)
+    sum += order == 1 ? length / largest : std::pow(length / largest, order);
+  return largest * (order == 1 ? sum : std::pow(sum, 1 / order));
+}
+
+/// A unit of length, in which powers of lengths up to `largest` overflow nowhere. Numbers are
+/// scaled by a power of two. Powers of order 1 and 2 are exact where they can be; others are of
+/// numbers up to 1.
+struct Unit {
+  double largest;
+  int exponent;
+  diagram::GroundCost cost;
+
+  Unit(double length, const WassersteinOptions& options)
+      : largest(length),
+        exponent(length > 0 ? std::ilogb(length) : 0),
+        cost(options.order, options.ground, length > 0 ? std::ldexp(length, -exponent) : 1) {}
+
+  double in_unit(double x) const { return std::ldexp(x, -exponent); }
+  double root(double power) const { return std::ldexp(cost.root(power), exponent); }
+  std::vector<Point> in_unit(const DiagramParts& parts) const {
+    std::vector<Point> points;
+    points.reserve(parts.finite.size());
+    for (const Point& p : parts.finite) points.push_back({in_unit(p[0]), in_unit(p[1])});
+    return points;
+  }
+};
+
 class Comparison {
  public:
   Comparison(std::span<const Bar> a, std::span<const Bar> b, const WassersteinOptions& options,
@@ -50,40 +89,32 @@ class Comparison {
         context_(context),
         claim_(context.memory, (a.size() + b.size()) * kBytesAPricedBar),
         first_(a, function),
-        second_(b, function),
-        largest_(largest()),
-        exponent_(largest_ > 0 ? std::ilogb(largest_) : 0),
-        // Powers of order 1 and 2 are exact where they can be; others are of numbers up to 1.
-        cost_(options.order, options.ground, largest_ > 0 ? std::ldexp(largest_, -exponent_) : 1) {}
+        second_(b, function) {}
 
   DistanceBounds distance() {
     if (!diagram::have_as_many_infinite(first_, second_)) return {kInfinity, kInfinity};
-    double rays = 0;
     for (const std::size_t k : {0U, 1U})
       for (std::size_t i = 0; i < first_.rays[k].size(); ++i)
-        rays += cost_.power(std::ldexp(ray_difference(k, i), -exponent_));
+        rays_.push_back(std::abs(first_.rays[k][i].value - second_.rays[k][i].value));
+    const Unit unit(largest(), options_);
+    double rays = 0;
+    for (const double ray : rays_) rays += unit.cost.power(unit.in_unit(ray));
     const auto bounds = [&](const Assignment::Costs& costs) {
-      const auto root = [&](double cost) { return std::ldexp(cost_.root(cost), exponent_); };
-      return DistanceBounds{root(rays + costs.cost), root(rays + costs.lower)};
+      return DistanceBounds{unit.root(rays + costs.cost), unit.root(rays + costs.lower)};
     };
-    const std::vector<Point> a = in_unit(first_), b = in_unit(second_);
-    if (a.empty() || b.empty()) {  // all to the diagonal
+    if (first_.finite.empty() || second_.finite.empty()) {  // all to the diagonal
       Assignment::Costs costs{0, 0};
-      for (const std::vector<Point>* points : {&a, &b})
-        for (const Point& p : *points) costs.cost += cost_.alone(p);
+      for (const DiagramParts* parts : {&first_, &second_})
+        for (const Point& p : unit.in_unit(*parts)) costs.cost += unit.cost.alone(p);
       costs.lower = costs.cost;
-      partners_.assign(a.size(), diagram::kNone);
+      partners_.assign(first_.finite.size(), diagram::kNone);
       return bounds(costs);
     }
-    Assignment assignment(a, b, cost_, context_);
-    const auto is_enough = [&](const Assignment::Costs& costs) {
-      return costs.cost - costs.lower <= kRounding * costs.cost ||
-             diagram::is_enough(bounds(costs), options_.limits);
-    };
-    if (!diagram::Auction(assignment, context_).run(is_enough, kMostBids * (a.size() + b.size())))
-      diagram::assign_by_shortest_paths(assignment, context_);
-    partners_ = assignment.partners();
-    return bounds(assignment.costs());
+    const Assignment::Costs costs = match(unit, kInfinity, bounds);
+    const DistanceBounds found = bounds(costs);
+    const bool is_enough =
+        has_digits(costs) && (is_sure(costs) || diagram::is_enough(found, options_.limits));
+    return is_enough ? found : refined(unit.largest, found);
   }
 
   WassersteinMatching matching(std::size_t count_a, std::size_t count_b) {
@@ -109,15 +140,84 @@ class Comparison {
   }
 
  private:
-  double ray_difference(std::size_t k, std::size_t i) const {
-    return std::abs(first_.rays[k][i].value - second_.rays[k][i].value);
+  /// Powers may have vanished beside that of the dearest bar.
+  static bool has_digits(const Assignment::Costs& costs) {
+    return costs.cost >= std::numeric_limits<double>::min();
   }
-  std::vector<Point> in_unit(const DiagramParts& parts) const {
-    std::vector<Point> points;
-    points.reserve(parts.finite.size());
-    for (const Point& p : parts.finite)
-      points.push_back({std::ldexp(p[0], -exponent_), std::ldexp(p[1], -exponent_)});
-    return points;
+  static bool is_sure(const Assignment::Costs& costs) {
+    return costs.cost - costs.lower <= kUnsure * costs.cost;
+  }
+
+  /// Fills partners_.
+  /// @param bounds those of the distance by the costs.
+  template <class Bounds>
+  Assignment::Costs match(const Unit& unit, double most, Bounds&& bounds) {
+    const std::vector<Point> a = unit.in_unit(first_), b = unit.in_unit(second_);
+    Assignment assignment(a, b, unit.cost, context_, most);
+    const auto is_enough = [&](const Assignment::Costs& costs) {
+      return costs.cost - costs.lower <= kRounding * costs.cost ||
+             diagram::is_enough(bounds(costs), options_.limits);
+    };
+    if (!diagram::Auction(assignment, context_).run(is_enough, kMostBids * (a.size() + b.size())))
+      diagram::assign_by_shortest_paths(assignment, context_);
+    partners_ = assignment.partners();
+    return assignment.costs();
+  }
+
+  /// Prices have the digits of the dearest bar. If a matching costs far less than that, it may be
+  /// by chance: it is sought again among those that cost no more, in a unit of their size.
+  DistanceBounds refined(double unit_length, DistanceBounds found) {
+    const double rays = norm_of(rays_, options_.order);
+    const auto with_rays = [&](double length) {
+      return norm_of(std::array{length, rays}, options_.order);
+    };
+    const auto pays = [&](double length) {
+      return length > 0 && std::pow(unit_length / length, options_.order) >= kFiner;
+    };
+    for (double length = length_of_matching(); pays(length);) {
+      const Unit unit(std::max(length, smallest_unit()), options_);
+      unit_length = unit.largest;
+      std::vector<std::uint32_t> before = partners_;
+      const double most = 2 * unit.cost.power(unit.in_unit(length));  // twice what was found
+      const Assignment::Costs costs = match(unit, most, [&](const Assignment::Costs& c) {
+        return DistanceBounds{with_rays(unit.root(c.cost)), with_rays(unit.root(c.lower))};
+      });
+      found.lower = std::max(found.lower, with_rays(unit.root(costs.lower)));
+      const double other = length_of_matching();
+      if (!(other < length)) {
+        partners_ = std::move(before);
+        break;
+      }
+      length = other;
+      if (has_digits(costs) && is_sure(costs)) break;
+    }
+    found.value = with_rays(length_of_matching());
+    found.lower = std::min(found.lower, found.value);
+    return found;
+  }
+
+  /// What the pairs are apart, and those alone from the diagonal.
+  double length_of_matching() const {
+    const diagram::GroundCost cost(1, options_.ground);
+    std::vector<double> lengths;
+    std::vector<bool> is_paired(second_.finite.size(), false);
+    for (std::size_t i = 0; i < partners_.size(); ++i) {
+      const std::uint32_t j = partners_[i];
+      if (j != diagram::kNone) is_paired[j] = true;
+      lengths.push_back(j == diagram::kNone ? cost.distance_alone(first_.finite[i])
+                                            : cost.distance(first_.finite[i], second_.finite[j]));
+    }
+    for (std::size_t j = 0; j < is_paired.size(); ++j)
+      if (!is_paired[j]) lengths.push_back(cost.distance_alone(second_.finite[j]));
+    return norm_of(lengths, options_.order);
+  }
+
+  /// In smaller ones coordinates would overflow.
+  double smallest_unit() const {
+    double most = 0;
+    for (const DiagramParts* parts : {&first_, &second_})
+      for (const Point& p : parts->finite) most = std::max({most, std::abs(p[0]), std::abs(p[1])});
+    return std::ldexp(most, -1000);
   }
 
   /// What the dearest bar is apart from where it may go.
@@ -127,9 +227,7 @@ class Comparison {
       if (!parts->finite.empty())
         largest = std::max(largest, diagram::to_diagonal(parts->finite.front()));
     largest *= diagram::GroundCost::to_diagonal(options_.ground);
-    for (const std::size_t k : {0U, 1U})
-      for (std::size_t i = 0; i < std::min(first_.rays[k].size(), second_.rays[k].size()); ++i)
-        largest = std::max(largest, ray_difference(k, i));
+    for (const double ray : rays_) largest = std::max(largest, ray);
     return std::min(largest, std::numeric_limits<double>::max());
   }
 
@@ -137,9 +235,7 @@ class Comparison {
   const RunContext& context_;
   const MemoryClaim claim_;
   const DiagramParts first_, second_;
-  const double largest_;
-  const int exponent_;
-  const diagram::GroundCost cost_;
+  std::vector<double> rays_;             // how far apart the ends of infinite bars are
   std::vector<std::uint32_t> partners_;  // by place in first_.finite
 };
 
