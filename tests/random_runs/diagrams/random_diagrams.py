@@ -22,7 +22,7 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
+sys.path[:0] = [HERE, os.path.dirname(HERE), os.path.join(HERE, "../../support")]
 import distance_runs  # noqa: E402
 import vector_runs  # noqa: E402
 from random_runs import Difference, Program  # noqa: E402

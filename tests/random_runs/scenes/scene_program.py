@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""ph-segment, called in a folder; what it says is looked at."""
+import pathlib
+import re
+import shlex
+import subprocess
+
+
+# What the library refuses, which does not know the options: what its messages say in their place.
+OTHERWISE_NAMED = {"--explain": "segment ", "--supervoxels": "spacing: ", "--voxel": "voxel: ", "--cut": "cut: ",
+                   "--min-seam": "min_seam: "}
+
+
+class Difference(Exception):
+    pass
+
+
+class Program:
+    def __init__(self, path, folder):
+        self.path, self.folder = path, folder
+        self.command, self.run, self.said, self.before = None, None, "", set()
+
+    def __call__(self, options, stdin=None):
+        """@return the exit code. Files of earlier calls are left where they are."""
+        self.command = [self.path, *sum(options, [])]
+        self.before = {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
+        given = {"input": stdin} if stdin is not None else {"stdin": subprocess.DEVNULL}
+        try:
+            self.run = subprocess.run(self.command, cwd=self.folder, capture_output=True, timeout=120, **given)
+        except subprocess.TimeoutExpired:
+            raise Difference(f"no end after 120 s: {shlex.join(self.command)}") from None
+        self.said = self.run.stderr.decode(errors="replace")
+        return self.run.returncode
+
+    def must(self, options, stdin=None):
+        if self(options, stdin) != 0:
+            self.differ("found a refusal, expected a result")
+
+    def differ(self, what):
+        what = what if len(what) < 1500 else what[:1500] + " …"
+        raise Difference(f"{what}\n  {shlex.join(self.command)}\n"
+                         f"  exit {self.run.returncode}: {self.said[-600:]}")
+
+    def output(self, name):
+        return pathlib.Path(self.folder, name).read_bytes()
+
+    def expect_refusal(self, codes, named):
+        """A message, of one line with --quiet, that names what is wrong, and no output."""
+        found = self.run.returncode
+        last = self.said.splitlines()[-1] if self.said else ""
+        if found not in codes or self.run.stdout or not self.said.endswith("\n"):
+            self.differ(f"found exit {found}, expected one of {codes}, a message and no output")
+        names = named in last or OTHERWISE_NAMED.get(named, named) in last
+        if not last.startswith("ph-segment: ") or not names:
+            self.differ(f"found another last line than one that names {named or 'the program'}")
+        if "--quiet" in self.command and self.said.count("\n") != 1:
+            self.differ("found more than one line with --quiet")
+        now = {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
+        if now != self.before:
+            self.differ(f"found other files after a refusal: {sorted(set(now) ^ set(self.before))}")
+
+    def last_line(self, summary, words):
+        """The line of numbers on standard error."""
+        if ["--quiet"] in words:
+            return None if not self.said else self.differ("found messages with --quiet")
+        last = self.said.splitlines()[-1]
+        count, vertices = len(summary["segments"]), summary["complex"]["vertices"]
+        expected = f"{vertices} voxels, {summary['complex']['edges']} edges, {count} segment"
+        if not last.startswith(f"ph-segment: {summary['input']['points']} points, ") or expected not in last or \
+                not re.search(r"; [0-9.]+ ms$", last):
+            self.differ(f"found the last line {last!r}, expected {expected!r}")
+        return None
