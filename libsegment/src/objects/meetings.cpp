@@ -34,10 +34,12 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
   validate(scene, cut);
   for (const std::uint32_t label : {a, b})
     if (label == 0 || label > cut.segments.size())
-      throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
-                                                cut.segments.size()));
+      throw Error(ErrorKind::usage,
+                  fmt::format("first_meeting: found segment {}, expected one of 1 to {}", label,
+                              cut.segments.size()));
   if (a == b)
-    throw Error(ErrorKind::usage, fmt::format("found segment {} twice, expected two segments", a));
+    throw Error(ErrorKind::usage,
+                fmt::format("first_meeting: found segment {} twice, expected two segments", a));
   // The parts of a segment are one from the beginning.
   DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t u, std::uint32_t v) {

@@ -6,11 +6,6 @@ import shlex
 import subprocess
 
 
-# What the library refuses, which does not know the options: what its messages say in their place.
-OTHERWISE_NAMED = {"--explain": "segment ", "--supervoxels": "spacing: ", "--voxel": "voxel: ", "--cut": "cut: ",
-                   "--min-seam": "min_seam: "}
-
-
 class Difference(Exception):
     pass
 
@@ -50,7 +45,7 @@ class Program:
         last = self.said.splitlines()[-1] if self.said else ""
         if found not in codes or self.run.stdout or not self.said.endswith("\n"):
             self.differ(f"found exit {found}, expected one of {codes}, a message and no output")
-        names = named in last or OTHERWISE_NAMED.get(named, named) in last
+        names = named in last
         if not last.startswith("ph-segment: ") or not names:
             self.differ(f"found another last line than one that names {named or 'the program'}")
         if "--quiet" in self.command and self.said.count("\n") != 1:
