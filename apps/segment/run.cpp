@@ -251,21 +251,19 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
 }
 
 /// The library names the fields of its options, `min_seam: found …`; the command line has options
-/// of these names, but for three.
-Error in_words_of_options(const Error& error) {
+/// of these names, but for three. @throws Error (usage) in these words, if it is one.
+void rethrow_in_words_of_options(const Error& error) {
   const std::string_view what = error.what();
   const std::size_t colon = what.find(": found ");
-  std::string name(what.substr(0, std::min(colon, what.size())));
-  const auto is_of_name = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
-  if (error.kind() != ErrorKind::usage || colon == what.npos ||
-      !std::ranges::all_of(name, is_of_name))
-    return error;
+  if (error.kind() != ErrorKind::usage || colon == what.npos) return;
+  std::string name(what.substr(0, colon));
+  if (!std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; })) return;
   constexpr std::array<std::array<std::string_view, 2>, 3> others{
       {{"spacing", "supervoxels"}, {"camera", "intrinsics"}, {"first_meeting", "explain"}}};
   for (const auto& [field, option] : others)
     if (name == field) name = option;
   std::ranges::replace(name, '_', '-');
-  return {error.kind(), fmt::format("--{}{}", name, what.substr(colon))};
+  throw Error(error.kind(), fmt::format("--{}{}", name, what.substr(colon)));
 }
 
 }  // namespace
@@ -275,7 +273,8 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
     return outcome_of(arguments, session, stream);
   } catch (const Error& error) {
     const app::BarHold next_frame_is_not_there_yet(session);
-    throw in_words_of_options(error);
+    rethrow_in_words_of_options(error);
+    throw;
   } catch (...) {
     const app::BarHold next_frame_is_not_there_yet(session);
     throw;

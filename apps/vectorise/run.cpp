@@ -42,8 +42,10 @@ class Run {
   void run() {
     Table table = fit_.kind == Kind::euler ? euler_curves() : vectors();
     if (dropped_ > 0)
-      session_.note(fmt::format("left out: {}; --infinite T gives them an end",
-                                app::count_of(dropped_, "bar") + " that are not finite"));
+      session_.note(
+          fmt::format("left out: {} without a finite birth and death; --infinite T gives "
+                      "an end to those that never die",
+                      app::count_of(dropped_, "bar")));
     const app::BarHold results_are_written(session_);
     write_table(output_->file(), table, arguments_.written_format(), files_, names_of(fit_));
     output_->commit();

@@ -335,11 +335,20 @@ def alpha(rng):
     options += ["--complex", kind]
     max_dim, more = dimensions(rng, dim - 1, dim - 1)
     prime, of_field = field(rng)
+    files = [(name, content)]
+    if kind == "alpha" and rng.random() < 0.3:
+        weights = [rng.choice([0.0, rng.randint(-4, 8) / 16, rng.random()]) for _ in points]
+        files.append(formats.values_file(rng, weights))
+        options += ["--weights", files[1][0] + (":a" if files[1][0].endswith("npz") else "")]
+        options += rng.choice([[], ["--alpha-values", "squared"]])
+        return Job("alpha with weights", files, options + more + of_field,
+                   oracle.cech_filtration(points, max_dim, weights), prime, max_dim, 1e-7,
+                   ("standard", "twist"), has_cells=False)
     filtration = oracle.cech_filtration(points, max_dim)
     if rng.random() < 0.2:
         options += ["--alpha-values", "squared"]
         filtration = {s: (v * v, d, b) for s, (v, d, b) in filtration.items()}
-    return Job(kind, [(name, content)], options + more + of_field, filtration, prime, max_dim, 1e-7,
+    return Job(kind, files, options + more + of_field, filtration, prime, max_dim, 1e-7,
                ("standard", "twist"), has_cells=False)
 
 

@@ -149,36 +149,40 @@ def solve(matrix, right):
     return [rows[k][n] / rows[k][k] for k in range(n)]
 
 
-def smallest_ball(points):
+def smallest_ball(points, weights=None):
     """The square of the radius of the smallest ball around some points: the largest one of the
-    circumscribed balls of few of them, each of which is the smallest that holds the rest."""
+    circumscribed balls of few of them, each of which is the smallest that holds the rest. With weights
+    squares of distances are less by these."""
     best = INF
+    weight = dict(enumerate(weights or [0.0] * len(points)))
     dim = len(points[0])
     size = max((abs(x) for p in points for x in p), default=0)
     for count in range(1, min(dim + 1, len(points)) + 1):
-        for some in itertools.combinations(points, count):
-            edges = [[x - y for x, y in zip(p, some[0])] for p in some[1:]]
+        for first, *others in itertools.combinations(range(len(points)), count):
+            origin = points[first]
+            edges = [[x - y for x, y in zip(points[i], origin)] for i in others]
             gram = [[2 * sum(a * b for a, b in zip(e, f)) for f in edges] for e in edges]
-            at = solve(gram, [sum(a * a for a in e) for e in edges])
+            at = solve(gram, [sum(a * a for a in e) - weight[i] + weight[first] for e, i in zip(edges, others)])
             if at is None:
                 continue
-            centre = [some[0][k] + sum(t * e[k] for t, e in zip(at, edges)) for k in range(dim)]
-            square = sum((x - y) ** 2 for x, y in zip(centre, some[0]))
-            if square < best and all(sum((x - y) ** 2 for x, y in zip(centre, p)) <=
-                                     square + 1e-11 * (square + size * size) for p in points):
+            centre = [origin[k] + sum(t * e[k] for t, e in zip(at, edges)) for k in range(dim)]
+            square = sum((x - y) ** 2 for x, y in zip(centre, origin)) - weight[first]
+            if square < best and all(sum((x - y) ** 2 for x, y in zip(centre, p)) - weight[i] <=
+                                     square + 1e-11 * (abs(square) + size * size) for i, p in enumerate(points)):
                 best = square
     return best
 
 
-def cech_filtration(points, max_dim):
+def cech_filtration(points, max_dim, weights=None):
     """Balls that grow around points: a simplex enters with the radius of the smallest ball around it.
-    By the nerve theorem it has the homology of the union of the balls, as the alpha complex has."""
+    By the nerve theorem it has the homology of the union of the balls, as the alpha complex has.
+    @param weights squares of the first radii; then values are squares."""
     values = {}
     for count in range(1, max_dim + 3):
         for simplex in itertools.combinations(range(len(points)), count):
-            radius = math.sqrt(smallest_ball([points[i] for i in simplex]))
+            value = smallest_ball([points[i] for i in simplex], [weights[i] for i in simplex] if weights else None)
             faces = (values[f] for f, _ in simplex_boundary(simplex))
-            values[simplex] = max([radius, *faces])
+            values[simplex] = max([value if weights else math.sqrt(value), *faces])
     return simplicial(values)
 
 

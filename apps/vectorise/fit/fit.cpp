@@ -101,14 +101,19 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
       if (!std::isfinite(bar.birth) || !std::isfinite(bar.death))
         throw Error(ErrorKind::bad_data,
                     fmt::format("{}: found a bar [{}, {}) of H{}, expected finite ones; --infinite "
-                                "drop leaves others out, --infinite T gives them an end",
+                                "drop leaves others out, --infinite T gives an end to those that "
+                                "never die",
                                 name, bar.birth, bar.death, bar.dim));
   try {
     FiniteBars finite = finite_bars(bars, rule);
     dropped += finite.dropped;
     return std::move(finite.bars);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: --infinite: {}", name, error.what()));
+    std::string_view what = error.what();
+    constexpr std::string_view function = "finite_bars: ";
+    if (what.starts_with(function)) what.remove_prefix(function.size());
+    const std::string_view option = fit.infinite.rule == Rule::cap ? "--infinite: " : "";
+    throw Error(error.kind(), fmt::format("{}: {}{}", name, option, what));
   }
 }
 

@@ -203,7 +203,7 @@ def entries():
                     ".", words, CLOUD)
     yield Entry(49, "--intrinsics without a focal length", "ph-segment",
                 ("--depth", "d.png", "--intrinsics", "0,1,0,0"), 64, "found focal lengths 0 and 1",
-                "camera", {"d.png": sample("png", "depth.png")})
+                "--intrinsics", {"d.png": sample("png", "depth.png")})
     for program in ("ph-barcode", "ph-segment"):
         yield Entry(50, f"{program} without input", program, (), 64, "INPUT", "INPUT")
     yield Entry(50, "--max-dim at the end", "ph-barcode", ("square.txt", "-o", "x.csv", "--max-dim"),

@@ -173,6 +173,9 @@ TEST(Estimates, HoldThePeak) {
       check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
     }
   }
+  // Columns take far more than what is always allowed for.
+  check_peak(random.distances(140, false),
+             {.max_dim = 2, .engine = Engine::cohomology, .collapse = Collapse::off});
 }
 
 TEST(Estimates, NameTheEngineThatWillRun) {

@@ -11,6 +11,7 @@
 #include "core/system/files.hpp"
 #include "core/system/machine_memory.hpp"
 #include "io/bytes/unpack.hpp"
+#include "io/bytes/utf8.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {
@@ -52,27 +53,15 @@ std::size_t half_of_memory() {
   return all == 0 ? std::numeric_limits<std::size_t>::max() : static_cast<std::size_t>(all / 2);
 }
 
-// Length of a well-formed UTF-8 sequence at the start of `s`, 0 if there is none.
-std::size_t utf8_length(std::string_view s) {
+// Length of the UTF-8 sequence at the start of `s`; 0 if it is none, or may not stand in a message.
+std::size_t printable_length(std::string_view s) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const unsigned lead = byte(0);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-  if (length == 0 || length > s.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  if (length == 2 && lead == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
-  if (lead == 0xE0 && byte(1) < 0xA0) return 0;                 // overlong
-  if (lead == 0xED && byte(1) >= 0xA0) return 0;                // surrogates
-  if (lead == 0xF0 && byte(1) < 0x90) return 0;                 // overlong
-  if (lead == 0xF4 && byte(1) >= 0x90) return 0;                // above U+10FFFF
+  const std::size_t length = utf8_length(s);
+  if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) return 0;
+  if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
   // Line separators and marks that reorder text would let a name rewrite the message around it.
-  if (lead == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE) return 0;
+  if (length == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE)
+    return 0;
   return length;
 }
 
@@ -102,9 +91,9 @@ std::string printable(std::string_view bytes, std::size_t max_bytes) {
   std::string result;
   while (!bytes.empty()) {
     if (result.size() >= max_bytes) return result + "...";
-    const std::size_t length = utf8_length(bytes);
+    const std::size_t length = printable_length(bytes);
     const auto c = static_cast<unsigned char>(bytes[0]);
-    if (length == 0 || c < 0x20 || c == 0x7F) {
+    if (length == 0) {
       if (c == '\n') {
         result += "\\n";
       } else if (c == '\t') {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/bytes/utf8.hpp"
 #include "io/clouds/field_access.hpp"
 #include "io/readers.hpp"
 #include "ph/io/cloud.hpp"
@@ -108,7 +109,9 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
                                 std::string_view owner) {
   const bool is_array = detail::is_npy(input) || detail::is_npz(input);
   const bool is_ply = detail::is_ply(input);
-  const bool is_raw = !is_array && !is_ply && !detail::is_text(input.text());
+  // A few doubles may have no byte that text has not, but they hardly ever are UTF-8.
+  const bool may_be_raw = input.size() == count * sizeof(double) && !is_utf8(input.text());
+  const bool is_raw = !is_array && !is_ply && (may_be_raw || !detail::is_text(input.text()));
   std::vector<double> values = is_array ? of_array(input, owner)
                                : is_ply ? of_property(input)
                                : is_raw ? of_bytes(input, count, owner)
