@@ -240,7 +240,8 @@ def test_what_is_no_diagram(data, words):
 def test_ranges():
     assert _ranges.range_of_values([EMPTY]) == (0, 1)
     assert _ranges.range_of_values([EMPTY, ENDLESS]) == (0, 1)
-    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (2.5, 3.5)
+    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)  # a bar that counts for nothing
+    assert _ranges.range_of_values([np.array([[3.0, np.inf]])]) == (2.5, 3.5)
     assert _ranges.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))
     births, lengths = _ranges.ranges_of_image([np.array([[0.0, 1.0], [0.0, 4.0]])], None, None)
     assert lengths == (0, 4) and births == (-2, 2)  # all born at 0: as wide as the other range
