@@ -138,8 +138,6 @@ MUTANTS = [
      "roots_[part] < roots_[all];", "roots_[part] > roots_[all];", ["conformance_random_tests"]),
     ("surfaces: a star with one sign", TRIANGLES,
      "(end == u) == (other < w) ? a : field.negate(a)", "a", ["conformance_random_tests"]),
-    ("surfaces: rows of edges with one sign", TRIANGLES,
-     "a < b ? value : shared.field.negate(value)", "value", ["conformance_random_tests"]),
     ("surfaces: stars are written with one sign", TRIANGLES,
      "v, w < u ? a : opposite", "v, a", ["conformance_random_tests"]),
     ("volumes: one end is forgotten", VOLUMES,

@@ -109,10 +109,9 @@ class TriangleCochain {
     on_enter(a, 0);
   }
   void make_row(Vertex a, Vertex b, Shared& shared);
-  /// phi(a,b,c) += value, in the row of ab.
+  /// phi(a,b,c) += value, in the row of ab, a < b.
   void add_to_row(Vertex a, Vertex b, Vertex c, Element value, Shared& shared) {
-    Function::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
-                     shared.field);
+    Function::add_at(made_row(a, b, shared), c, value, shared.field);
   }
   /// Makes it dense if it is large.
   void adapt(Shared& shared) {
