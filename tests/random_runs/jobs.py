@@ -164,7 +164,7 @@ def rips(rng):
     if rng.random() < 0.1:
         count = rng.randint(1, n)
         if tolerance == 0 and "sparse" not in options and options[-1] != "dipha":
-            chosen = oracle.farthest_points(count, lambda i, j: matrix[i][j], n)
+            chosen = sorted(oracle.farthest_points(count, lambda i, j: matrix[i][j], n))
             options += ["--subsample", str(count)]
             plain = False
     births, exponent = [0.0] * n, "inf"
