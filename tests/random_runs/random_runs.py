@@ -6,8 +6,8 @@ what it writes with barcodes by the definition (oracle.py), which share no line 
 a seed of its own: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with
 the commands; the files are kept in FOLDER (default: where the script is run)."""
 import argparse
-import collections
 import dataclasses
+import functools
 import json
 import math
 import os
@@ -16,22 +16,18 @@ import random
 import shlex
 import subprocess
 import sys
-import tempfile
-from concurrent.futures import ProcessPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
 import chains  # noqa: E402
 import formats  # noqa: E402
 import jobs  # noqa: E402
+import many_runs  # noqa: E402
 import oracle  # noqa: E402
 import voxel_sets  # noqa: E402
+from many_runs import Difference  # noqa: E402
 
 EXTENSIONS = {"csv": "csv", "json": "json", "pers": "pers", "ripser": "txt", "dipha": "dipha", "npy": "npy"}
-
-
-class Difference(Exception):
-    pass
 
 
 def match(found, expected, tolerance, scale, short):
@@ -282,7 +278,7 @@ def damaged(rng, content):
     return bytes(content)
 
 
-def one_run(path, seed, only, folder):
+def one_run(path, only, seed, folder):
     """@return what it was, for the counts. @throws Difference"""
     rng = random.Random(seed)
     job = jobs.KINDS[only or rng.choice(list(jobs.KINDS))](rng)
@@ -313,52 +309,14 @@ def one_run(path, seed, only, folder):
     return compare(program, job, output)
 
 
-def some_runs(program, first, count, only, keep):
-    """@return counts of what was run, differences."""
-    counts, differences = collections.Counter(), []
-    for seed in range(first, first + count):
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                counts[one_run(program, seed, only, folder)] += 1
-            except Difference as error:
-                kept = pathlib.Path(keep, f"random-run-{seed}")
-                kept.mkdir(exist_ok=True)
-                for path in pathlib.Path(folder).iterdir():
-                    (kept / path.name).write_bytes(path.read_bytes())
-                differences.append(f"seed {seed}: {error}\n  files: {kept}")
-            except Exception as error:
-                raise RuntimeError(f"seed {seed}: {error!r}") from error
-    return counts, differences
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--runs", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--keep", default=".")
+    many_runs.add_options(parser, 1000)
     parser.add_argument("--only", choices=jobs.KINDS)
-    parser.add_argument("--go-on", action="store_true", help="after a difference")
     options = parser.parse_args()
-    counts, failures, piece = collections.Counter(), [], 100
-    with ProcessPoolExecutor(options.jobs) as pool:
-        pieces = [pool.submit(some_runs, str(options.program.resolve()), first,
-                              min(piece, options.seed + options.runs - first), options.only, options.keep)
-                  for first in range(options.seed, options.seed + options.runs, piece)]
-        for done in pieces:
-            some, differences = done.result()
-            counts += some
-            failures += differences
-            for failure in differences:
-                print(failure, flush=True)
-            if failures and not options.go_on:
-                pool.shutdown(cancel_futures=True)
-                break
-    for kind, count in sorted(counts.items()):
-        print(f"{count:9d}  {kind}")
-    print(f"{sum(counts.values())} runs from seed {options.seed} on, {len(failures)} differences")
-    sys.exit(1 if failures else 0)
+    many_runs.run_all(functools.partial(one_run, str(options.program.resolve()), options.only), options, "random-run")
+
 
 
 if __name__ == "__main__":

@@ -112,7 +112,9 @@ struct PermutationTest {
   /// (shuffles whose loss is at most the observed one + 1) / (shuffles + 1): were the groups drawn
   /// from one distribution, it would be at most t with probability t.
   double p = 1;
-  double loss = 0;  ///< the observed one: Σ over groups of the mean distance within, halved
+  /// The observed one: Σ over groups of the mean within of the distances' power, halved; infinite
+  /// where doubles cannot hold it.
+  double loss = 0;
 };
 
 /// Whether groups of barcodes differ, by their distances: labels are shuffled, and the mean

@@ -7,14 +7,12 @@ exactly where the documentation determines them, else by what must hold. Each ru
 --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with the commands; the files
 are kept in FOLDER (default: where the script is run)."""
 import argparse
-import collections
+import functools
 import json
 import os
 import pathlib
 import random
 import sys
-import tempfile
-from concurrent.futures import ProcessPoolExecutor
 
 try:
     import numpy as np
@@ -26,6 +24,7 @@ except ModuleNotFoundError:
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.dirname(HERE), os.path.join(HERE, "../../support")]
 import formats  # noqa: E402
+import many_runs  # noqa: E402
 import scene_checks  # noqa: E402
 import scene_files  # noqa: E402
 import scene_follow_ups  # noqa: E402
@@ -220,52 +219,13 @@ def valid(program, summary, names):
                         np.bincount(labels, minlength=1)[1:].tolist())
 
 
-def some_runs(program, first, count, keep):
-    """@return counts of what was run, differences."""
-    counts, differences = collections.Counter(), []
-    for seed in range(first, first + count):
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                counts[one_run(program, seed, folder)] += 1
-            except Difference as error:
-                kept = pathlib.Path(keep, f"random-scene-{seed}")
-                kept.mkdir(exist_ok=True)
-                for path in pathlib.Path(folder).iterdir():
-                    if path.is_file():
-                        (kept / path.name).write_bytes(path.read_bytes())
-                differences.append(f"seed {seed}: {error}\n  files: {kept}")
-            except Exception as error:
-                raise RuntimeError(f"seed {seed}: {error!r}") from error
-    return counts, differences
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--runs", type=int, default=500)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--keep", default=".")
-    parser.add_argument("--go-on", action="store_true", help="after a difference")
+    many_runs.add_options(parser, 500)
     options = parser.parse_args()
-    counts, failures, piece = collections.Counter(), [], 50
-    with ProcessPoolExecutor(options.jobs) as pool:
-        pieces = [pool.submit(some_runs, str(options.program.resolve()), first,
-                              min(piece, options.seed + options.runs - first), options.keep)
-                  for first in range(options.seed, options.seed + options.runs, piece)]
-        for done in pieces:
-            some, differences = done.result()
-            counts += some
-            failures += differences
-            for failure in differences:
-                print(failure, flush=True)
-            if failures and not options.go_on:
-                pool.shutdown(cancel_futures=True)
-                break
-    for kind, count in sorted(counts.items()):
-        print(f"{count:9d}  {kind}")
-    print(f"{sum(counts.values())} runs from seed {options.seed} on, {len(failures)} differences")
-    sys.exit(1 if failures else 0)
+    many_runs.run_all(functools.partial(one_run, str(options.program.resolve())), options, "random-scene")
+
 
 
 if __name__ == "__main__":

@@ -5,9 +5,7 @@ import re
 import shlex
 import subprocess
 
-
-class Difference(Exception):
-    pass
+from many_runs import Difference
 
 
 class Program:

@@ -81,6 +81,7 @@ struct Unit {
   }
 };
 
+/// Two diagrams, their distance, and an optimal matching.
 class Comparison {
  public:
   Comparison(std::span<const Bar> a, std::span<const Bar> b, const WassersteinOptions& options,

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Many random runs: each has a seed, and a folder whose files are kept where it finds a difference."""
+import collections
+import os
+import pathlib
+import sys
+import tempfile
+from concurrent.futures import ProcessPoolExecutor
+
+PIECE = 50  # runs of one process, one after the other
+
+
+class Difference(Exception):
+    """Something was found that is not what it must be; says what, and the command."""
+
+
+def add_options(parser, runs):
+    """@param runs how many, if nothing is said."""
+    parser.add_argument("--runs", type=int, default=runs)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--keep", default=".")
+    parser.add_argument("--go-on", action="store_true", help="after a difference")
+
+
+def some_runs(one_run, first, count, keep):
+    """@return counts of what was run, differences."""
+    counts, differences = collections.Counter(), []
+    for seed in range(first, first + count):
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                counts[one_run(seed, folder)] += 1
+            except Difference as error:
+                kept = pathlib.Path(f"{keep}-{seed}")
+                kept.mkdir(exist_ok=True)
+                for path in pathlib.Path(folder).iterdir():
+                    if path.is_file():
+                        (kept / path.name).write_bytes(path.read_bytes())
+                differences.append(f"seed {seed}: {error}\n  files: {kept}")
+            except Exception as error:
+                raise RuntimeError(f"seed {seed}: {error!r}") from error
+    return counts, differences
+
+
+def run_all(one_run, options, name):
+    """Prints what was run, and exits 1 if there were differences.
+    @param one_run(seed, folder) what it was, for the counts; it can be pickled. @throws Difference
+    @param options those of add_options. @param name of the folders that are kept."""
+    counts, failures, end = collections.Counter(), [], options.seed + options.runs
+    keep = os.path.join(options.keep, name)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        pieces = [pool.submit(some_runs, one_run, first, min(PIECE, end - first), keep)
+                  for first in range(options.seed, end, PIECE)]
+        for done in pieces:
+            some, differences = done.result()
+            counts += some
+            failures += differences
+            for failure in differences:
+                print(failure, flush=True)
+            if failures and not options.go_on:
+                pool.shutdown(cancel_futures=True)
+                break
+    for kind, count in sorted(counts.items()):
+        print(f"{count:9d}  {kind}")
+    print(f"{sum(counts.values())} runs from seed {options.seed} on, {len(failures)} differences")
+    sys.exit(1 if failures else 0)
