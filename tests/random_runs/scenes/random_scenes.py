@@ -32,7 +32,7 @@ import scene_oracle as oracle  # noqa: E402
 import scenes  # noqa: E402
 from random_runs import damaged  # noqa: E402
 from scene_checks import Wrong  # noqa: E402
-from scene_program import Difference, Program  # noqa: E402
+from scene_program import Program  # noqa: E402
 
 BARCODES = {"csv": "csv", "json": "json", "pers": "pers", "dipha": "dipha", "npy": "npy"}
 # Options that make no sense, or do nothing with these methods (none: with any, or with a cloud).
