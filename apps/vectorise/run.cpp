@@ -101,7 +101,12 @@ class Run {
               bars_of(fit_, barcodes[i].bars(block.dim), files_[i], dropped[i]);
           std::size_t length = 1;
           for (const std::size_t n : shape_of(fit_, block)) length *= n;
-          write_block(fit_, block, bars, table.row(i).subspan(at, length), task);
+          try {
+            write_block(fit_, block, bars, table.row(i).subspan(at, length), task);
+          } catch (const Error& error) {
+            if (error.kind() != ErrorKind::bad_data) throw;
+            throw about_input(error, files_[i]);
+          }
           at += length;
         }
       }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ph/error.hpp"
+#include "vectors/checked_bars.hpp"
 
 namespace ph::vectorise {
 namespace {
@@ -90,10 +91,19 @@ bool may_keep_infinite(Kind kind) {
   return kind == Kind::betti || kind == Kind::landscape || kind == Kind::euler;
 }
 
+Error about_input(const Error& error, std::string_view name) {
+  std::string_view what = error.what();
+  const std::size_t end = what.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
+  if (end != what.npos && what.substr(end).starts_with(": ")) what.remove_prefix(end + 2);
+  const std::size_t hint = what.find(": finite_bars() ");
+  return Error(error.kind(),
+               fmt::format("{}: {}{}", name, what.substr(0, hint),
+                           hint == what.npos ? "" : "; --infinite drop leaves it out"));
+}
+
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,
                          std::size_t& dropped) {
   using Rule = InfiniteRule::Rule;
-  if (fit.infinite.rule == Rule::keep) return {bars.begin(), bars.end()};
   InfiniteBars rule;
   if (fit.infinite.rule == Rule::cap) rule = {InfiniteBars::Rule::cap, fit.infinite.cap};
   if (fit.infinite.rule == Rule::error)
@@ -105,15 +115,16 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
                                 "never die",
                                 name, bar.birth, bar.death, bar.dim));
   try {
+    if (fit.infinite.rule == Rule::keep) {
+      for (const Bar& bar : bars) vectors::check_bar(bar, "bars");
+      return {bars.begin(), bars.end()};
+    }
     FiniteBars finite = finite_bars(bars, rule);
     dropped += finite.dropped;
     return std::move(finite.bars);
   } catch (const Error& error) {
-    std::string_view what = error.what();
-    constexpr std::string_view function = "finite_bars: ";
-    if (what.starts_with(function)) what.remove_prefix(function.size());
-    const std::string_view option = fit.infinite.rule == Rule::cap ? "--infinite: " : "";
-    throw Error(error.kind(), fmt::format("{}: {}{}", name, option, what));
+    throw about_input(
+        error, fmt::format("{}{}", name, fit.infinite.rule == Rule::cap ? ": --infinite" : ""));
   }
 }
 

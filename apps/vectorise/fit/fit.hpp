@@ -67,6 +67,10 @@ std::vector<std::string> names_of(const Fit& fit);
 /// Which infinite bars may be kept: those functions know what they are.
 bool may_keep_infinite(Kind kind);
 
+/// An error of a function of the library that was given bars of an input: begins with the name of
+/// the input in place of that of the function, and gives the option as advice.
+Error about_input(const Error& error, std::string_view name);
+
 /// The bars of a block as its function takes them. @param name of the input, for messages.
 /// @param dropped grows by how many were left out.
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,

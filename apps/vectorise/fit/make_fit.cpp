@@ -61,7 +61,9 @@ Block block_of(const Fit& fit, int dim, const Spans& diagrams, const Arguments& 
       try {
         block.atol = fit_atol(diagrams, options, context);
       } catch (const Error& error) {
-        throw Error(error.kind(), fmt::format("H{}: {}; --count K", dim, error.what()));
+        if (error.kind() != ErrorKind::bad_data) throw;
+        const Error of_dim = about_input(error, fmt::format("H{}", dim));
+        throw Error(error.kind(), fmt::format("{}; --count K", of_dim.what()));
       }
       break;
     }

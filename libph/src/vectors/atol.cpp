@@ -209,10 +209,11 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
                             options.centres, options.most_rounds));
   std::vector<vectors::Heap> heaps = vectors::heaps_of(diagrams);
   if (heaps.size() < options.centres)
-    throw Error(ErrorKind::bad_data,
-                fmt::format("fit_atol: found {} bars that differ, expected at least {}, the number "
-                            "of centres",
-                            heaps.size(), options.centres));
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("fit_atol: different bars: found {}, expected at least {}, the number of "
+                    "centres",
+                    heaps.size(), options.centres));
   // In a unit in which all numbers are less than 1: squares of small ones would be 0.
   double largest = 0;
   for (const auto& heap : heaps)

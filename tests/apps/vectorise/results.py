@@ -154,6 +154,17 @@ class Results(ProgramTest):
         self.assertIn("late.csv: --infinite: ", run.stderr)
         self.assertIn("at least 3", run.stderr)
 
+    def test_what_cannot_be_counted_is_named(self):
+        self.write("early.csv", "dim,birth,death\n1,-inf,3\n")
+        run = self.expect(65, "early.csv", "--kind", "landscape", "--infinite", "keep")
+        self.assertIn("early.csv: found a bar [-inf, 3), expected a finite birth; --infinite drop", run.stderr)
+        self.write("vast.csv", "dim,birth,death\n1,0,1e101\n")
+        for kind in ("betti", "landscape", "euler", "image", "atol"):
+            self.assertIn("vast.csv: found 1e+101", self.expect(65, "vast.csv", "--kind", kind).stderr)
+            if kind in ("betti", "landscape", "euler"):
+                self.assertIn("vast.csv: found 1e+101",
+                              self.expect(65, "vast.csv", "--kind", kind, "--infinite", "keep").stderr)
+
     def test_euler_curves_of_barcodes_and_images(self):
         names, rows = self.table("a.csv", "b.csv", "--kind", "euler", "--grid", "0,6,7")
         self.assertEqual(names[6], "euler6")
