@@ -5,6 +5,7 @@ file or the option, nothing on stdout, nothing written, no temporary file, withi
 16 MiB and 50 ms where a header lies. PEAK is the program of peak.c."""
 import collections
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -19,6 +20,7 @@ SECONDS = 1  # of CPU; on the clock a busy machine gives ten times as many
 TRIES = 3  # for times only: a loaded machine is slow now and then, a program is each time
 FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
 NOBODY = 65534
+PAGES = "README.md", "docs/explanation/reliability.md"  # they say how many entries there are
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd", "ph-distance": "out.csv",
           "ph-vectorise": "out.csv"}
 
@@ -166,6 +168,11 @@ class Runner:
         return "", False
 
 
+def states_count(page, count):
+    text = (pathlib.Path(__file__).parents[2] / page).read_text(encoding="utf-8")
+    return f"{count:,}".replace(",", " ") in text
+
+
 def main():
     runner = Runner(*sys.argv[1:5], peak=sys.argv[5])
     words = sys.argv[6:]
@@ -190,7 +197,10 @@ def main():
     missing = [row for row in ROWS if not any(entry.row == row for entry in entries)]
     if missing and not words:
         print(f"rows without an entry: {missing}")
-    sys.exit(1 if faults or not of_row or (missing and not words) else 0)
+    stale = [page for page in PAGES if not words and not states_count(page, len(entries))]
+    if stale:
+        print(f"pages that do not say that there are {len(entries)} entries: {stale}")
+    sys.exit(1 if faults or not of_row or (missing and not words) or stale else 0)
 
 
 if __name__ == "__main__":

@@ -97,6 +97,11 @@ JSON = [
     ("death before birth", "compare", BEGIN + b'{"dim": 0, "birth": 2, "death": 1}]}', "dies before"),
     ("a comma behind the last bar", "distance", BEGIN + BAR + b",]}", r"found '\]'"),
     ("a number with a sign", "vectors", BEGIN + b'{"dim": 0, "birth": +1, "death": 2}]}', r"found '\+'"),
+    *((f"{number} as a number", use, BEGIN + b'{"dim": 0, "birth": %s, "death": 2}]}' % number.encode(),
+       f"not a number of JSON, found {number}".replace(".", r"\."))
+      for number, use in (("00", "distance"), ("-01", "vectors"), (".5", "plot"), ("1.", "compare"),
+                          ("-.5", "groups"), ("1.e0", "images"), ("1e-", "wasserstein"))),
+    ("a dimension of 00", "report", BEGIN + b'{"dim": 00, "birth": 0, "death": 2}]}', "not a number of JSON"),
     ("a truth as a number", "plot", BEGIN + b'{"dim": 0, "birth": true, "death": 2}]}', "found 't'"),
     ("a comment", "distance", BEGIN + b"/* none */]}", "found '/'"),
     ("a second document", "compare", BEGIN + BAR + b"]} {}", "trailing data"),
@@ -104,6 +109,9 @@ JSON = [
     ("a tab in a string", "plot", BEGIN + BAR + b'], "x": "a\tb"}', "control character"),
     ("an unknown escape", "distance", BEGIN + BAR + b'], "x": "\\q"}', "unknown escape"),
     ("half an escape", "vectors", BEGIN + BAR + b'], "x": "\\u12"}', "JSON string"),
+    *((f"{name} of a surrogate pair", use, BEGIN + BAR + b'], "x": "%s"}' % text, "half of a surrogate pair")
+      for name, use, text in (("the first half", "distance", rb"\ud83d"), ("the second half", "plot", rb"\ude00"),
+                              ("twice the first half", "vectors", rb"\ud83d\ud83d"))),
     ("a string without an end", "plot", BEGIN + BAR + b'], "x": "', "JSON string"),
     ("nested a million times", "distance", BEGIN + b'], "x": ' + b"[" * 1_000_000, "nested too deeply"),
     ("objects nested a million times", "compare", b'{"x":' * 1_000_000, "nested too deeply"),

@@ -100,6 +100,8 @@ CAMERAS = [
      with_change(OPEN3D, b"[525, 0, 0, 0, 525, 0, 319.5, 239.5, 1]", b"[525, 0, 319.5, 0, 525, 239.5, 0, 0, 1]"),
      "column by column"),
     ("JSON with 1e999", "c.json", with_change(OPEN3D, b"319.5", b"1e999"), "number out of range"),
+    ("JSON with a number that begins with a point", "c.json", with_change(OPEN3D, b"319.5", b".5"),
+     r"not a number of JSON, found \.5"),
     ("JSON without an end", "c.json", OPEN3D[:-1], "end of the file"),
     ("JSON with its matrix twice", "c.json",
      with_change(OPEN3D, b"}", b', "intrinsic_matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1]}'), "it again"),

@@ -32,6 +32,29 @@ void append_utf8(std::string& text, std::uint32_t code) {
   }
 }
 
+/// Takes the digits that come next. @return whether there is one.
+bool take_digits(std::string_view& word) {
+  const std::size_t end = std::min(word.find_first_not_of("0123456789"), word.size());
+  word.remove_prefix(end);
+  return end > 0;
+}
+
+/// As RFC 8259 has it: no zero before other digits, digits on both sides of a point.
+bool is_json_number(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return false;
+  if (!take_digits(word)) return false;
+  if (word.starts_with('.')) {
+    word.remove_prefix(1);
+    if (!take_digits(word)) return false;
+  }
+  if (word.empty()) return true;
+  if (word[0] != 'e' && word[0] != 'E') return false;
+  word.remove_prefix(1);
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  return take_digits(word) && word.empty();
+}
+
 }  // namespace
 
 void JsonCursor::fail(std::size_t place, Fault fault) const {
@@ -107,6 +130,22 @@ std::uint32_t JsonCursor::hex4() {
   return code;
 }
 
+std::uint32_t JsonCursor::escaped_code() {
+  const std::size_t place = at_ - 2;
+  const auto is_half = [](std::uint32_t code, std::uint32_t first) {
+    return code >= first && code < first + 0x400;
+  };
+  const std::uint32_t code = hex4();
+  if (is_half(code, 0xD800) && text_.substr(at_, 2) == "\\u") {
+    at_ += 2;
+    const std::uint32_t second = hex4();
+    if (is_half(second, 0xDC00)) return 0x10000 + ((code & 0x3FF) << 10) + (second & 0x3FF);
+  }
+  if (is_half(code, 0xD800) || is_half(code, 0xDC00))
+    fail(place, {"JSON string", "half of a surrogate pair", "both halves", {}});
+  return code;
+}
+
 std::string JsonCursor::string() {
   expect('"');
   const std::size_t begin = at_;
@@ -125,12 +164,7 @@ std::string JsonCursor::string() {
     if (const std::size_t known = kFrom.find(escape); known != std::string_view::npos) {
       result += kTo[known];
     } else if (escape == 'u') {
-      std::uint32_t code = hex4();
-      if (code >= 0xD800 && code < 0xDC00 && text_.substr(at_, 2) == "\\u") {
-        at_ += 2;
-        code = 0x10000 + ((code & 0x3FF) << 10) + (hex4() & 0x3FF);
-      }
-      append_utf8(result, code);
+      append_utf8(result, escaped_code());
     } else {
       fail(at_ - 1, {"JSON string", "an unknown escape", "one of \" \\ / b f n r t u", {}});
     }
@@ -145,6 +179,8 @@ std::string_view JsonCursor::number_word() {
   const std::size_t stop = std::min(text_.find_first_not_of("+-0123456789.eE", at_), text_.size());
   const std::string_view word = text_.substr(at_, stop - at_);
   if (word.empty() || word[0] == '+') fail(at_, {"JSON", found(), "a number", {}});
+  if (!is_json_number(word))
+    fail(at_, {"not a number of JSON", printable(word, 40), "a number", {}});
   return word;
 }
 
@@ -153,10 +189,7 @@ double JsonCursor::number() {
   double value = 0;
   const auto [stop, error] = floating_from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || stop != word.data() + word.size()) {
-    fail(at_, {error == std::errc::result_out_of_range ? "number out of range" : "not a number",
-               printable(word, 40),
-               "a number",
-               {}});
+    fail(at_, {"number out of range", printable(word, 40), "a number", {}});
   }
   at_ += word.size();
   return value + 0.0;
