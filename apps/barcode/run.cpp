@@ -25,6 +25,7 @@
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
 #include "core/bytes/sealed_part.hpp"
+#include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "cubical/pair_voxels.hpp"
 #include "facade/adjust.hpp"
@@ -235,7 +236,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.peak_memory = app::peak_memory();
   for (const auto& [stage, seconds] : watch.laps())
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
-  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
   note_absent_dims(barcode, arguments.look, session);
   const app::BarHold results_are_written(session);
   outputs->write(barcode, info, look_of(arguments.look, arguments.cubical.superlevel), trees,
@@ -266,7 +267,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   // By now all that the run held has been given back; the heap keeps none of it.
   app::give_back_freed_memory();
   session.loosen_heap_bound();
-  const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
+  const std::string peak = format_size(static_cast<double>(session.memory_taken()));
   if (is_stored)
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
   if (const std::string changes = alternatives(job, arguments, session); !changes.empty())

@@ -18,6 +18,7 @@
 #include "barcode/complex/build_complex.hpp"
 #include "barcode/complex/read_input.hpp"
 #include "common/arguments/numbers.hpp"
+#include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "ph/estimate.hpp"
 
@@ -139,8 +140,8 @@ class Alternatives {
           build_complex(data_.read, data_.name, data_.dropped, arguments, trial);
       const Estimate e = estimate(built.complex, arguments.options, trial);
       if (e.bytes_high > static_cast<double>(context_.memory.limit()) + kBesideLimit) return false;
-      found_.push_back(fmt::format("{} ({} to {})", change, app::format_size(e.bytes_low),
-                                   app::format_size(e.bytes_high)));
+      found_.push_back(fmt::format("{} ({} to {})", change, format_size(e.bytes_low),
+                                   format_size(e.bytes_high)));
       return true;
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) context_.poll();  // who stopped it?

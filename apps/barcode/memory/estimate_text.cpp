@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/arguments/numbers.hpp"
+#include "core/format_size.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {
@@ -39,7 +39,7 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   // What building gave back may not fit what comes next: at worst nothing of it is used again.
   const double high =
       std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
-  return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
+  return text + fmt::format("memory   {} to {}\n", format_size(low), format_size(high));
 }
 
 }  // namespace ph::barcode

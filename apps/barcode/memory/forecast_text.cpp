@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "common/arguments/numbers.hpp"
+#include "core/format_size.hpp"
 
 namespace ph::barcode {
 
@@ -16,8 +16,7 @@ template <class Forecast>
 std::string lines_of(const Forecast& forecast, std::string_view process, std::string_view beside) {
   std::string text;
   const auto add = [&](std::string_view what, double low, double high, std::string_view of) {
-    text += fmt::format("{:8} {} to {} ({})\n", what, app::format_size(low), app::format_size(high),
-                        of);
+    text += fmt::format("{:8} {} to {} ({})\n", what, format_size(low), format_size(high), of);
   };
   if (!process.empty()) {
     // The first rank has the bars of all.

@@ -15,6 +15,7 @@
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "core/format_size.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {
@@ -57,7 +58,7 @@ Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
   app::require_separate(inputs, std::array{app::Written{"--output", path}}, arguments.common.force);
   app::Output output(path);
   const CloudPart made(cloud.points, part, parts, cloud.options, session.context());
-  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
   return {app::kOk, fmt::format("{}, part {} of {}: {}", cloud.data.read.description, part + 1,
                                 parts, write_part_file(output, made.bytes()))};

@@ -18,6 +18,7 @@
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "core/format_size.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {
@@ -109,7 +110,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
       throw Error(error.kind(), fmt::format("--part: {}", error.what()));
     }
   }();
-  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
   return {app::kOk, fmt::format("{}, {}: {}", read.description, words_of(made),
                                 write_part_file(output, made.bytes()))};

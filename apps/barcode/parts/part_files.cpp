@@ -9,6 +9,7 @@
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
@@ -64,7 +65,7 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes) {
   output.file().write(bytes);
   output.commit();
-  return app::format_size(static_cast<double>(bytes.size()));
+  return format_size(static_cast<double>(bytes.size()));
 }
 
 Outcome write_bars(Barcode bars, const BarcodeInfo& info, Outputs& outputs,

@@ -11,10 +11,10 @@
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/inputs_part.hpp"
 #include "barcode/parts/part_files.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/bytes/sealed_part.hpp"
+#include "core/format_size.hpp"
 
 namespace ph::barcode {
 
@@ -70,7 +70,7 @@ int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& ses
                           : kind == "cloud"
                               ? join_cloud_parts(files, job, arguments, session)
                               : join_image_parts(std::move(files), job, arguments, session);
-  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
   session.note(outcome.summary);
   return outcome.code;
 }

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "common/arguments/numbers.hpp"
+#include "core/format_size.hpp"
 
 namespace ph::barcode {
 
@@ -13,8 +13,8 @@ std::string kept_path(const Arguments& arguments, int rank, int parts) {
 
 void explain_costs(const Post& post, app::Session& session) {
   session.explain(fmt::format("memory {}, sent {}",
-                              app::format_size(static_cast<double>(session.memory_taken())),
-                              app::format_size(static_cast<double>(post.bytes_sent()))));
+                              format_size(static_cast<double>(session.memory_taken())),
+                              format_size(static_cast<double>(post.bytes_sent()))));
 }
 
 }  // namespace ph::barcode

@@ -132,18 +132,6 @@ std::uint64_t parse_size(std::string_view option, std::string_view text) {
   reject(option, text, "a size such as 4GiB, 500MB or 1e9");
 }
 
-std::string format_size(double bytes) {
-  constexpr std::string_view kUnits[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-  std::size_t unit = 0;
-  while (bytes >= 1024 && unit + 1 < std::size(kUnits)) {
-    bytes /= 1024;
-    ++unit;
-  }
-  // Three digits, but for the last ones before the next unit: no power of ten.
-  constexpr double kFourDigits = 999.5;
-  return fmt::format("{:.{}g} {}", bytes, bytes >= kFourDigits ? 4 : 3, kUnits[unit]);
-}
-
 std::string count_of(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }

@@ -24,8 +24,6 @@ std::vector<std::int64_t> parse_integers(std::string_view option, std::string_vi
                                          std::int64_t least, std::int64_t most = INT64_MAX);
 /// A number of bytes: `4GiB`, `500MB`, `1e9`, `64k` (binary: Ki Mi Gi Ti; decimal: k M G T).
 std::uint64_t parse_size(std::string_view option, std::string_view text);
-/// Bytes for people: "1.5 GiB".
-std::string format_size(double bytes);
 /// "57 bars"
 std::string count_of(std::size_t count, std::string_view what);
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/arguments/numbers.hpp"
 #include "common/run/signals.hpp"
 #include "common/terminal/messages.hpp"
+#include "core/format_size.hpp"
 #include "core/system/machine_memory.hpp"
 
 namespace ph::app {

@@ -7,20 +7,19 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/format_size.hpp"
 #include "core/system/pages.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
 namespace {
 
-constexpr double kMiB = 1024.0 * 1024.0;
-
 [[noreturn]] void refuse(std::size_t bytes, std::size_t used, std::size_t limit) {
-  throw Error(ErrorKind::resource,
-              fmt::format("memory limit of {:.1f} MiB would be exceeded: {:.1f} MiB in use, "
-                          "{:.1f} MiB more needed",
-                          static_cast<double>(limit) / kMiB, static_cast<double>(used) / kMiB,
-                          static_cast<double>(bytes) / kMiB));
+  throw Error(
+      ErrorKind::resource,
+      fmt::format("memory limit of {} would be exceeded: {} in use, {} more needed",
+                  format_size(static_cast<double>(limit)), format_size(static_cast<double>(used)),
+                  format_size(static_cast<double>(bytes))));
 }
 
 // Large blocks come from the system and go back to it at once: the C library would keep them in its

@@ -18,6 +18,7 @@
 #include "common/files/file_identity.hpp"
 #include "common/manual/lines.hpp"
 #include "common/manual/option_text.hpp"
+#include "core/format_size.hpp"
 #include "kind_of.hpp"
 
 namespace ph::app {

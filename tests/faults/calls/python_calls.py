@@ -148,7 +148,7 @@ CALLS = [(room, *row) for room, rows in {
     "arrays that say they are huge": [
         ("ph.rips(vast((2**31, 3), np.float32), memory_limit='1GiB')", "MemoryLimitError", "X: found 6442450944"),
         ("ph.rips(vast((2**40, 3), np.int8))", "MemoryLimitError", "X: found 3298534883328"),
-        ("ph.cubical(vast((2**20, 2**20)), memory_limit='1GiB')", "MemoryLimitError", "memory limit of 1024"),
+        ("ph.cubical(vast((2**20, 2**20)), memory_limit='1GiB')", "MemoryLimitError", "memory limit of 1 GiB"),
         ("ph.cubical(vast((2**20, 2**20)))", "MemoryLimitError", "memory limit"),
         ("ph.segment(vast((2**33, 3)))", "MemoryLimitError", "cloud: found 25769803776 numbers"),
         ("ph.segment(vast((2**17, 2**17)), camera='xtion')", "MemoryLimitError", "cloud: found 17179869184"),

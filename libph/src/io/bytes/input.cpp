@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "core/system/machine_memory.hpp"
 #include "io/bytes/unpack.hpp"
@@ -235,8 +236,8 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
       if (more > limit - std::min(limit, storage->capacity)) {  // both are there while it grows
         throw Error(ErrorKind::resource,
-                    fmt::format("{}: longer than the memory limit allows: {} MiB were read",
-                                input.name_, storage->used >> 20));
+                    fmt::format("{}: longer than the memory limit allows: {} were read",
+                                input.name_, format_size(static_cast<double>(storage->used))));
       }
       storage->grow_to(more);
     }

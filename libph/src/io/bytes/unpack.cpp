@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <new>
 
+#include "core/format_size.hpp"
+
 namespace ph::detail {
 namespace {
 
@@ -131,8 +133,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     }
     if (before >= most) {
       throw Error(ErrorKind::resource,
-                  fmt::format("{}: unpacks to more than the memory limit allows, {} MiB",
-                              input.name(), most >> 20));
+                  fmt::format("{}: unpacks to more than the memory limit allows, {}", input.name(),
+                              format_size(static_cast<double>(most))));
     }
     const std::size_t room = std::max(std::min(bytes.capacity() - before, kStep), std::size_t{1});
     bytes.resize(before + std::min(room == 1 ? kStep : room, most - before));

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+namespace ph {
+
+/// Bytes for people: "1.5 GiB".
+std::string format_size(double bytes);
+
+}  // namespace ph
