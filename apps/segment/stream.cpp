@@ -116,7 +116,8 @@ class Stream {
       throw;
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
-      const bool named = std::string_view(error.what()).find(one.input) != std::string_view::npos;
+      const bool named =
+          std::string_view(error.what()).find(printable(one.input)) != std::string_view::npos;
       code = app::report_current_exception(kProgram, named ? "" : printable(one.input));
       line = failure_line(one.input, code);
     } catch (...) {

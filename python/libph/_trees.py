@@ -2,6 +2,7 @@
 """Merge trees: how components join."""
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -121,7 +122,8 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
         if name not in allowed:
             raise UsageError(f"{name}: does nothing for a merge tree of {request.meta['complex']}, "
                              f"expected {', '.join(allowed)}")
-    tree = request._replace(task=None).run(_core.merge_tree)
+    points = request.meta.get("points", 0)  # those that nan="drop" leaves out included
+    tree = request._replace(task=None).run(functools.partial(_core.merge_tree, size=points))
     shape = request.meta.get("shape")
     if shape is not None and request.meta["construction"] == "cells":
         periodic = request.meta["periodic"]

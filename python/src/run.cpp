@@ -102,6 +102,8 @@ class Computation {
   /// Until it is done. Where the system gives no thread, nobody looks after it.
   void run() {
     if (!options_.memory_limit) context_->memory.set_limit(memory_left());
+    look(std::nullopt);  // it may have been stopped before it began, and be short
+    context_->poll();
     std::jthread worker;
     std::exception_ptr of_caller;
     try {

@@ -70,6 +70,52 @@ def test_components_are_half_those_of_rips():
     assert_array_equal(2 * tree.values, ph.merge_tree(points).values)
 
 
+def first_within(points, reach):
+    """For each point the first one of those it is joined to by steps of at most `reach`."""
+    apart = np.linalg.norm(points[:, None] - points, axis=2) <= reach
+    first = np.arange(len(points))
+    for _ in points:
+        first = np.where(apart, first, len(points)).min(axis=1)
+    return first
+
+
+@needs_cgal
+def test_vertices_of_a_tree_are_points():
+    random = np.random.default_rng(9)
+    for size in (1, 2, 3, 10, 40):
+        for dim in (1, 2, 3):
+            points = random.normal(size=(size, dim)).round(1)  # some are copies
+            points[random.random(size) < 0.2, 0] = np.nan
+            is_there = ~np.isnan(points[:, 0])
+            tree = ph.merge_tree(points, complex="alpha", nan="drop")
+            assert_array_equal(tree.births, np.where(is_there, 0, np.inf))
+            lengths = np.linalg.norm(points[tree.edges[:, 0]] - points[tree.edges[:, 1]], axis=1)
+            assert_allclose(2 * tree.values, lengths, rtol=1e-12)
+            for radius in (0, 0.101, 0.251, 0.501):
+                names = tree.components(radius)
+                assert_array_equal(names == -1, ~is_there)
+                of_point = names[is_there]
+                expected = first_within(points[is_there], 2 * radius)
+                same = of_point[:, None] == of_point
+                assert_array_equal(same, expected[:, None] == expected)
+                assert all(names[name] == name for name in of_point)
+            if tree.births.min() < np.inf and is_there.all() and size > 1:
+                joined = scipy.cluster.hierarchy.fcluster(tree.linkage, 0.251, "distance")
+                of_point = tree.components(0.251)
+                assert_array_equal(joined[:, None] == joined, of_point[:, None] == of_point)
+
+
+@needs_cgal
+def test_what_is_hidden_never_enters_the_tree():
+    points = [[9.0], [0], [3], [0.5]]
+    tree = ph.merge_tree(points, complex="alpha", weights=[1, 1, 4, -9])
+    assert_array_equal(tree.births, [-1, -1, -4, np.inf])
+    assert_array_equal(sorted(tree.edges[tree.values.argmin()]), [1, 2])
+    assert_array_equal(tree.components(0), [0, 2, 2, -1])
+    late = ph.merge_tree(points, complex="alpha", weights=[1, 1, 4, -9], threshold=-2)
+    assert_array_equal(late.births, [np.inf, np.inf, -4, np.inf])
+
+
 @needs_cgal
 def test_weights_and_hidden_points(tmp_path):
     bars = ph.alpha([[0, 0, 0], [3, 0, 0], [0.5, 0, 0]], weights=[1, 4, -9])

@@ -102,6 +102,27 @@ def test_an_euler_curve_does_not_copy_the_image(layout, how):
     assert taken < (32 if layout == "image" else 160), f"{taken} MiB"
 
 
+MANY = [np.array([[0.0, 1.0 + k]]) for k in range(1500)]
+
+
+@pytest.mark.parametrize("compute", [
+    lambda limit: ph.diagram_distances(MANY, distance="bottleneck", memory_limit=limit),
+    lambda limit: ph.diagram_distances(MANY, MANY, distance="bottleneck", memory_limit=limit),
+    lambda limit: ph.diagram_kernels(MANY, memory_limit=limit),
+    lambda limit: ph.confidence_band(np.eye(2), repetitions=10**7, memory_limit=limit)])
+def test_what_grows_with_an_option_is_counted(compute):
+    with pytest.raises(ph.MemoryLimitError, match="memory limit of 10 MiB would be exceeded"):
+        compute("10MiB")
+
+
+def test_shuffles_take_no_memory():
+    distances = np.ones((4, 4)) - np.eye(4)
+    test = ph.permutation_test(distances, [0, 0, 1, 1], shuffles=10**5, memory_limit="64KiB")
+    assert test.p == 1
+    with pytest.raises(ph.Timeout):
+        ph.permutation_test(distances, [0, 0, 1, 1], shuffles=2**40, timeout=0.1)
+
+
 def resident():
     with open("/proc/self/status") as lines:
         return int(next(line for line in lines if line.startswith("RssAnon")).split()[1]) * 1024

@@ -21,6 +21,8 @@ MUTANTS = [
      "const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;",
      "const unsigned beyond = cells_.beyond[cell], first = 3 - lowest(beyond), k = code & 3;",
      ["alpha_tests"]),
+    ("alpha: vertices of trees are numbered along a curve", ALPHA + "alpha.cpp",
+     "return static_cast<std::size_t>(point[0]);", "return vertex.id;", ["alpha_tests"]),
     ("alpha: obtuse triangles keep their edge", ALPHA + "intervals/intervals_of_space.cpp",
      "if (beyond == 0) {\n      critical_[cell]", "if (beyond < 8) {\n      critical_[cell]",
      ["alpha_tests"]),

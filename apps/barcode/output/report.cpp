@@ -11,6 +11,7 @@
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/distances/distance_choice.hpp"
+#include "common/files/barcode_files.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "core/system/files.hpp"
 #include "ph/report.hpp"
@@ -142,9 +143,12 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   meta.provenance.run.program = app::program_and_version("ph-barcode");
   meta.provenance.run.input = fmt::format("{}, {}", first, second);
   std::vector<Barcode> barcodes;
+  app::SameOrigin origin(session);
   for (const std::string& path : arguments.compare) {
     const Input input = Input::open(files::path_of(path), &session.context());
-    barcodes.push_back(read_barcode(input));
+    StoredBarcode stored = read_stored_barcode(input);
+    origin.add(path, stored.info);
+    barcodes.push_back(std::move(stored.bars));
     meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
     meta.provenance.notes.emplace_back(
         fmt::format("SHA-256 of {}", barcodes.size() == 1 ? "the first" : "the second"),

@@ -8,7 +8,6 @@
 
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
-#include "ph/io/write.hpp"
 
 namespace ph::app {
 namespace {
@@ -16,7 +15,37 @@ namespace {
 constexpr std::array<std::string_view, 7> kBarcodes{".csv",   ".json",    ".ripser", ".pers",
                                                     ".dipha", ".diagram", ".npy"};
 
+/// What changes the bars of one input, but for the threshold, which differs from input to input.
+std::vector<std::pair<std::string_view, std::string>> ways_of(const BarcodeInfo& info) {
+  const auto flag = [](bool is_set) { return std::string(is_set ? "true" : "false"); };
+  return {{"complex", info.complex},
+          {"field", std::to_string(info.field)},
+          {"max_dim", std::to_string(info.max_dim)},
+          {"superlevel", flag(info.superlevel)},
+          {"squared", flag(info.alpha && info.alpha->squared)},
+          {"approximation", info.approximation ? shortest(*info.approximation) : "none"}};
+}
+
 }  // namespace
+
+void SameOrigin::add(const std::string& name, const BarcodeInfo& info) {
+  if (info.complex.empty() || is_told_) return;
+  const auto ways = ways_of(info);
+  if (first_name_.empty()) {
+    first_name_ = name;
+    first_ = ways;
+    return;
+  }
+  std::vector<std::string> differences;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    if (ways[i].second != first_[i].second)
+      differences.push_back(
+          fmt::format("{} {}, not {}", ways[i].first, ways[i].second, first_[i].second));
+  if (differences.empty()) return;
+  is_told_ = true;
+  session_.note(fmt::format("{} was not computed as {} was: {}", printable(name),
+                            printable(first_name_), fmt::join(differences, "; ")));
+}
 
 std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
                                        std::span<const std::string_view> others) {
@@ -46,9 +75,12 @@ Input open_input(const std::string& path, Session& session, Input::Excess excess
 StoredBarcodes::StoredBarcodes(const std::vector<std::string>& paths, Session& session)
     : claim_(session.context().memory, 0) {
   std::size_t bytes = 0;
+  SameOrigin origin(session);
   for (const std::string& path : paths) {
     const Input input = open_input(path, session);
-    barcodes_.push_back(read_barcode(input));
+    StoredBarcode stored = read_stored_barcode(input);
+    origin.add(path, stored.info);
+    barcodes_.push_back(std::move(stored.bars));
     session.explain(
         fmt::format("read {}: {}", input.name(), count_of(barcodes_.back().size(), "bar")));
     bytes += barcodes_.back().bytes();

@@ -3,11 +3,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/run/session.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/io/reader.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::app {
 
@@ -20,6 +22,20 @@ std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
 /// Opens an input; no progress is drawn while it is typed. @throws Error as Input::open.
 Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
+
+/// Whether barcodes that are compared were computed in the same way, as far as their files say it
+/// (JSON does): a note says what the first one that differs has, and the others have not.
+class SameOrigin {
+ public:
+  explicit SameOrigin(Session& session) : session_(session) {}
+  void add(const std::string& name, const BarcodeInfo& info);
+
+ private:
+  Session& session_;
+  std::string first_name_;                                       // empty: none has said anything
+  std::vector<std::pair<std::string_view, std::string>> first_;  // option, value
+  bool is_told_ = false;
+};
 
 /// Barcodes that were read: what they take is counted as long as this lives.
 class StoredBarcodes {

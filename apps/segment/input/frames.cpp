@@ -58,13 +58,26 @@ FrameSource::~FrameSource() = default;
 void FrameSource::take_names() {
   names_ = app::output_names(inputs_);
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (taken_.emplace(names_[i], 1).second) continue;
+    if (taken_.emplace(names_[i], 1).second) {
+      take_files(patterns_.filled(names_[i]));
+      continue;
+    }
     const auto other =
         static_cast<std::size_t>(std::ranges::find(names_, names_[i]) - names_.begin());
     throw Error(ErrorKind::usage, fmt::format("{} and {} would both be written to files named {}",
                                               printable(inputs_[other]), printable(inputs_[i]),
                                               printable(names_[i])));
   }
+}
+
+void FrameSource::take_files(const OutputPaths& files) {
+  const auto outputs = files.of_each_frame();
+  if (outputs.size() < 2) return;
+  for (const auto& [option, path] : outputs)
+    if (taken_files_.contains(path))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: {} would be written for two frames", option, printable(path)));
+  for (const auto& [option, path] : outputs) taken_files_.insert(path);
 }
 
 bool FrameSource::next_line(std::string& line) {
@@ -92,7 +105,10 @@ std::optional<Frame> FrameSource::next() {
   }
   std::string line;
   if (!next_line(line)) return std::nullopt;
-  return Frame{line, has_files_ ? patterns_.filled(name_of(line)) : OutputPaths{}};
+  if (!has_files_) return Frame{line, {}};
+  OutputPaths files = patterns_.filled(name_of(line));
+  take_files(files);
+  return Frame{line, std::move(files)};
 }
 
 /// The frames to come are not known: the name without extension, or one with a number behind it.

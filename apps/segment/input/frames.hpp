@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "segment/arguments/arguments.hpp"
@@ -35,6 +36,8 @@ class FrameSource {
 
  private:
   void take_names();
+  /// @throws Error (usage) if a file is one of a frame before it.
+  void take_files(const OutputPaths& files);
   std::string name_of(const std::string& input);
   /// That of the next frame of the list. @return whether there is one.
   bool next_line(std::string& line);
@@ -48,6 +51,9 @@ class FrameSource {
   // Names that are taken, each with the number behind the last one that was made of it. Without
   // files none is: a stream may go on for ever.
   std::unordered_map<std::string, std::size_t> taken_;
+  // Those of all frames, where each frame has several: a `*` in two of them may stand for different
+  // names, such as a-2 in `*.npy` and a in `*-2.npy`.
+  std::unordered_set<std::string> taken_files_;
 };
 
 }  // namespace ph::segment

@@ -121,6 +121,10 @@ class Alpha {
   static CellKind cell_kind() { return CellKind::vertices; }
   /// In a periodic space a point may come several times.
   void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
+  /// How many points the input has, those without a part in the complex included.
+  std::size_t vertex_count() const;
+  /// The point of the input that is a vertex.
+  std::size_t vertex_number(Cell vertex) const;
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const {
     listed().for_each_cell(dim, visit);

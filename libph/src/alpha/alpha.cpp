@@ -59,4 +59,14 @@ void Alpha::append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) c
   numbers.insert(numbers.end(), vertices.begin(), vertices.end());
 }
 
+std::size_t Alpha::vertex_count() const {
+  return cells_->sites.size() + cells_->sites.copies.size() + cells_->hidden.size();
+}
+
+std::size_t Alpha::vertex_number(Cell vertex) const {
+  std::vector<Index> point;
+  append_input_cell(0, vertex, point);
+  return static_cast<std::size_t>(point[0]);
+}
+
 }  // namespace ph

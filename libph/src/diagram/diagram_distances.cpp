@@ -18,8 +18,15 @@ struct Pair {
   std::size_t bars() const { return a.size() + b.size(); }
 };
 
-std::vector<double> distances_of(std::vector<Pair> pairs, const DiagramDistance& distance,
-                                 const RunContext& context) {
+/// @param count how many pairs. @param add_pairs does to a list of them.
+template <class AddPairs>
+std::vector<double> distances_of(std::size_t count, const DiagramDistance& distance,
+                                 const RunContext& context, AddPairs&& add_pairs) {
+  // Half of what is sorted once more: the room in which it is merged.
+  const MemoryClaim claim(context.memory, count * (3 * sizeof(Pair) / 2 + sizeof(double)));
+  std::vector<Pair> pairs;
+  pairs.reserve(count);
+  add_pairs(pairs);
   // The longest first: no thread is left with a long one in the end.
   std::ranges::stable_sort(pairs, std::ranges::greater(), &Pair::bars);
   std::vector<double> result(pairs.size());
@@ -40,19 +47,24 @@ std::vector<double> distances_of(std::vector<Pair> pairs, const DiagramDistance&
 
 DistanceMatrix diagram_distances(std::span<const Diagram> diagrams, const DiagramDistance& distance,
                                  const RunContext& context) {
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < diagrams.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) pairs.push_back({diagrams[i], diagrams[j], pairs.size()});
-  return {static_cast<Index>(diagrams.size()), distances_of(std::move(pairs), distance, context)};
+  const std::size_t n = diagrams.size();
+  return {static_cast<Index>(n),
+          distances_of(n * (n - std::min<std::size_t>(n, 1)) / 2, distance, context,
+                       [&](std::vector<Pair>& pairs) {
+                         for (std::size_t i = 0; i < n; ++i)
+                           for (std::size_t j = 0; j < i; ++j)
+                             pairs.push_back({diagrams[i], diagrams[j], pairs.size()});
+                       })};
 }
 
 std::vector<double> diagram_distances(std::span<const Diagram> diagrams,
                                       std::span<const Diagram> others,
                                       const DiagramDistance& distance, const RunContext& context) {
-  std::vector<Pair> pairs;
-  for (const Diagram& a : diagrams)
-    for (const Diagram& b : others) pairs.push_back({a, b, pairs.size()});
-  return distances_of(std::move(pairs), distance, context);
+  return distances_of(diagrams.size() * others.size(), distance, context,
+                      [&](std::vector<Pair>& pairs) {
+                        for (const Diagram& a : diagrams)
+                          for (const Diagram& b : others) pairs.push_back({a, b, pairs.size()});
+                      });
 }
 
 }  // namespace ph

@@ -95,6 +95,16 @@ void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids) {
       for (Index& v : loop.numbers) v = id_of(v, ids);
 }
 
+MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size) {
+  std::vector<double> births(size, kInfinity);
+  for (std::size_t v = 0; v < ids.size(); ++v)
+    births[static_cast<std::size_t>(ids[v])] = tree.births[v];
+  tree.births = std::move(births);
+  for (Merge& m : tree.merges)
+    for (Index* v : {&m.u, &m.v, &m.elder, &m.younger}) *v = ids[static_cast<std::size_t>(*v)];
+  return tree;
+}
+
 Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
                double min_persistence) {
   // A cycle has no cell after its birth; a cocycle has all kinds.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <vector>
 
 #include "ph/detail/core/loop.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {
@@ -13,6 +15,9 @@ namespace ph {
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
 /// The same for loops of vertices. @throws Error (usage) on a vertex without an id.
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
+
+/// A tree whose vertex v is ids[v] of `size` vertices of the input. The others never enter.
+MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
 /// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
 /// dies later is alive. Cocycles are restricted to the subcomplex.

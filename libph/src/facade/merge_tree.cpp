@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "facade/adjust.hpp"
 #include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
@@ -22,16 +23,6 @@
 
 namespace ph {
 namespace {
-
-// `number` by vertex of the graph: its place among the `size` vertices of the input.
-void renumber(MergeTree& tree, std::span<const Index> number, std::size_t size) {
-  std::vector<double> births(size, kInfinity);
-  for (std::size_t v = 0; v < number.size(); ++v)
-    births[static_cast<std::size_t>(number[v])] = tree.births[v];
-  tree.births = std::move(births);
-  for (Merge& m : tree.merges)
-    for (Index* v : {&m.u, &m.v, &m.elder, &m.younger}) *v = number[static_cast<std::size_t>(*v)];
-}
 
 template <GraphFiltration F>
 MergeTree tree_of(const F& f, const RunContext& context) {
@@ -53,7 +44,7 @@ MergeTree tree_of(const F& f, const RunContext& context) {
     std::vector<Index> number;
     number.reserve(graph.vertices.size());
     for (const auto& v : graph.vertices) number.push_back(static_cast<Index>(f.vertex_number(v)));
-    renumber(tree, number, f.vertex_count());
+    return with_input_ids(std::move(tree), number, f.vertex_count());
   }
   return tree;
 }

@@ -28,6 +28,24 @@ std::string superscript(int number) {
   return text;
 }
 
+/// 1, 2 or 5 times a power of ten, about as large.
+double round_step(double rough) {
+  const double power = std::pow(10.0, magnitude(rough));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough * 0.99) step = factor * power;
+  return step;
+}
+
+/// Of a text in UTF-8.
+double characters_of(std::string_view text) {
+  return static_cast<double>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Whether numbers of this magnitude are written without a power of ten.
+bool has_plain_labels(int power) { return power >= -3 && power <= 4; }
+
 }  // namespace
 
 Axis::Axis(const Range& range, const PlotOptions& options, double from, double to)
@@ -55,7 +73,7 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   const double largest = std::max(std::abs(low), std::abs(high));
   if (largest > 0) {
     const int power = magnitude(largest);
-    shows_unit_ = power < -3 || power > 4;
+    shows_unit_ = !has_plain_labels(power);
     if (shows_unit_) exponent_ = power;
   }
   low_ = in_units(low, exponent_);
@@ -93,7 +111,7 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
     if (place < low_ - slack || place > high_ + slack) return;
     const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
     const std::string label =
-        power >= -3 && power <= 4
+        has_plain_labels(power)
             ? label_of(factor * std::pow(10.0, power), std::max(0, -power))
             : fmt::format("{}10{}", factor == 1 ? "" : fmt::format("{}·", factor),
                           superscript(power));
@@ -108,14 +126,32 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   return ticks;
 }
 
+/// At round values: less than a decade has no two powers of ten.
+std::vector<Axis::Tick> Axis::round_values(int count) const {
+  const double least = std::pow(10.0, negated_ ? -high_ : low_),
+               most = std::pow(10.0, negated_ ? -low_ : high_);
+  const double step = round_step((most - least) / count);
+  const int power = magnitude(most), digits = magnitude(step * 1.0001);
+  std::vector<Tick> ticks;
+  for (double i = std::ceil(least / step); i * step <= most && std::ssize(ticks) < 4 * count; ++i) {
+    const double value = i * step, place = (negated_ ? -1 : 1) * std::log10(value);
+    const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
+    const std::string label =
+        has_plain_labels(power)
+            ? label_of(value, std::max(0, -digits))
+            : fmt::format("{}·10{}", label_of(value / std::pow(10.0, power), power - digits),
+                          superscript(power));
+    ticks.push_back({from_ + part * (to_ - from_), label});
+  }
+  return ticks;
+}
+
 std::vector<Axis::Tick> Axis::ticks(int count) const {
-  if (logarithmic_)
-    if (std::vector<Tick> powers = powers_of_ten(count); powers.size() > 1) return powers;
-  const double rough = (high_ - low_) / count;
-  const double power = std::pow(10.0, magnitude(rough));
-  double step = 10 * power;
-  for (const double factor : {5.0, 2.0, 1.0})
-    if (factor * power >= rough * 0.99) step = factor * power;
+  if (logarithmic_) {
+    std::vector<Tick> powers = powers_of_ten(count);
+    return powers.size() > 1 ? powers : round_values(count);
+  }
+  const double step = round_step((high_ - low_) / count);
   const int decimals = std::max(0, -magnitude(step * 1.0001));
   std::vector<Tick> ticks;
   const double slack = 1e-6;
@@ -124,11 +160,7 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
   for (int i = 0; first + i <= last && i < 4 * count; ++i) {
     const double value = (first + i) * step;
     const double part = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
-    // Less than a decade has no round powers: round logarithms have to do.
-    ticks.push_back({from_ + part * (to_ - from_),
-                     logarithmic_
-                         ? label_of(std::pow(10.0, negated_ ? -value : value), decimals + 1)
-                         : label_of(value, decimals)});
+    ticks.push_back({from_ + part * (to_ - from_), label_of(value, decimals)});
   }
   return ticks;
 }
@@ -140,7 +172,7 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   // Long labels need room: at 7 points a digit is about 4 wide.
   for (int count = 5; count >= 2; --count) {
     double needed = 0;
-    for (const Tick& tick : shown) needed += 4.0 * static_cast<double>(tick.label.size()) + 8;
+    for (const Tick& tick : shown) needed += 4.0 * characters_of(tick.label) + 8;
     if (needed <= std::abs(to_ - from_) + 8) break;
     shown = ticks(count);
   }

@@ -182,6 +182,7 @@ class Axis {
 
  private:
   std::vector<Tick> powers_of_ten(int count) const;
+  std::vector<Tick> round_values(int count) const;
   std::string label_of(double value, int decimals) const;
   /// A value in the units of low_ and high_. Of negated data the logarithm is that of their own.
   double in_scale(double value) const;

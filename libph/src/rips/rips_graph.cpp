@@ -38,6 +38,7 @@ void RipsGraph::name_vertices(std::span<const std::uint32_t> points, const RunCo
   for (std::uint32_t v = 0; v < names.size(); ++v)
     names[v] = points[static_cast<std::size_t>(name(v))];
   names_ = std::move(names);
+  has_names_ = true;
 }
 
 RipsGraph RipsGraph::of_points_within(PointsView points, double threshold,
@@ -100,6 +101,7 @@ RipsGraph RipsGraph::with_edges(const RipsGraph& graph, FlagEdges&& edges,
   RipsGraph result(graph.size_, graph.threshold_, BinnedEdges(std::move(edges)), context,
                    graph.births_);
   result.names_ = graph.names_;
+  result.has_names_ = graph.has_names_;
   return result;
 }
 

@@ -109,7 +109,7 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
           distances[k] = farthest;
         }
       });
-  return 2 * significance::upper_quantile(std::move(distances), options.alpha);
+  return 2 * significance::upper_quantile(distances, options.alpha);
 }
 
 }  // namespace ph

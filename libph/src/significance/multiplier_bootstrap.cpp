@@ -13,6 +13,8 @@
 namespace ph {
 namespace {
 
+constexpr double kLargest = 1e300;  // sums are finite
+
 void check(std::span<const double> functions, std::size_t samples, const BandOptions& options) {
   significance::check_alpha(options.alpha, "multiplier_bootstrap");
   if (options.repetitions == 0)
@@ -28,9 +30,11 @@ void check(std::span<const double> functions, std::size_t samples, const BandOpt
                             "length for {} samples",
                             functions.size(), samples));
   for (const double number : functions)
-    if (!std::isfinite(number))
+    if (!(std::abs(number) <= kLargest))
       throw Error(ErrorKind::bad_data,
-                  fmt::format("multiplier_bootstrap: found {}, expected finite numbers", number));
+                  fmt::format("multiplier_bootstrap: found {}, expected numbers of at most {} in "
+                              "absolute value",
+                              number, kLargest));
 }
 
 }  // namespace
@@ -48,7 +52,7 @@ ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size
   std::pmr::vector<double> residuals(functions.begin(), functions.end(), &context.memory);
   for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] -= band.mean[i % length];
   // Of each repetition the largest deviation of its mean.
-  std::vector<double> deviations(options.repetitions);
+  std::pmr::vector<double> deviations(options.repetitions, &context.memory);
   for_each_piece("bootstrap", options.repetitions, 1, context,
                  [&](std::size_t begin, std::size_t end) {
                    std::pmr::vector<double> sums(length, &context.memory);
@@ -66,7 +70,7 @@ ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size
                      deviations[k] = largest / count;
                    }
                  });
-  band.half_width = significance::upper_quantile(std::move(deviations), options.alpha);
+  band.half_width = significance::upper_quantile(deviations, options.alpha);
   return band;
 }
 

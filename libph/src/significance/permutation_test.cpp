@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -116,19 +117,20 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
       unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
   // Sums in another order differ by rounding: groups that are the same in other words are a tie.
   const double as_low = loss * (1 + 1e-12);
-  std::vector<std::uint8_t> is_as_low(options.shuffles);
+  std::atomic<std::size_t> as_low_count = 0;
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {
     std::vector<double> own_sums;
+    std::size_t own_count = 0;
     for (std::size_t k = begin; k < end; ++k) {
       if (context.stop.stop_requested()) return;
       Random random(options.seed, k);
       std::vector<std::uint32_t> shuffled = observed.of;
       draw(shuffled, shuffled.size(), random);
-      is_as_low[k] = loss_of(powers, shuffled, observed.sizes, own_sums) <= as_low;
+      own_count += loss_of(powers, shuffled, observed.sizes, own_sums) <= as_low;
     }
+    as_low_count += own_count;
   });
-  const auto as_low_count = static_cast<double>(std::ranges::count(is_as_low, 1));
-  result.p = (as_low_count + 1) / static_cast<double>(options.shuffles + 1);
+  result.p = (static_cast<double>(as_low_count) + 1) / (static_cast<double>(options.shuffles) + 1);
   return result;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "ph/error.hpp"
 
@@ -19,8 +19,8 @@ inline void check_alpha(double alpha, std::string_view function) {
         fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
 }
 
-/// The least of the numbers that at most the part alpha of them exceeds.
-inline double upper_quantile(std::vector<double> numbers, double alpha) {
+/// The least of the numbers, which it sorts, that at most the part alpha of them exceeds.
+inline double upper_quantile(std::span<double> numbers, double alpha) {
   std::ranges::sort(numbers);
   const auto may_exceed =
       static_cast<std::size_t>(std::floor(alpha * static_cast<double>(numbers.size())));

@@ -25,7 +25,11 @@ void check(const Bar& bar) {
 }
 
 /// log log (death / birth), the inner logarithm as of 1 + x where it is small.
-double loglog(const Bar& bar) { return std::log(std::log1p((bar.death - bar.birth) / bar.birth)); }
+double loglog(const Bar& bar) {
+  const double growth = (bar.death - bar.birth) / bar.birth;
+  return std::log(std::isinf(growth) ? std::log(bar.death) - std::log(bar.birth)
+                                     : std::log1p(growth));
+}
 
 }  // namespace
 

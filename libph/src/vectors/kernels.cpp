@@ -75,11 +75,14 @@ double weighted_gaussian_kernel(std::span<const Bar> a, std::span<const Bar> b,
 
 std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
                                 const DiagramKernel& kernel, const RunContext& context) {
-  const std::size_t count = diagrams.size();
-  std::vector<double> matrix(count * count);
   struct Pair {
     std::uint32_t row, column;
   };
+  const std::size_t count = diagrams.size();
+  // Half of what is sorted once more: the room in which it is merged.
+  const MemoryClaim claim(context.memory, count * count * sizeof(double) +
+                                              3 * (count * (count + 1) / 2) * sizeof(Pair) / 2);
+  std::vector<double> matrix(count * count);
   std::vector<Pair> pairs;
   pairs.reserve(count * (count + 1) / 2);
   for (std::uint32_t i = 0; i < count; ++i)

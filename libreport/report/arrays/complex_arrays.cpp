@@ -19,12 +19,17 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
+/// The number in the input of a point. @param ids of the points that are left; empty: all are.
+std::uint32_t number_of(Index point, std::span<const Index> ids) {
+  return static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]);
+}
+
 /// The first cells of a dimension of a complex that lists them.
 /// @return the value from which on some are missing.
 template <class Listed>
 std::optional<double> add_first(const Listed& complex, int dim, std::size_t most,
-                                const RunContext& context, std::vector<std::uint32_t>& numbers,
-                                std::vector<float>& values) {
+                                std::span<const Index> ids, const RunContext& context,
+                                std::vector<std::uint32_t>& numbers, std::vector<float>& values) {
   std::size_t count = 0;
   complex.for_each_cell(dim, [&](ExplicitComplex::Cell) { ++count; });
   const MemoryClaim claim(context.memory, count * sizeof(ValuedCell));
@@ -48,14 +53,15 @@ std::optional<double> add_first(const Listed& complex, int dim, std::size_t most
   for (const ValuedCell& cell : cells) {
     vertices.clear();
     complex.append_input_cell(dim, {cell.id}, vertices);
-    for (const Index v : vertices) numbers.push_back(static_cast<std::uint32_t>(v));
+    for (const Index v : vertices) numbers.push_back(number_of(v, ids));
     values.push_back(static_cast<float>(cell.value));
   }
   return missing_from;
 }
 
 template <class Listed>
-ComplexArrays arrays_of(const Listed& complex, std::size_t count, const RunContext& context) {
+ComplexArrays arrays_of(const Listed& complex, std::size_t count, std::span<const Index> ids,
+                        const RunContext& context) {
   ComplexArrays arrays;
   arrays.births.assign(count, std::numeric_limits<float>::quiet_NaN());
   std::vector<Index> vertex;
@@ -65,9 +71,9 @@ ComplexArrays arrays_of(const Listed& complex, std::size_t count, const RunConte
     arrays.births[static_cast<std::size_t>(vertex[0])] = static_cast<float>(complex.value(cell));
   });
   arrays.missing_from =
-      add_first(complex, 1, kMostEdges, context, arrays.edges, arrays.edge_values);
+      add_first(complex, 1, kMostEdges, ids, context, arrays.edges, arrays.edge_values);
   arrays.triangles_missing_from =
-      add_first(complex, 2, kMostTriangles, context, arrays.triangles, arrays.triangle_values);
+      add_first(complex, 2, kMostTriangles, ids, context, arrays.triangles, arrays.triangle_values);
   return arrays;
 }
 
@@ -79,10 +85,7 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, std::span<con
       arrays.births[static_cast<std::size_t>(graph.name(v))] = static_cast<float>(graph.birth(v));
   }
   if (graph.is_forest() || graph.points_alone()) return arrays;
-  const auto number = [&](std::uint32_t v) {
-    const auto point = static_cast<std::size_t>(graph.name(v));
-    return static_cast<std::uint32_t>(ids.empty() ? static_cast<Index>(point) : ids[point]);
-  };
+  const auto number = [&](std::uint32_t v) { return number_of(graph.name(v), ids); };
   const std::size_t shown = std::min(graph.edge_count(), kMostEdges);
   for (std::size_t i = 0; i < shown; ++i) {
     const FlagEdge& edge = graph.edge(static_cast<RipsGraph::Key>(i + 1));
@@ -101,11 +104,11 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
   const MemoryClaim claim(context.memory, count * sizeof(float) + 16 * kMostEdges);
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
-    return arrays_of(*listed, count, context);
+    return arrays_of(*listed, count, ids, context);
   // Edges that go round a periodic space would be drawn across it.
   if (const auto* alpha = std::get_if<Alpha>(&complex); alpha && !alpha->is_periodic()) {
     alpha->prepare(context);
-    return arrays_of(*alpha, count, context);
+    return arrays_of(*alpha, count, ids, context);
   }
   return {};
 }

@@ -66,8 +66,12 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
   std::vector<double> levels;
   for (const Merge& m : tree.merges)
     if (level(m, rule) > 0 || rule == CutRule::value) levels.push_back(level(m, rule));
+  if (rule == CutRule::persistence &&
+      std::ranges::none_of(levels, [](double x) { return std::isfinite(x); }))
+    levels.clear();
   if (levels.empty()) {
-    // No merge has persistence, and any cut above 0 does them all: one as large as the values go.
+    // No merge has finite persistence, and any cut above 0 does them all: one as large as the
+    // values go.
     if (rule == CutRule::value || tree.merges.empty()) return 0;
     double low = kInfinity, high = -kInfinity;
     for (const double birth : tree.births)

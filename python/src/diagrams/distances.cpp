@@ -125,7 +125,10 @@ Block distances(const std::vector<py::buffer>& diagrams,
                        [&](const RunContext& context) {
                          const DistanceMatrix all =
                              diagram_distances(rows.spans(), metric.function(), context);
+                         const auto count = static_cast<std::size_t>(size * size);
+                         const MemoryClaim claim(context.memory, 2 * count * sizeof(double));
                          std::vector<double> square;
+                         square.reserve(count);
                          for (Index i = 0; i < all.size(); ++i)
                            for (Index j = 0; j < all.size(); ++j) square.push_back(all(i, j));
                          return square;

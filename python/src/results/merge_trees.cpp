@@ -7,20 +7,24 @@
 
 #include "bindings.hpp"
 #include "data/arrays.hpp"
+#include "facade/adjust.hpp"
 #include "recipes.hpp"
 #include "run.hpp"
 
 namespace ph::python {
 namespace {
 
-MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options) {
+/// @param size points of the input, of which some may have been left out; 0 of an image.
+MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::size_t size) {
   Options components;
   components.max_dim = 0;
   components.min_persistence = -1;  // equal points stay apart
   return run(options, recipe.is_short(components), [&](const RunContext& context) {
     const Built built = recipe.build(components, context);
-    return std::visit([&](const auto& complex) { return merge_tree(complex, context); },
-                      built.complex);
+    MergeTree tree = std::visit([&](const auto& complex) { return merge_tree(complex, context); },
+                                built.complex);
+    return tree.births.size() >= size ? tree
+                                      : with_input_ids(std::move(tree), recipe.vertex_ids(), size);
   });
 }
 
@@ -75,7 +79,7 @@ void bind_merge_trees(py::module_& m) {
             return Block::of(t.basins(min_persistence, min_size));
           },
           py::arg("min_persistence"), py::arg("min_size"));
-  m.def("merge_tree", &merge_tree_of, py::arg("recipe"), py::arg("run"));
+  m.def("merge_tree", &merge_tree_of, py::arg("recipe"), py::arg("run"), py::arg("size"));
 }
 
 }  // namespace ph::python

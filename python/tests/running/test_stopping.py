@@ -129,6 +129,13 @@ def test_stop():
     assert time.monotonic() - start < 0.3 + SOON
 
 
+def test_what_is_stopped_before_it_begins_is_not_done():
+    stop = threading.Event()
+    stop.set()
+    with pytest.raises(ph.Cancelled):
+        ph.rips([[0.0], [1.0]], stop=stop)
+
+
 def test_ctrl_c_reaches_the_main_thread_only():
     """Others end by a stop of their own."""
     stop, outcome = threading.Event(), []

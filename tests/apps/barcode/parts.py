@@ -270,6 +270,13 @@ class Clouds(ProgramTest):
         os.utime(self.path(cloud), (old, old))
         self.assertIn("there already", self.expect(0, *again).stderr)
         self.assertIn("another part", self.expect(0, *again, "--threshold", "3").stderr)
+        self.expect(0, *again[:-1], "--quiet")
+        kept = self.read(cloud)
+        self.write(cloud, self.read(other))  # as many points, and older than the part
+        os.utime(self.path(cloud), (old, old))
+        self.assertIn("another part", self.expect(0, *again).stderr)
+        self.write(cloud, kept)
+        os.utime(self.path(cloud), (old, old))
         self.write(p[0], b"ph part\n")
         self.assertIn("computed again", self.expect(0, *again).stderr)
 

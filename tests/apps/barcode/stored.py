@@ -194,6 +194,17 @@ class Stored(ProgramTest):
                           ("--max-dim", "1")):
             self.assertIn(arguments[0], self.expect(64, *pair, *arguments).stderr)
 
+    def test_compare_says_what_was_computed_in_another_way(self):
+        self.write("p.txt", "0 0\n1 0\n0 1\n")
+        self.expect(0, "p.txt", "-o", "a.json", "--quiet")
+        self.expect(0, "p.txt", "--threshold", "9", "-o", "same.json", "--quiet")
+        self.expect(0, "p.txt", "--max-dim", "2", "--field", "3", "-o", "b.json", "--quiet")
+        self.write("c.csv", "dim,birth,death\n0,0,1\n")
+        self.assertIn("b.json was not computed as a.json was: field 3, not 2; max_dim 2, not 1",
+                      self.expect(0, "--compare", "a.json", "b.json").stderr)
+        for other in ("same.json", "c.csv"):
+            self.assertNotIn("was not computed", self.expect(0, "--compare", "a.json", other).stderr)
+
     def test_the_report_of_a_comparison_is_a_file(self):
         self.require_page()
         self.write("a.csv", "dim,birth,death\n0,0,1\n")

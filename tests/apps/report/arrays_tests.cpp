@@ -164,6 +164,10 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
     }
   EXPECT_EQ(least_cut(tree, CutRule::persistence, 100), 6);
   EXPECT_EQ(least_cut({}, CutRule::value, 1), 0);
+  // A page has no infinite cut.
+  const MergeTree infinite = path_tree({-kInfinity, 3, -kInfinity, 5, 1});
+  EXPECT_EQ(least_cut(infinite, CutRule::persistence, 100), 4);
+  EXPECT_EQ(least_cut(path_tree({-kInfinity, 3, -kInfinity}), CutRule::persistence, 100), 1);
 }
 
 TEST(TouchingLeaves, AreBesideEachOtherInThePicture) {

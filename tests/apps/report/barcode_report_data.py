@@ -239,6 +239,40 @@ class Data(ReportTest):
         for options in (("--nan", "drop"), ("--metric", "manhattan", "--max-dim", "0")):
             self.assertNotIn("complex/edges", self.report("flat.txt", *options))
 
+    def test_alpha_complexes_name_points_as_in_the_input(self):
+        rng = random.Random(14)
+        points = [[rng.randrange(40) / 4, rng.random()] for _ in range(40)]
+        points[3] = [math.nan, 0.0]
+        points[20] = points[21]  # a copy
+        self.write("p.txt", "".join(" ".join(map(str, p)) + "\n" for p in points))
+        self.write("w.txt", "".join("0.01\n" if i != 5 else "-9\n" for i in range(40)))
+        for options in ((), ("--alpha-values", "squared", "--weights", "w.txt")):
+            report = self.report("p.txt", "--complex", "alpha", "--nan", "drop", *options)
+            rows = [i for i in range(40) if i != 3]
+            self.assertEqual(report["points/index"], rows)
+            hidden = {5, 21} if options else set()
+            named = {v for ends in report.arrays["complex/edges"].rows() for v in ends}
+            self.assertEqual(named, set(rows) - hidden)
+            # A tree of the page joins points at the radius at which chains of balls do.
+            leaf = report["points/leaf"] if "points/leaf" in report else list(range(len(rows)))
+            merges = list(zip(report["tree/merge_level"], report["tree/merge_younger"],
+                              report["tree/merge_elder"]))
+            for radius in () if options else (0, 0.1, 0.15, 0.3):
+                of_leaf = list(range(len(leaf)))
+                of_row = list(range(len(rows)))
+                def joined(of, a, b):
+                    return [of[a] if c == of[b] else c for c in of]
+                for level, younger, elder in merges:
+                    if level <= radius:
+                        of_leaf = joined(of_leaf, younger, elder)
+                for i, a in enumerate(rows):
+                    for j, b in enumerate(rows[:i]):
+                        if math.dist(points[a], points[b]) <= 2 * radius:
+                            of_row = joined(of_row, i, j)
+                for i in range(len(rows)):
+                    self.assertEqual([of_leaf[leaf[j]] == of_leaf[leaf[i]] for j in range(len(rows))],
+                                     [of_row[j] == of_row[i] for j in range(len(rows))])
+
     def test_samples_and_weights_show_their_own_edges(self):
         self.write("p.txt", "0 0\n1 0\n0 1\n9 9\n")
         report = self.report("p.txt", "--subsample", "2")

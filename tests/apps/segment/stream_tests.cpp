@@ -71,6 +71,19 @@ TEST_F(Stream, InputsListsAndPatterns) {
   EXPECT_TRUE(fs::exists(at("out/3.npy")));
 }
 
+TEST_F(Stream, NoFileIsThatOfTwoFrames) {
+  fs::copy(at("in/1.pcd"), at("in/0-b.pcd"));
+  EXPECT_EQ(run("in/0.pcd in/0-b.pcd --labels 'out/*.npy' --json all.json "
+                "--surfaces 'out/*-b.npy'"),
+            64);
+  EXPECT_NE(err().find("--labels: out/0-b.npy would be written for two frames"), std::string::npos)
+      << err();
+  EXPECT_FALSE(fs::exists(at("out/0.npy")));
+  std::ofstream(at("list.txt")) << "in/0.pcd\nin/0-b.pcd\n";
+  EXPECT_EQ(run("--frames-from list.txt --labels 'out/*.npy' --surfaces 'out/*-b.npy'"), 64);
+  EXPECT_EQ(run("in/0.pcd in/0-b.pcd --labels 'out/*.npy' --surfaces 'out/*-c.npy'"), 0) << err();
+}
+
 TEST_F(Stream, AFailureDoesNotStopTheOthers) {
   const std::string whole = contents(at("in/1.pcd"));
   std::ofstream(at("in/1.pcd"), std::ios::binary) << whole.substr(0, whole.size() / 2);

@@ -201,7 +201,7 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   refused(random.image({7}, false), 0, 1, "expected two or more");
   refused(random.image({2, 2, 2, 2, 2, 2, 2, 2, 2}, false), 0, 1, "found 9 axes");
   refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");
-  refused(random.image({2, 2, 2, 2}, false), 0, 1, "from 1 to 2 wanted");
+  refused(random.image({2, 2, 2, 2}, false), 0, 1, "from 1 to 2 need all layers at once");
 }
 
 TEST(ImagePart, RefusesDamagedBytes) {

@@ -108,8 +108,12 @@ TEST(ManyAxesPart, SaysWhatCanBeHad) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
     }
   };
-  refused({2, 2, 2, 2}, {}, "parts of an image of 4 axes: found dimensions from 1 to 2 wanted");
-  refused({2, 2, 2, 2}, {.max_dim = 1}, "expected dimension 0 alone, or 3 alone");
+  refused({2, 2, 2, 2}, {},
+          "parts of an image of 4 axes: dimensions from 1 to 2 need all layers at once, found "
+          "dimensions "
+          "0 to 3 wanted");
+  refused({2, 2, 2, 2}, {.max_dim = 1},
+          "found dimensions 0 to 1 wanted, expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2}, {.min_dim = 2, .loops = true}, "expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2, 2}, {.min_dim = 3}, "dimension 0 alone, or 4 alone");
   refused({2, 2, 2, 2}, {.cubical = {.periodic = {false, true, false, false}}, .min_dim = 3},

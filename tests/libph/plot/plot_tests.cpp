@@ -141,6 +141,26 @@ TEST(Plot, TheAxisOfNegatedValuesIsOfTheDataSOwn) {
   EXPECT_THROW(svg_plot(barcode, options), Error);
 }
 
+TEST(Plot, ALogarithmicAxisOfLessThanADecadeHasRoundValues) {
+  PlotOptions options;
+  options.axis.logarithmic = true;
+  for (const bool negated : {false, true}) {
+    options.negated = negated;
+    const auto svg_of = [&](double birth, double death) {
+      return svg_plot(test::barcode_of({negated ? Bar{0, -death, -birth} : Bar{0, birth, death}}),
+                      options);
+    };
+    for (const char* tick : {"0.0025", "0.0030", "0.0035", "0.0040"})
+      EXPECT_TRUE(has_text(svg_of(0.0021, 0.0042), tick)) << tick;
+    for (const char* tick : {"0.007", "0.008", "0.009"})
+      EXPECT_TRUE(has_text(svg_of(0.0061, 0.0094), tick)) << tick;
+    for (const char* tick : {"3.2·10⁻¹⁰", "3.8·10⁻¹⁰"})
+      EXPECT_TRUE(has_text(svg_of(3.1e-10, 3.9e-10), tick)) << tick;
+    for (const char* tick : {"3.2·10¹⁰", "3.8·10¹⁰"})
+      EXPECT_TRUE(has_text(svg_of(3.1e10, 3.9e10), tick)) << tick;
+  }
+}
+
 TEST(Plot, ALogarithmicAxisOfNegatedValuesFalls) {
   PlotOptions options;
   options.negated = true;

@@ -127,6 +127,11 @@ TEST(UniversalPValues, OfBarsWithoutARatio) {
   const std::vector<Bar> alone{bars[0], bars[3]};
   EXPECT_EQ(found.p[3], universal_p_values(alone, DistanceFiltration::rips).p[1]);
   EXPECT_TRUE(universal_p_values({}, DistanceFiltration::rips).p.empty());
+  // A ratio of 10^310 is no double; its logarithm is.
+  const std::vector<Bar> vast{{1, 1e-300, 1e10}, {1, 1, 2}};
+  const double outer[] = {std::log(310 * std::log(10.0)), std::log(std::log(2.0))};
+  const double p = std::exp(-std::exp(outer[0] - (outer[0] + outer[1]) / 2 - std::numbers::egamma));
+  EXPECT_NEAR(universal_p_values(vast, DistanceFiltration::rips).p[0], p, 1e-12);
   expect_error(ErrorKind::bad_data, "born at 0", [] {
     universal_p_values(std::vector<Bar>{{1, 0, 2}}, DistanceFiltration::rips);
   });

@@ -120,7 +120,7 @@ std::optional<double> CloudPart::threshold() const {
 bool CloudPart::is_of(PointsView points, int part, int parts,
                       const CloudPartOptions& options) const {
   WholeCloud whole = whole_cloud(points, parts, options);
-  whole.fingerprint = state_->whole.fingerprint;
+  whole.fingerprint = CloudBlocks::fingerprint_of(points);
   return state_->whole == whole && state_->present == std::vector{part};
 }
 

@@ -116,10 +116,11 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const int top = shape.top_dim();
   if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of {}: found {} wanted, which need all layers at once; expected "
-                            "dimension 0 alone{}",
+                fmt::format("parts of {}: {} need all layers at once, found dimensions {} to {} "
+                            "wanted, expected dimension 0 alone{}",
                             top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
                             top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
+                            whole.min_dim, std::min(whole.max_dim, top - 1),
                             shape.any_periodic()
                                 ? " where an axis closes up"
                                 : fmt::format(", or {} alone", lowest_of_top_cells(shape))));

@@ -131,19 +131,19 @@ std::uint32_t JsonCursor::hex4() {
 }
 
 std::uint32_t JsonCursor::escaped_code() {
-  const std::size_t place = at_ - 2;
+  constexpr std::uint32_t replacement = 0xFFFD;
   const auto is_half = [](std::uint32_t code, std::uint32_t first) {
     return code >= first && code < first + 0x400;
   };
   const std::uint32_t code = hex4();
   if (is_half(code, 0xD800) && text_.substr(at_, 2) == "\\u") {
+    const std::size_t behind = at_;
     at_ += 2;
     const std::uint32_t second = hex4();
     if (is_half(second, 0xDC00)) return 0x10000 + ((code & 0x3FF) << 10) + (second & 0x3FF);
+    at_ = behind;
   }
-  if (is_half(code, 0xD800) || is_half(code, 0xDC00))
-    fail(place, {"JSON string", "half of a surrogate pair", "both halves", {}});
-  return code;
+  return is_half(code, 0xD800) || is_half(code, 0xDC00) ? replacement : code;
 }
 
 std::string JsonCursor::string() {

@@ -45,7 +45,7 @@ class JsonCursor {
   std::string found();
   std::string_view number_word();
   std::uint32_t hex4();
-  std::uint32_t escaped_code();  // of a \u that was taken
+  std::uint32_t escaped_code();  // of a \u that was taken; half of a pair is U+FFFD
 
   std::string_view text_;
   const Input& input_;

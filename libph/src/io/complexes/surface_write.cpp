@@ -73,7 +73,15 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
   if (points.cols() > 3)
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found points of R^{}, expected R^2 or R^3", points.cols()));
+  if (mesh.regular > mesh.triangles.size())
+    throw Error(ErrorKind::usage,
+                fmt::format("surface: found {} regular triangles of {}, expected at most all",
+                            mesh.regular, mesh.triangles.size()));
   const std::vector<Index> used = points_of(mesh);
+  if (!used.empty() && (used.front() < 0 || used.back() >= points.rows()))
+    throw Error(ErrorKind::usage,
+                fmt::format("surface: found a corner at point {}, expected 0 to {}",
+                            used.front() < 0 ? used.front() : used.back(), points.rows() - 1));
   const auto place_of = [&](Index point) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(used, point) - used.begin());
   };

@@ -63,6 +63,16 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
   regions_.emplace(tree_, box_, context);
 }
 
+std::uint64_t CloudBlocks::fingerprint_of(PointsView points) {
+  std::uint64_t fingerprint = 0;
+  Rows rows(points);
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double* const x = rows(i);
+    for (Index k = 0; k < points.cols(); ++k) fingerprint = mixed(fingerprint, x[k]);
+  }
+  return fingerprint;
+}
+
 // What all of the cloud says about a distance, and of the own blocks which points there are.
 void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
   const Index axes = points_.cols();

@@ -26,6 +26,8 @@ class CloudBlocks {
 
   /// Of all coordinates of the cloud.
   std::uint64_t fingerprint() const { return fingerprint_; }
+  /// The same without blocks. O(coordinates).
+  static std::uint64_t fingerprint_of(PointsView points);
   /// How many points the blocks have.
   Index size() const { return size_; }
   /// All edges of the minimum spanning forest of the cloud that have an end in the block, and that

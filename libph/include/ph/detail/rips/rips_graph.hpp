@@ -84,7 +84,8 @@ class RipsGraph {
   Index size() const { return size_; }
   /// The point that vertex v stands for: v itself unless the vertices were named.
   Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
-  bool has_names() const { return !names_.empty(); }
+  /// Of no vertices, too: then all points of the input are left out.
+  bool has_names() const { return has_names_; }
   /// The points that the vertices, or those that they were named after, stand for.
   /// @param points ascending.
   void name_vertices(std::span<const std::uint32_t> points, const RunContext& context);
@@ -156,6 +157,7 @@ class RipsGraph {
   Index size_ = 0;
   double threshold_ = 0;
   bool is_forest_ = false;
+  bool has_names_ = false;
   std::unique_ptr<const PointsAlone> points_;  // null: the edges are held
   BinnedEdges edges_;                          // by key - 1
   std::pmr::vector<std::uint32_t> names_;      // by vertex; empty: its number

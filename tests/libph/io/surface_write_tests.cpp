@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Surfaces that a user fills in are looked at before they are written.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ph/io/write.hpp"
+#include "support/expect_error.hpp"
+
+namespace ph::test {
+namespace {
+
+TEST(WriteSurface, RefusesWhatIsNone) {
+  const std::vector<double> numbers{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const PointsView points(numbers.data(), 3, 3);
+  const auto path = std::filesystem::path(::testing::TempDir()) / "surface.ply";
+  std::filesystem::remove(path);
+  const auto refused = [&](const SurfaceMesh& mesh, const char* why) {
+    for (const SurfaceFormat format : {SurfaceFormat::ply, SurfaceFormat::off})
+      expect_error(ErrorKind::usage, why, [&] {
+        OutputFile file(path.string());
+        write_surface(file, points, mesh, format);
+      });
+    EXPECT_FALSE(std::filesystem::exists(path)) << why;
+  };
+  refused({{{0, 1, 3}}, 1}, "found a corner at point 3, expected 0 to 2");
+  refused({{{0, 1, 2}, {-1, 1, 2}}, 2}, "found a corner at point -1, expected 0 to 2");
+  refused({{{0, 1, 2}}, 2}, "found 2 regular triangles of 1");
+  OutputFile file(path.string());
+  write_surface(file, points, {{{0, 1, 2}}, 1}, SurfaceFormat::off);
+  file.commit();
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace ph::test
