@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _options, _run
 from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
-from ._sources import source_of
+from ._sources import source_of, without_nan_option
 
 if TYPE_CHECKING:
     from scipy.sparse import coo_array
@@ -132,6 +132,7 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     return np.swapaxes(windows, 1, 2)
 
 
+@without_nan_option()
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
@@ -170,6 +171,7 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
     return Subsample(np.asarray(indices), np.asarray(radii), reached)
 
 
+@without_nan_option()
 def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
                         **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """Of each point the root of the mean square of the distances to its k nearest points.
@@ -211,8 +213,9 @@ def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
     return space
 
 
-def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = "zero",
-             symmetrise: str | None = None, **run: Unpack[RunOptions]) -> coo_array:
+def collapse(distances: Any, *, threshold: float | None = None, nan: str = "error",
+             diagonal: str = "zero", symmetrise: str | None = None,
+             **run: Unpack[RunOptions]) -> coo_array:
     """Fewer edges, some of them later, with the same bars of positive length in every dimension.
 
     Parameters
@@ -221,7 +224,7 @@ def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = 
         As of ``rips(..., metric="precomputed")``.
     threshold : float, optional
         The largest distance that is kept. Default: the enclosing radius.
-    diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
+    nan : {"error", "drop"}, diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
         As of `rips`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
@@ -237,11 +240,12 @@ def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = 
     2
     """
     from scipy.sparse import coo_array
+    _run.check_names("collapse", run, collapse)
     _options.choice("diagonal", diagonal, ["zero", "any"])
     from ._compute import rips
     from ._options import arguments_of
     request = rips_request(arguments_of(rips, distances, {
-        "metric": "precomputed", "threshold": threshold, "diagonal": diagonal,
+        "metric": "precomputed", "threshold": threshold, "nan": nan, "diagonal": diagonal,
         "symmetrise": symmetrise, "merge_equal_points": False, **run}))
     u, v, values = _run.run(_core.collapsed_edges, request.recipe, options=request.options)
     n = request.meta["points"]
