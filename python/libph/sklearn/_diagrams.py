@@ -38,6 +38,23 @@ def samples_of(X: Any) -> Samples:
     return _rows_of(list(X))
 
 
+def samples_like(fitted: Sequence[str], X: Any) -> Samples:
+    """Samples with the diagrams of those that were fitted, whose names are given.
+
+    Lists of arrays have no names of their own: there the numbers of diagrams have to be the same.
+    """
+    samples = samples_of(X)
+    if not samples.rows:
+        return samples
+    if len(samples.names) != len(fitted):
+        raise UsageError(f"X: found {len(samples.names)} diagrams for each sample, expected "
+                         f"{len(fitted)} as in the samples that were fitted")
+    if list(fitted) != samples.names and "dgm0" not in (fitted[0], samples.names[0]):
+        raise UsageError(f"X: found diagrams {', '.join(samples.names)}, expected "
+                         f"{', '.join(fitted)}, in the order of the samples that were fitted")
+    return samples
+
+
 def _rows_of(samples: Sequence[Any]) -> Samples:
     samples = [sample[0] if isinstance(sample, (list, tuple)) and len(sample) == 1
                and isinstance(sample[0], Barcode) else sample for sample in samples]
