@@ -16,6 +16,7 @@ from ._errors import DataError, UsageError
 METRICS = {"euclidean": "euclidean", "manhattan": "manhattan", "chebyshev": "chebyshev",
            "minkowski": "minkowski", "cosine": "cosine", "hamming": "hamming",
            "l2": "euclidean", "l1": "manhattan", "cityblock": "manhattan"}
+_ACCEPTED = "; symmetrise='max', 'min' or 'lower' accepts it"
 _ROUNDING = 1e-6  # of the largest distance, as in the readers of files
 
 
@@ -159,8 +160,8 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     on_diagonal = row == column
     if on_diagonal.any():
         if diagonal == "births":
-            births = np.zeros(X.shape[0])
-            births[row[on_diagonal]] = values[on_diagonal]
+            births = diagonal_of(X.shape[0], row[on_diagonal], values[on_diagonal], rounding,
+                                 symmetrise, _ACCEPTED)
         elif diagonal == "zero":
             wrong = on_diagonal & (np.abs(values) > rounding)
             if wrong.any():
@@ -171,7 +172,7 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     if (values < -rounding).any():
         _fail(row, column, values, values < -rounding, "0 or more")
     i, j, values = unique_pairs(row, column, np.maximum(values, 0), rounding, symmetrise,
-                                "; symmetrise='max', 'min' or 'lower' accepts it")
+                                _ACCEPTED)
     return Source(_core.MetricSpace.of_pairs(X.shape[0], i, j, values), X.shape[0], None, births)
 
 
@@ -189,13 +190,27 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
     if len(starts) == len(i):
         return i, j, values
     largest, least = (np.maximum.reduceat(values, starts), np.minimum.reduceat(values, starts))
-    if symmetrise is None and (largest - least > rounding).any():
-        k = int(np.argmax(largest - least > rounding))
-        raise DataError(f"X: row {i[starts[k]]}, column {j[starts[k]]} and its mirror image: found "
-                        f"{least[k]} and {largest[k]}, expected both equal{hint}")
+    with np.errstate(invalid="ignore"):  # two infinite ones
+        differ = largest - least > rounding
+    if symmetrise is None and differ.any():
+        k = int(np.argmax(differ))
+        place = i[starts[k]], j[starts[k]]
+        mirror = "" if place[0] == place[1] else " and its mirror image"
+        raise DataError(f"X: {_arrays.place_of(place)}{mirror}: found {least[k]} and {largest[k]}, "
+                        f"expected both equal{hint}")
     lower = values[np.append(starts[1:], len(i)) - 1]
     chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
     return i[starts], j[starts], chosen
+
+
+def diagonal_of(size: int, places: NDArray[np.int64], values: NDArray[np.float64], rounding: float,
+                symmetrise: str | None, hint: str) -> NDArray[np.float64]:
+    """What a sparse matrix has on the diagonal, 0 where nothing is stored. Entries that are stored
+    twice are taken as those of pairs are."""
+    i, _, values = unique_pairs(places, places, values, rounding, symmetrise, hint)
+    diagonal = np.zeros(size)
+    diagonal[i] = values
+    return diagonal
 
 
 def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
