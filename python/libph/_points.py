@@ -206,6 +206,14 @@ def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_
     return np.asarray(_run.run(_core.distance_to_measure, source, neighbours, options=dict(run)))
 
 
+def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of each row, without a square that overflows or vanishes."""
+    largest = distances.max(axis=1, keepdims=True)
+    largest[largest == 0] = 1
+    mean: NDArray[np.float64] = np.sqrt(np.mean((distances / largest)**2, axis=1)) * largest[:, 0]
+    return mean
+
+
 def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
     space = source_of(X, metric=metric, minkowski_p=minkowski_p).space
     if not space.is_complete:

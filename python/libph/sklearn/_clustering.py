@@ -16,9 +16,10 @@ from sklearn.neighbors import NearestNeighbors
 from .. import _arrays, _options
 from .._compute import filtered
 from .._errors import UsageError
+from .._points import root_mean_square
 from .._trees import merge_tree
 from ._base import neighbours_wanted, table_of
-from ._neighbours import METRICS, Neighbours, root_mean_square
+from ._neighbours import METRICS, Neighbours
 
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]

@@ -67,14 +67,6 @@ def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers
     return _in_metric(np.ldexp(distances, exponent), name)
 
 
-def root_mean_square(distances: _Numbers) -> _Numbers:
-    """Of each row, without a square that overflows or vanishes."""
-    largest = distances.max(axis=1, keepdims=True)
-    largest[largest == 0] = 1
-    mean: _Numbers = np.sqrt(np.mean((distances / largest)**2, axis=1)) * largest[:, 0]
-    return mean
-
-
 def _comparable(rows: _Numbers, metric: str) -> tuple[_Numbers, str]:
     """The rows, and the first name of the metric; of cosine distances their directions."""
     name = _sources.METRICS[metric]

@@ -10,9 +10,9 @@ from sklearn.base import BaseEstimator, ClassNamePrefixFeaturesOutMixin, Transfo
 from sklearn.utils.validation import check_is_fitted
 
 from .. import _options
-from .._points import farthest_points
+from .._points import farthest_points, root_mean_square
 from ._base import neighbours_wanted, table_of
-from ._neighbours import METRICS, Neighbours, distances_between, root_mean_square
+from ._neighbours import METRICS, Neighbours, distances_between
 
 
 class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
