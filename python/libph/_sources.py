@@ -177,7 +177,7 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
 
 
 def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
-                 rounding: float, symmetrise: str | None, hint: str
+                 rounding: float, symmetrise: str | None, hint: str, name: str = "X"
                  ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Each pair once. Entries of one pair must be equal; of those that differ by rounding the one
     below the diagonal is taken."""
@@ -196,8 +196,8 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
         k = int(np.argmax(differ))
         place = i[starts[k]], j[starts[k]]
         mirror = "" if place[0] == place[1] else " and its mirror image"
-        raise DataError(f"X: {_arrays.place_of(place)}{mirror}: found {least[k]} and {largest[k]}, "
-                        f"expected both equal{hint}")
+        raise DataError(f"{name}: {_arrays.place_of(place)}{mirror}: found {least[k]} and "
+                        f"{largest[k]}, expected both equal{hint}")
     lower = values[np.append(starts[1:], len(i)) - 1]
     chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
     return i[starts], j[starts], chosen
