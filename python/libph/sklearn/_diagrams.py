@@ -90,10 +90,14 @@ def _parts_of(sample: Any) -> Sequence[Any] | None:
     if not isinstance(sample, (list, tuple)):
         return None
     # A list of pairs of numbers is a diagram.
-    if sample and all(not isinstance(part, np.ndarray) and np.ndim(part) == 1 and len(part) == 2
-                      for part in sample):
-        return None
-    return sample
+    return None if sample and all(map(_is_pair, sample)) else sample
+
+
+def _is_pair(part: Any) -> bool:
+    try:
+        return not isinstance(part, np.ndarray) and np.ndim(part) == 1 and len(part) == 2
+    except ValueError:  # of lists of different lengths; who reads them says what is wrong
+        return False
 
 
 def _of_giotto(X: Any) -> Samples:
@@ -102,6 +106,9 @@ def _of_giotto(X: Any) -> Samples:
         raise UsageError(f"X: found an array of shape {array.shape}, {_EXPECTED}")
     numbers = _arrays.as_float64(array, "X")
     dims = np.unique(numbers[:, :, 2])
+    if len(array) and not len(dims):
+        raise UsageError(f"X: found an array of shape {array.shape}, expected at least one bar of "
+                         "each dimension; one of length 0 stands for none")
     if not (dims == np.floor(dims)).all() or (dims < 0).any():
         raise UsageError(f"X: found dimensions {dims}, expected whole numbers from 0 on")
     # Bars of length 0 are there to fill up.

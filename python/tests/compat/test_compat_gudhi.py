@@ -390,6 +390,9 @@ def test_edges_that_are_refused(edges, words):
 def test_classes_for_scikit_learn(rng):
     sklearn = pytest.importorskip("sklearn", reason="scikit-learn is not installed")
     from libph.compat.gudhi.sklearn import CubicalPersistence, RipsPersistence
+    for kind in (RipsPersistence, CubicalPersistence):
+        with pytest.raises(ph.UsageError, match="homology_dimensions: found .., expected a"):
+            kind([]).fit([])
     clouds = [rng.random((n, 2)) for n in (20, 30)]
     expected = [ph.rips(cloud, field=11) for cloud in clouds]
     squares = [squareform(pdist(cloud)) for cloud in clouds]

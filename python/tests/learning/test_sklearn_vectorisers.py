@@ -231,3 +231,16 @@ def test_diagrams_have_the_names_of_those_that_were_fitted(kind, clouds):
     without_names = RipsPersistence(reduced=True).fit_transform(clouds)
     assert np.array_equal(fitted.transform(without_names), expected)
     assert len(fitted.transform([])) == 0
+
+
+def test_diagrams_that_are_none(clouds):
+    for kind in (BettiCurve, Statistics, ph.sklearn.DiagramDistances, ph.sklearn.DiagramKernels):
+        with pytest.raises(ph.UsageError, match="shape .3, 0, 3., expected at least one bar"):
+            kind().fit_transform(np.empty((3, 0, 3)))
+        with pytest.raises(ph.DataError, match="sample 0, diagram 0: row 1: found 1 numbers"):
+            kind().fit([[[[0, 1], [2]], [[0, 1]]]])
+
+
+def test_the_threshold_of_an_euler_curve_is_a_number():
+    with pytest.raises(ph.UsageError, match="threshold: found 'a', expected a number"):
+        EulerCurve(threshold="a").fit([[[1, 2]]])
