@@ -122,7 +122,12 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
         raise UsageError("step: does nothing without window")
     of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
     if values.ndim == 2:  # quantities before times
-        of_points = np.swapaxes(of_points, 1, 2).reshape(len(of_points), -1)
+        of_points = np.swapaxes(of_points, 1, 2)
+        if delay > 1 or not values.flags.c_contiguous:  # rows are no view of the series
+            copy = _arrays.new_array(of_points.shape)
+            copy[...] = of_points
+            of_points = copy
+        of_points = of_points.reshape(len(of_points), dimension * values.shape[1])
     points: NDArray[np.float64] = of_points
     if window is None:
         return points
