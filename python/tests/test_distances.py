@@ -267,3 +267,11 @@ def test_norms_of_distances_at_any_scale(scale, norm, factor):
     assert twice == pytest.approx(factor * single, rel=1e-12, abs=5e-324)
     endless = np.array([[0, scale], [0, np.inf]])
     assert estimator.fit_transform([[endless, endless], [dgms[0], endless]])[0, 1] == np.inf
+
+
+def test_a_matching_has_diagrams_of_its_own():
+    a, b = np.array([[0.0, 2]]), np.array([[0.0, 3]])
+    for function in (ph.bottleneck_matching, ph.wasserstein_matching):
+        matching = function(a, b)
+        assert np.array_equal(matching.a, a) and np.array_equal(matching.b, b)
+        assert not np.shares_memory(matching.a, a) and not np.shares_memory(matching.b, b)
