@@ -90,7 +90,8 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
     engine : str
         "auto", or the name of an engine.
     nan : {"error", "drop"}
-        What a NaN means: an error; or points are left out, and pairs of a matrix are never joined.
+        What a NaN means: an error; or points are left out, and pairs of a matrix are never joined,
+        nor those of which a function as `metric` gives NaN.
     diagonal : {"zero", "births", "any"}
         What stands on the diagonal of a matrix: 0, when each point enters, or anything.
     symmetrise : {None, "max", "min", "lower"}

@@ -427,7 +427,9 @@ def _matching(a: Any, b: Any, dim: int | None, kind: str, order: float, ground: 
     rows_a, rows_b = _two_diagrams(a, b, dim)
     metric = _metric(kind, order, ground, relative_error)
     value, lower, pairs = _run.run(_core.matching, rows_a, rows_b, metric, options=dict(run))
-    return Matching(value, lower, np.asarray(pairs), float(order), float(ground), rows_a, rows_b)
+    # Copies: a matching stays what it is when the caller's arrays change.
+    return Matching(value, lower, np.asarray(pairs), float(order), float(ground), np.array(rows_a),
+                    np.array(rows_b))
 
 
 def _two_diagrams(a: Any, b: Any, dim: int | None

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _options, _run
 from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
-from ._sources import source_of
+from ._sources import source_of, without_nan_option
 
 if TYPE_CHECKING:
     from scipy.sparse import coo_array
@@ -122,7 +122,12 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
         raise UsageError("step: does nothing without window")
     of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
     if values.ndim == 2:  # quantities before times
-        of_points = np.swapaxes(of_points, 1, 2).reshape(len(of_points), -1)
+        of_points = np.swapaxes(of_points, 1, 2)
+        if delay > 1 or not values.flags.c_contiguous:  # rows are no view of the series
+            copy = _arrays.new_array(of_points.shape)
+            copy[...] = of_points
+            of_points = copy
+        of_points = of_points.reshape(len(of_points), dimension * values.shape[1])
     points: NDArray[np.float64] = of_points
     if window is None:
         return points
@@ -132,6 +137,7 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     return np.swapaxes(windows, 1, 2)
 
 
+@without_nan_option()
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
@@ -170,6 +176,7 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
     return Subsample(np.asarray(indices), np.asarray(radii), reached)
 
 
+@without_nan_option()
 def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
                         **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """Of each point the root of the mean square of the distances to its k nearest points.
@@ -204,6 +211,14 @@ def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_
     return np.asarray(_run.run(_core.distance_to_measure, source, neighbours, options=dict(run)))
 
 
+def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of each row, without a square that overflows or vanishes."""
+    largest = distances.max(axis=1, keepdims=True)
+    largest[largest == 0] = 1
+    mean: NDArray[np.float64] = np.sqrt(np.mean((distances / largest)**2, axis=1)) * largest[:, 0]
+    return mean
+
+
 def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
     space = source_of(X, metric=metric, minkowski_p=minkowski_p).space
     if not space.is_complete:
@@ -211,8 +226,9 @@ def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
     return space
 
 
-def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = "zero",
-             symmetrise: str | None = None, **run: Unpack[RunOptions]) -> coo_array:
+def collapse(distances: Any, *, threshold: float | None = None, nan: str = "error",
+             diagonal: str = "zero", symmetrise: str | None = None,
+             **run: Unpack[RunOptions]) -> coo_array:
     """Fewer edges, some of them later, with the same bars of positive length in every dimension.
 
     Parameters
@@ -221,7 +237,7 @@ def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = 
         As of ``rips(..., metric="precomputed")``.
     threshold : float, optional
         The largest distance that is kept. Default: the enclosing radius.
-    diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
+    nan : {"error", "drop"}, diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
         As of `rips`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
@@ -237,11 +253,12 @@ def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = 
     2
     """
     from scipy.sparse import coo_array
+    _run.check_names("collapse", run, collapse)
     _options.choice("diagonal", diagonal, ["zero", "any"])
     from ._compute import rips
     from ._options import arguments_of
     request = rips_request(arguments_of(rips, distances, {
-        "metric": "precomputed", "threshold": threshold, "diagonal": diagonal,
+        "metric": "precomputed", "threshold": threshold, "nan": nan, "diagonal": diagonal,
         "symmetrise": symmetrise, "merge_equal_points": False, **run}))
     u, v, values = _run.run(_core.collapsed_edges, request.recipe, options=request.options)
     n = request.meta["points"]

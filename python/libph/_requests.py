@@ -167,9 +167,7 @@ def rips_request(o: dict[str, Any]) -> Request:
         getattr(_core.Device, device), source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
     others = {name: o[name] for name in ("subsample", "subsample_radius")}
-    # What is not looked at is not checked either.
-    is_given = isinstance(o["metric"], str) and o["metric"] == "precomputed"
-    for name in ("nan", *(("diagonal", "symmetrise") if is_given else ())):
+    for name in ("nan", "diagonal", "symmetrise"):
         others[name] = None if o[name] in ("error", "zero") else o[name]
     meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
                  metric=o["metric"] if isinstance(o["metric"], str) else "function",

@@ -286,11 +286,15 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
         i = int(np.argmax(np.diagonal(matrix) != 0))
         raise DataError(f"distances: row {i}, column {i}: found {matrix[i, i]}, expected 0 on the "
                         "diagonal")
-    labels = np.asarray(groups)
+    try:
+        labels = np.asarray(groups)
+        names, numbers = np.unique(labels, return_inverse=True)
+    except (TypeError, ValueError):  # None among them, or lists of different lengths
+        raise _options.refuse("groups", groups, "numbers or words, one for each row of the "
+                              "distances") from None
     if labels.shape != (len(matrix),):
         raise UsageError(f"groups: found an array of shape {labels.shape}, expected {len(matrix)}, "
                          "one for each row of the distances")
-    names, numbers = np.unique(labels, return_inverse=True)
     sizes = np.bincount(numbers, minlength=len(names))
     if len(names) < 2 or sizes.min() < 2:
         raise UsageError(f"groups: found {len(names)} of sizes {sizes.tolist()}, expected at least "

@@ -2,8 +2,9 @@
 """Where distances come from: points, matrices, functions; and what each of them needs of options."""
 from __future__ import annotations
 
+import contextlib
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ._errors import DataError, UsageError
 METRICS = {"euclidean": "euclidean", "manhattan": "manhattan", "chebyshev": "chebyshev",
            "minkowski": "minkowski", "cosine": "cosine", "hamming": "hamming",
            "l2": "euclidean", "l1": "manhattan", "cityblock": "manhattan"}
+_ACCEPTED = "; symmetrise='max', 'min' or 'lower' accepts it"
 _ROUNDING = 1e-6  # of the largest distance, as in the readers of files
 
 
@@ -33,31 +35,50 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
     """A metric space of what the user gave; a Source is one already."""
     if isinstance(X, Source):
         return X
-    if nan != "error":
-        _options.choice("nan", nan, ["error", "drop"])
-    if callable(metric):
-        return _of_function(X, metric)
-    if metric == "precomputed":
-        _options.choice("diagonal", diagonal, ["zero", "births", "any"])
-        _options.choice("symmetrise", symmetrise, [None, "max", "min", "lower"])
+    _options.choice("nan", nan, ["error", "drop"])
+    _options.choice("diagonal", diagonal, ["zero", "births", "any"])
+    _options.choice("symmetrise", symmetrise, [None, "max", "min", "lower"])
+    name = "function" if callable(metric) else _known(metric)
+    p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
+    if p != 2 and name != "minkowski":
+        found = "a function as metric" if name == "function" else f"metric='{metric}'"
+        raise UsageError(f"minkowski_p: does nothing for {found}, expected 'minkowski'")
+    if name == "precomputed":
         if _arrays.is_sparse(X):
             return _of_sparse(X, nan, diagonal, symmetrise)
         return _of_matrix(X, nan, diagonal, symmetrise)
     if diagonal != "zero" or symmetrise is not None:
-        name = "diagonal" if diagonal != "zero" else "symmetrise"
-        raise UsageError(f"{name}: does nothing for points; metric='precomputed' reads distances")
-    return _of_points(X, metric, minkowski_p, nan)
+        option = "diagonal" if diagonal != "zero" else "symmetrise"
+        what = "a function as metric" if name == "function" else "points"
+        raise UsageError(f"{option}: does nothing for {what}; metric='precomputed' reads distances")
+    return _of_function(X, metric, nan) if name == "function" else _of_points(X, name, p, nan)
 
 
-def _of_points(X: Any, metric: Any, minkowski_p: Any, nan: str) -> Source:
-    name = METRICS.get(metric) if isinstance(metric, str) else None
+@contextlib.contextmanager
+def without_nan_option() -> Iterator[None]:
+    """For functions that have no option `nan`: messages do not advise it."""
+    try:
+        yield
+    except DataError as error:
+        words, advice, _ = str(error).partition("; nan='drop'")
+        if not advice:
+            raise
+        raise DataError(words) from None
+
+
+def _known(metric: Any) -> str:
+    """The name of a metric, of its aliases the first."""
+    name = None
+    if isinstance(metric, str):
+        name = metric if metric == "precomputed" else METRICS.get(metric)
     if name is None:
         raise _options.refuse("metric", metric, ", ".join(METRICS) + ", 'precomputed' or a function "
                               "of two points; scipy.spatial.distance.pdist has more: its distances "
                               "are taken with metric='precomputed'")
-    p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
-    if p != 2 and name != "minkowski":
-        raise UsageError(f"minkowski_p: does nothing for metric='{metric}', expected 'minkowski'")
+    return name
+
+
+def _of_points(X: Any, name: str, p: float, nan: str) -> Source:
     if _arrays.is_sparse(X):
         raise UsageError("X: found a sparse matrix; metric='precomputed' reads its entries as "
                          "distances, .toarray() makes points of it")
@@ -139,8 +160,8 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     on_diagonal = row == column
     if on_diagonal.any():
         if diagonal == "births":
-            births = np.zeros(X.shape[0])
-            births[row[on_diagonal]] = values[on_diagonal]
+            births = diagonal_of(X.shape[0], row[on_diagonal], values[on_diagonal], rounding,
+                                 symmetrise, _ACCEPTED)
         elif diagonal == "zero":
             wrong = on_diagonal & (np.abs(values) > rounding)
             if wrong.any():
@@ -151,12 +172,12 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     if (values < -rounding).any():
         _fail(row, column, values, values < -rounding, "0 or more")
     i, j, values = unique_pairs(row, column, np.maximum(values, 0), rounding, symmetrise,
-                                "; symmetrise='max', 'min' or 'lower' accepts it")
+                                _ACCEPTED)
     return Source(_core.MetricSpace.of_pairs(X.shape[0], i, j, values), X.shape[0], None, births)
 
 
 def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
-                 rounding: float, symmetrise: str | None, hint: str
+                 rounding: float, symmetrise: str | None, hint: str, name: str = "X"
                  ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Each pair once. Entries of one pair must be equal; of those that differ by rounding the one
     below the diagonal is taken."""
@@ -169,13 +190,27 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
     if len(starts) == len(i):
         return i, j, values
     largest, least = (np.maximum.reduceat(values, starts), np.minimum.reduceat(values, starts))
-    if symmetrise is None and (largest - least > rounding).any():
-        k = int(np.argmax(largest - least > rounding))
-        raise DataError(f"X: row {i[starts[k]]}, column {j[starts[k]]} and its mirror image: found "
-                        f"{least[k]} and {largest[k]}, expected both equal{hint}")
+    with np.errstate(invalid="ignore"):  # two infinite ones
+        differ = largest - least > rounding
+    if symmetrise is None and differ.any():
+        k = int(np.argmax(differ))
+        place = i[starts[k]], j[starts[k]]
+        mirror = "" if place[0] == place[1] else " and its mirror image"
+        raise DataError(f"{name}: {_arrays.place_of(place)}{mirror}: found {least[k]} and "
+                        f"{largest[k]}, expected both equal{hint}")
     lower = values[np.append(starts[1:], len(i)) - 1]
     chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
     return i[starts], j[starts], chosen
+
+
+def diagonal_of(size: int, places: NDArray[np.int64], values: NDArray[np.float64], rounding: float,
+                symmetrise: str | None, hint: str) -> NDArray[np.float64]:
+    """What a sparse matrix has on the diagonal, 0 where nothing is stored. Entries that are stored
+    twice are taken as those of pairs are."""
+    i, _, values = unique_pairs(places, places, values, rounding, symmetrise, hint)
+    diagonal = np.zeros(size)
+    diagonal[i] = values
+    return diagonal
 
 
 def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
@@ -184,7 +219,7 @@ def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.
     raise DataError(f"X: row {row[k]}, column {column[k]}: found {values[k]}, expected {expected}")
 
 
-def _of_function(X: Any, metric: Callable[[Any, Any], float]) -> Source:
+def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str) -> Source:
     """Distances of any things, each pair evaluated once."""
     things = X if isinstance(X, (list, tuple)) else _arrays.as_array(X, "X")
     if not isinstance(things, (list, tuple)) and things.ndim == 0:
@@ -203,6 +238,6 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float]) -> Source:
             place += 1
     if n == 0:
         distances = np.empty((0, 0))  # no numbers are the condensed form of one point
-    space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none, _core.NanPolicy.error,
-                                           True)
+    space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none,
+                                           getattr(_core.NanPolicy, nan), True)
     return Source(space, n)

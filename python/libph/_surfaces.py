@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
+from ._errors import DataError, UsageError
 from ._files import path_of
 from ._requests import alpha_recipe
 from ._sources import source_of
@@ -25,7 +26,7 @@ class Surface(NamedTuple):
     Attributes
     ----------
     vertices : ndarray
-        The points, all of them, (n, 2) or (n, 3).
+        The points, all of them, (n, 2) or (n, 3); of no points (0, 3).
     triangles : ndarray
         Rows of three points, (m, 3). Seen from outside they are counterclockwise.
     singular : ndarray of bool
@@ -44,13 +45,44 @@ class Surface(NamedTuple):
         ----------
         path : path
             Its extension, ``.ply`` or ``.off``, says the format. PLY names the points, too.
+
+        Raises
+        ------
+        UsageError, DataError
+            If the arrays do not fit together, as those that `alpha_shape` gives do.
         """
         name = path_of(path)
         if not name.lower().endswith((b".ply", b".off")):
             raise _options.refuse("path", path, "a name that ends in .ply or .off")
-        _run.run(_core.write_surface, name, np.ravel(self.vertices).astype(np.float64),
-                 self.vertices.shape[1], np.ravel(self.triangles).astype(np.int64),
-                 int(len(self.triangles) - np.count_nonzero(self.singular)), options={})
+        points, triangles, regular = self._checked()
+        _run.run(_core.write_surface, name, points.ravel(), points.shape[1], triangles.ravel(),
+                 regular, options={})
+
+    def _checked(self) -> tuple[NDArray[np.float64], NDArray[np.int64], int]:
+        """Vertices, triangles, and how many of these are not singular."""
+        points = _arrays.as_points(self.vertices, "vertices")
+        if points.shape[1] not in (2, 3):
+            raise UsageError(f"vertices: found an array of shape {points.shape}, expected (n, 2) "
+                             "or (n, 3)")
+        triangles = _arrays.as_integers(self.triangles, "triangles")
+        if triangles.ndim != 2 or triangles.shape[1] != 3:
+            raise UsageError(f"triangles: found an array of shape {triangles.shape}, expected "
+                             "(m, 3)")
+        beyond = (triangles < 0) | (triangles >= len(points))
+        if beyond.any():
+            row, column = (int(k) for k in np.argwhere(beyond)[0])
+            raise DataError(f"triangles: {_arrays.place_of((row, column))}: found "
+                            f"{triangles[row, column]}, expected one of {len(points)} points, "
+                            "counted from 0")
+        singular = _arrays.as_array(self.singular, "singular")
+        if singular.shape != (len(triangles),) or singular.dtype.kind != "b":
+            raise UsageError(f"singular: found {singular.dtype} of shape {singular.shape}, "
+                             f"expected bool of shape ({len(triangles)},), one for each triangle")
+        regular = len(triangles) - int(np.count_nonzero(singular))
+        if singular[:regular].any():
+            raise DataError(f"singular: entry {int(np.argmax(singular))}: found True before False, "
+                            "expected singular triangles to come last")
+        return points, triangles, regular
 
 
 def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | None = None,
@@ -84,11 +116,13 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     >>> len(ph.alpha_shape(cube, 1).triangles)
     12
     """
-    options: dict[str, Any] = dict(run)
-    _run.check_names("alpha_shape", options, {"X", "value", "wrap", "squared", "weights", "nan"})
+    _run.check_names("alpha_shape", run, alpha_shape)
     at = _options.real("value", value)
-    recipe = alpha_recipe({"squared": squared, "weights": weights}, source_of(X, nan=nan))[0]
+    source = source_of(X, nan=nan)
+    recipe = alpha_recipe({"squared": squared, "weights": weights}, source)[0]
     corners, regular = _run.run(_core.surface, recipe, at, _options.flag("wrap", wrap),
-                                options=options)
+                                options=dict(run))
     triangles = np.asarray(corners).reshape(-1, 3)
-    return Surface(_arrays.as_points(X), triangles, np.arange(len(triangles)) >= regular)
+    # A copy: the surface stays what it is when the caller's array changes.
+    vertices = np.array(_arrays.as_points(X)) if source.points else np.empty((0, 3))
+    return Surface(vertices, triangles, np.arange(len(triangles)) >= regular)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,8 @@ from . import _core, _options
 from ._errors import UsageError
 from ._estimate import request_of
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
-    from ._run import RunOptions
-
 _RIPS_OPTIONS = ("threshold", "metric", "minkowski_p", "weights", "dtm_neighbors",
-                 "weight_exponent", "diagonal", "symmetrise")
+                 "weight_exponent", "nan", "diagonal", "symmetrise")
 _CUBICAL_OPTIONS = ("threshold", "construction", "superlevel", "periodic", "nan")
 _ALPHA_OPTIONS = ("threshold", "values", "squared", "weights", "nan")
 _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
@@ -96,10 +91,10 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
         Which of them. Default: cubical for three axes or more and for a PointImage, else rips.
     **options
         As of `rips`: `threshold`, `metric`, `minkowski_p`, `weights`, `dtm_neighbors`,
-        `weight_exponent`, `diagonal`, `symmetrise`. As of `cubical`: `threshold`, `construction`,
-        `superlevel`, `periodic`, `nan`. As of `alpha`: `threshold`, `values`, `squared`, `weights`,
-        `nan`. And `threads`, `memory_limit`, `progress`, `timeout`,
-        `stop`.
+        `weight_exponent`, `nan`, `diagonal`, `symmetrise`. As of `cubical`: `threshold`,
+        `construction`, `superlevel`, `periodic`, `nan`. As of `alpha`: `threshold`, `values`,
+        `squared`, `weights`, `nan`. And `threads`, `memory_limit`, `progress`, `timeout`, `stop`.
+        With ``nan="drop"`` points that are left out never enter.
 
     Returns
     -------

@@ -251,6 +251,46 @@ def test_other_things_are_refused(tmp_path):
         ph.merge_tree(square, complex="alpha", max_dim=1)
 
 
+TRIANGLE = ph.Surface(np.eye(3), np.array([[0, 1, 2]]), np.zeros(1, bool))
+
+
+@pytest.mark.parametrize("wrong, message", [
+    ({"triangles": np.array([[0, 1, 10**9]])}, "column 2: found 1000000000, expected one of 3"),
+    ({"triangles": np.array([[0, -1, 2]])}, "row 0, column 1: found -1"),
+    ({"triangles": np.array([[0, 1, 3]])}, "found 3, expected one of 3"),
+    ({"triangles": np.array([0, 1, 2])}, "shape .3,., expected .m, 3."),
+    ({"triangles": np.array([[0, 1, 1.5]])}, "found 1.5, expected a whole number"),
+    ({"singular": np.zeros(2, bool)}, "shape .2,., expected bool of shape .1,."),
+    ({"singular": np.zeros(1)}, "float64 .* expected bool"),
+    ({"triangles": np.array([[0, 1, 2]] * 2), "singular": np.array([True, False])}, "come last"),
+    ({"vertices": np.zeros((3, 4))}, "shape .3, 4., expected .n, 2. or .n, 3."),
+    ({"vertices": np.zeros((0, 0))}, "vertices")])
+def test_a_surface_that_is_none_is_not_written(wrong, message, tmp_path):
+    surface = TRIANGLE._replace(**wrong)
+    for name in ("a.ply", "a.off"):
+        with pytest.raises((ph.UsageError, ph.DataError), match=message):
+            surface.save(tmp_path / name)
+        assert not (tmp_path / name).exists()
+        TRIANGLE.save(tmp_path / f"right-{name}")
+
+
+@needs_cgal
+@pytest.mark.parametrize("X", [[], np.empty((0, 2)), np.empty((0, 3)), np.empty((0, 5))], ids=str)
+def test_a_surface_of_no_points(X, tmp_path):
+    surface = ph.alpha_shape(X, 1)
+    assert surface.vertices.shape == (0, 3)
+    surface.save(tmp_path / "a.ply")
+    surface.save(tmp_path / "a.off")
+
+
+@needs_cgal
+def test_a_surface_has_vertices_of_its_own():
+    points = np.eye(3)
+    surface = ph.alpha_shape(points, 2)
+    points[0, 0] = 7
+    assert surface.vertices[0, 0] == 1
+
+
 @pytest.mark.skipif(bool(_core.alpha_support()), reason="CGAL is built in")
 def test_without_cgal():
     with pytest.raises(ph.NotBuiltIn, match="libcgal-dev"):

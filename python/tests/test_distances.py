@@ -252,3 +252,26 @@ def test_in_pipelines(rng):
     steps = make_pipeline(DiagramDistances("bottleneck"),
                           KNeighborsClassifier(1, metric="precomputed"))
     assert list(steps.fit(first, range(6)).predict(first)) == list(range(6))
+
+
+@pytest.mark.parametrize("scale", [1e-170, 1e200, 5e-324])
+@pytest.mark.parametrize("norm, factor", [(1, 2), (2, 2**0.5), (np.inf, 1)])
+def test_norms_of_distances_at_any_scale(scale, norm, factor):
+    pytest.importorskip("sklearn", reason="scikit-learn is not installed")
+    from libph.sklearn import DiagramDistances
+    dgms = [np.array([[0, scale]]), np.array([[0, 3 * scale]])]
+    estimator = DiagramDistances("bottleneck", norm=norm)
+    single = estimator.fit_transform(dgms)
+    assert np.array_equal(single, ph.diagram_distances(dgms, distance="bottleneck"))
+    twice = estimator.fit_transform([[dgm, dgm] for dgm in dgms])
+    assert twice == pytest.approx(factor * single, rel=1e-12, abs=5e-324)
+    endless = np.array([[0, scale], [0, np.inf]])
+    assert estimator.fit_transform([[endless, endless], [dgms[0], endless]])[0, 1] == np.inf
+
+
+def test_a_matching_has_diagrams_of_its_own():
+    a, b = np.array([[0.0, 2]]), np.array([[0.0, 3]])
+    for function in (ph.bottleneck_matching, ph.wasserstein_matching):
+        matching = function(a, b)
+        assert np.array_equal(matching.a, a) and np.array_equal(matching.b, b)
+        assert not np.shares_memory(matching.a, a) and not np.shares_memory(matching.b, b)

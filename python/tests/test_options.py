@@ -166,3 +166,57 @@ def test_errors_are_those_of_python_too():
                          (ph.Timeout, ph.Cancelled), (ph.NotBuiltIn, NotImplementedError),
                          (ph.InternalError, RuntimeError)):
         assert issubclass(error, other) and issubclass(error, ph.Error)
+
+
+DISTANCES = np.linalg.norm(np.subtract(np.array(SQUARE)[:, None], SQUARE), axis=2)
+
+
+def manhattan(a, b):
+    return float(np.abs(np.subtract(a, b)).sum())
+
+
+@pytest.mark.parametrize("function", [
+    ph.rips, ph.merge_tree, lambda X, **o: ph.farthest_points(X, 2, **o),
+    lambda X, **o: ph.distance_to_measure(X, 2, **o)])
+@pytest.mark.parametrize("data, metric, found", [
+    (DISTANCES, "precomputed", "metric='precomputed'"), (SQUARE, manhattan, "a function as metric"),
+    (SQUARE, "l1", "metric='l1'")])
+def test_minkowski_p_is_for_one_metric(function, data, metric, found):
+    with pytest.raises(ph.UsageError, match=f"minkowski_p: does nothing for {found}"):
+        function(data, metric=metric, minkowski_p=3)
+
+
+@pytest.mark.parametrize("name, value, words", [
+    ("diagonal", "births", "does nothing for a function as metric; metric='precomputed'"),
+    ("symmetrise", "max", "does nothing for a function as metric"),
+    ("diagonal", "bogus", "found 'bogus', expected 'zero'"), ("nan", "bogus", "found 'bogus'")])
+def test_options_of_matrices_with_a_function(name, value, words):
+    with pytest.raises(ph.UsageError, match=f"{name}: {words}"):
+        ph.rips(SQUARE, metric=manhattan, **{name: value})
+
+
+def test_nan_is_advised_where_it_is_an_option():
+    def partly(a, b):
+        return np.nan if list(a) == SQUARE[0] else manhattan(a, b)
+
+    missing = DISTANCES.copy()
+    missing[0, 1:] = missing[1:, 0] = np.nan
+    for function, data, keywords in ((ph.rips, SQUARE, {"metric": partly}),
+                                     (ph.rips, missing, {"metric": "precomputed"}),
+                                     (ph.merge_tree, SQUARE, {"metric": partly}),
+                                     (ph.collapse, missing, {})):
+        with pytest.raises(ph.DataError, match="found nan, .*; nan='drop' never joins"):
+            function(data, **keywords)
+        function(data, **keywords, nan="drop")
+    assert np.isinf(ph.rips(SQUARE, metric=partly, nan="drop").dgm(0)[:, 1]).sum() == 2
+    for function in (ph.farthest_points, lambda X, **o: ph.distance_to_measure(X, 2, **o)):
+        with pytest.raises(ph.DataError, match="found nan, expected 0 or more$"):
+            function(SQUARE, metric=partly)
+
+
+@pytest.mark.parametrize("name", [
+    "max_dim", "representatives", "min_persistence", "field", "weights", "subsample",
+    "approximation", "metric", "collapse"])
+def test_collapse_has_no_options_of_bars(name):
+    with pytest.raises(TypeError, match=f"unexpected keyword argument '{name}'"):
+        ph.collapse(DISTANCES, **{name: 1})

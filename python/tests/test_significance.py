@@ -144,6 +144,8 @@ def test_permutation_test(rng):
 def test_wrong_groups():
     D = np.abs(np.arange(4)[:, None] - np.arange(4.0))
     for distances, groups, error, text in (
+            (D, [None, None, "a", "a"], ph.UsageError, "groups: found .* numbers or words"),
+            (D, [[1, 2], [1, 2, 3], 1, 1], ph.UsageError, "groups: found"),
             (D, "aabb", ph.UsageError, "groups"), (D, list("aab"), ph.UsageError, "groups"),
             (D, list("aaab"), ph.UsageError, r"\[3, 1\]"), (D, list("aaaa"), ph.UsageError, "groups"),
             (D[:3], list("aabb"), ph.UsageError, "square"),

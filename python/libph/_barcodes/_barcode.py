@@ -235,8 +235,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         """
         places = self._range(_options.whole("dim", dim, 0))
         births, deaths = self.births[places], self.deaths[places]
-        lengths = np.where(deaths == births, 0, deaths - births)
-        order = np.argsort(-lengths, kind="stable") + places.start
+        order = np.lexsort((-_output.lengths(births, deaths), deaths < np.inf)) + places.start
         if n is not None:
             chosen: NDArray[np.int64] = order[:_options.whole("n", n, 0)]
             return chosen
@@ -264,7 +263,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             keep &= np.isin(dims, [_options.whole("dim", d, 0) for d in wanted])
         if min_persistence is not None:
             least = _options.real("min_persistence", min_persistence)
-            keep &= np.where(deaths == births, 0, deaths - births) > least
+            keep &= _output.lengths(births, deaths) > least
         if born_before is not None:
             keep &= births < _options.real("born_before", born_before)
         return self._selected(np.flatnonzero(keep))

@@ -2,13 +2,16 @@
 """Representatives of bars: cycles, cocycles, and the loops that cycles are made of."""
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core, _options
 from .._errors import UsageError
+from .._results import require_version, with_arrays
+
+_STATE_VERSION = 1
 
 
 class Loop(NamedTuple):
@@ -51,6 +54,10 @@ class Chain:
 
     def __len__(self) -> int:
         return len(self.coefficients)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        alone = self._bars.selected(np.array([self._i]))
+        return (_restored, (_STATE_VERSION, with_arrays(alone.state())))
 
     def __repr__(self) -> str:
         return f"Chain({len(self)} cells)"
@@ -102,3 +109,9 @@ class Chain:
         dense = np.zeros((_options.whole("n", n, least),) * self.cells.shape[1], dtype=np.int64)
         dense[tuple(self.cells.T)] = self.coefficients
         return dense
+
+
+def _restored(version: int, state: dict[str, Any]) -> Chain:
+    """What pickle calls: the chain of a barcode of one bar."""
+    require_version(version, _STATE_VERSION)
+    return Chain(_core.Bars.from_state(state), 0)

@@ -5,12 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import _options
 from .._results import description_of, spaced
 
 if TYPE_CHECKING:
     from ._barcode import Barcode
+
+
+def lengths(births: NDArray[np.float64], deaths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """0 of a bar that dies when it is born, at -inf, too."""
+    lengths = np.zeros(len(births))
+    np.subtract(deaths, births, out=lengths, where=deaths != births)
+    return lengths
 
 
 def in_layout(bars: Barcode, layout: str) -> Any:
@@ -24,7 +32,7 @@ def in_layout(bars: Barcode, layout: str) -> Any:
         return [dgm[np.lexsort((-dgm[:, 1], -dgm[:, 0]) if dim else (dgm[:, 0], dgm[:, 1]))]
                 for dim, dgm in enumerate(dgms)]
     if layout == "gudhi":
-        order = np.lexsort((births, births - deaths, -dims))
+        order = np.lexsort((births, -lengths(births, deaths), -dims))
         return [(int(dims[i]), (float(births[i]), float(deaths[i]))) for i in order]
     return np.asarray(bars)
 

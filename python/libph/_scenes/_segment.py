@@ -141,6 +141,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         edges = "distance or " if given["method"] == "paper" else ""
         raise MemoryLimitError(f"{error}; lower {edges}max_range, enlarge voxel, or raise "
                                "memory_limit") from None
+    except UsageError as error:  # in C++ this option has another name
+        raise UsageError(str(error).replace("spacing:", "supervoxels:", 1)) from None
     return Segmentation._of(found, scene.name, _told(scene, found))
 
 
@@ -157,7 +159,10 @@ def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
 
 def _require_no_options(given: dict[str, Any]) -> None:
     for name, parameter in inspect.signature(segment).parameters.items():
-        if name not in _OF_INPUT and given[name] != parameter.default:
+        value, default = given[name], parameter.default
+        is_default = value is default or (
+            isinstance(value, (bool, int, float, np.generic)) and value == default)
+        if name not in _OF_INPUT and not is_default:
             raise UsageError(f"{name}: does nothing for a stored tree, which was made with what it "
                              "was made with; Segmentation.cut cuts it anew")
 

@@ -8,7 +8,8 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _core
+from .. import _arrays, _core
+from .._errors import DataError
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,7 +17,7 @@ class StepFunction:
     """A function of whole numbers that changes at some values; an Euler curve, a Betti curve.
 
     It is 0 before ``at[0]``, and ``value[i]`` from ``at[i]`` to before ``at[i + 1]``. Call it with a
-    number or an array.
+    number or an array, without NaN.
 
     Attributes
     ----------
@@ -49,7 +50,7 @@ class StepFunction:
 
     def __call__(self, t: Any) -> Any:
         padded = np.concatenate([[0], self.value])
-        values = padded[np.searchsorted(self.at, t, side="right")]
+        values = padded[np.searchsorted(self.at, _places("t", t), side="right")]
         return int(values) if np.ndim(values) == 0 else values
 
     def __eq__(self, other: object) -> bool:
@@ -68,7 +69,7 @@ class StepFunction:
 class PiecewiseLinear:
     """A continuous function, linear between its critical points; a layer of a landscape.
 
-    It is 0 before the first and behind the last. Call it with a number or an array.
+    It is 0 before the first and behind the last. Call it with a number or an array, without NaN.
 
     Attributes
     ----------
@@ -100,11 +101,27 @@ class PiecewiseLinear:
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]: ...
 
     def __call__(self, t: Any) -> Any:
-        values = np.interp(t, self.at, self.value, left=0.0, right=0.0)
+        values = np.interp(_places("t", t), self.at, self.value, left=0.0, right=0.0)
         return float(values) if np.ndim(values) == 0 else values
 
     def __repr__(self) -> str:
         return f"PiecewiseLinear({_what('critical point', self.at)})"
+
+
+def _places(name: str, t: Any) -> NDArray[np.float64]:
+    """Where a function is asked for; NaN is nowhere."""
+    numbers = _arrays.as_float64(_arrays.as_array(t, name), name)
+    refuse_nan(name, numbers)
+    return numbers
+
+
+def refuse_nan(name: str, numbers: NDArray[np.float64]) -> None:
+    """Says where the first one is."""
+    wrong = np.isnan(numbers)
+    if wrong.any():
+        place = "" if not numbers.ndim else _arrays.place_of(
+            [int(i) for i in np.argwhere(wrong)[0]]) + ": "
+        raise DataError(f"{name}: {place}found nan, expected a number")
 
 
 def _frozen(data: Any) -> NDArray[Any]:

@@ -15,7 +15,7 @@ from ._functions import (HEIGHTS, NORMS, ORIENTATIONS, PIXELS, checked_entropy, 
                          statistics_names)
 from ._ranges import (Range, checked_range, checked_resolution, default_bandwidth, range_of_values,
                       ranges_of_image)
-from ._steps import PiecewiseLinear, StepFunction
+from ._steps import PiecewiseLinear, StepFunction, refuse_nan
 
 
 class Summaries:
@@ -102,6 +102,7 @@ class Summaries:
                [0, 0, 0]])
         """
         values = _arrays.as_values(grid, "grid")
+        refuse_nan("grid", values)
         curves = np.empty((self._top_dim + 1, len(values)), dtype=np.int64)
         for dim in range(self._top_dim + 1):
             curves[dim] = self.betti_function(dim)(values)

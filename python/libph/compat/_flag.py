@@ -19,7 +19,7 @@ from .. import _arrays, _core, _options
 from .._barcodes import Barcode
 from .._compute import rips
 from .._errors import DataError, UsageError
-from .._sources import Source, unique_pairs
+from .._sources import Source, diagonal_of, unique_pairs
 
 _STRIP = 512  # rows of a matrix that are looked at together
 _ROUNDING = 1e-6  # of the largest distance: so far the two entries of a pair may differ
@@ -175,8 +175,8 @@ def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
         raise DataError(f"X: row {row[k]}, column {column[k]}: found nan, expected a number")
     on_diagonal = row == column
     if births is None:
-        births = np.zeros(size)
-        births[row[on_diagonal]] = values[on_diagonal]
+        births = diagonal_of(size, row[on_diagonal], values[on_diagonal], _rounding_of(values),
+                             None, "")
     return of_pairs(row[~on_diagonal], column[~on_diagonal], values[~on_diagonal], limit, births,
                     upper_wins)
 
@@ -184,16 +184,17 @@ def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
 def of_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
              limit: float, births: NDArray[np.float64], upper_wins: bool) -> Flag:
     """The filtration of some pairs."""
-    finite = values[np.isfinite(values)]
-    rounding = _ROUNDING * float(np.abs(finite).max(initial=0.0))
     # `unique_pairs` prefers what is below the diagonal: of the transpose.
-    with np.errstate(invalid="ignore"):  # two infinite ones
-        i, j, values = unique_pairs(column, row, values, rounding,
-                                    "lower" if upper_wins else None, "")
+    i, j, values = unique_pairs(column, row, values, _rounding_of(values),
+                                "lower" if upper_wins else None, "")
     keep = values <= limit
     edges = int(np.count_nonzero(keep))
     keep &= values < np.inf
     return Flag(len(births), births, None, (i[keep], j[keep], values[keep]), limit, edges)
+
+
+def _rounding_of(values: NDArray[np.float64]) -> float:
+    return _ROUNDING * float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
 def _refuse_nan(numbers: NDArray[Any], name: str) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _arrays
 from .._errors import DataError, UsageError
+from .._points import root_mean_square
 from .._sources import METRICS
 from ._distances import Distances, MatrixDistances, PointDistances, SparseDistances
 from ._values import CellValues, Integers, Numbers
@@ -71,7 +72,7 @@ class RipsValues(CellValues):
             for part in self._parts(missing):
                 near = np.partition(self._distances.rows(part), self._neighbours - 1,
                                     axis=1)[:, :self._neighbours]
-                self._births[part] = 2 * np.sqrt(np.mean(near**2, axis=1))
+                self._births[part] = 2 * root_mean_square(near)
         return self._births[points]
 
     def _parts(self, points: Integers) -> Any:
@@ -157,6 +158,10 @@ def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, 
 
     Where one ball swallows the other they meet when that is born.
     """
+    # In a unit of about their size no square overflows. Powers of 2 round nothing.
+    largest = np.maximum(lengths, np.maximum(a, b))
+    unit = np.ldexp(1.0, np.frexp(np.where(largest > 0, largest, 1))[1] - 1)
+    lengths, a, b = lengths / unit, a / unit, b / unit
     meet = 4 * lengths**2 > np.abs(a**2 - b**2)
     d: Numbers = np.where(meet, lengths, 1)
     half_sum, half_difference = (a + b) / 2, (a - b) / 2
@@ -165,7 +170,7 @@ def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, 
     finite: Numbers = np.where(meet, t, 0)
     of_distance: Numbers = finite * (d / outer + d / inner - 1 / d)
     of_sum, of_difference = finite * half_sum / outer / 2, finite * half_difference / inner / 2
-    return t, of_distance, of_sum + of_difference, of_sum - of_difference
+    return t * unit, of_distance, of_sum + of_difference, of_sum - of_difference
 
 
 def _distances_of(X: Any, meta: Mapping[str, Any]) -> Distances:

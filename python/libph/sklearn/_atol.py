@@ -54,10 +54,12 @@ class Atol(Vectoriser):
         self.seed = seed
         self.infinity = infinity
 
+    def _check(self) -> None:
+        _options.choice("contrast", self.contrast, ["laplace", "gauss"])
+
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         count = _options.whole("centres", self.centres, 1, 2**31 - 1)
         seed = _options.whole("seed", self.seed, 0)
-        _options.choice("contrast", self.contrast, ["laplace", "gauss"])
         fitted = []
         for name, dgms in zip(self._diagram_names, columns):
             try:

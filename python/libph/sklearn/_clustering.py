@@ -16,9 +16,10 @@ from sklearn.neighbors import NearestNeighbors
 from .. import _arrays, _options
 from .._compute import filtered
 from .._errors import UsageError
+from .._points import root_mean_square
 from .._trees import merge_tree
 from ._base import neighbours_wanted, table_of
-from ._points import METRICS
+from ._neighbours import METRICS, Neighbours
 
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
@@ -116,8 +117,11 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
             raise UsageError(f"X: found a matrix of shape {points.shape}, expected a square one of "
                              "distances")
         neighbours_wanted(k, len(points))
-        search = NearestNeighbors(n_neighbors=k, metric=metric, n_jobs=self.n_jobs).fit(points)
-        distances, neighbours = search.kneighbors(points)
+        if metric == "precomputed":
+            search = NearestNeighbors(n_neighbors=k, metric=metric, n_jobs=self.n_jobs).fit(points)
+            distances, neighbours = search.kneighbors(points)
+        else:
+            distances, neighbours = Neighbours(points, k, metric, self.n_jobs).of(points)
         self.function_ = self._function(points, distances)
         hills = _hills_of(self.function_, neighbours)
         joins = self._joins(points, hills)
@@ -138,7 +142,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
                                  "number above 0")
             return np.asarray(-np.log(density))
         _options.choice("density", self.density, ["dtm"])
-        to_measure = np.sqrt(np.mean(distances**2, axis=1))
+        to_measure = root_mean_square(distances)
         is_zero = to_measure == 0
         to_measure[is_zero] = to_measure[~is_zero].min() if not is_zero.all() else 1
         return np.asarray(np.log(to_measure))

@@ -77,8 +77,10 @@ class Landscape(_OnGrid):
         self.infinity = infinity
         self.height = height
 
-    def _fit_columns(self, columns: list[list[Diagram]]) -> None:
+    def _check(self) -> None:
         _options.choice("height", self.height, HEIGHTS)
+
+    def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         self._layers = _options.whole("layers", self.layers, 1, 2**20)
         super()._fit_columns(columns)
 
@@ -134,9 +136,11 @@ class Silhouette(_OnGrid):
         self.infinity = infinity
         self.height = height
 
+    def _check(self) -> None:
+        _options.choice("height", self.height, HEIGHTS)
+
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         self._power = checked_power("power", self.power)
-        _options.choice("height", self.height, HEIGHTS)
         super()._fit_columns(columns)
 
     def _vector(self, dgm: Diagram, place: int) -> Any:
@@ -229,9 +233,8 @@ class LifeEntropy(_OnGrid):
         self.unit = unit
         self.normalised = normalised
 
-    def _fit_columns(self, columns: list[list[Diagram]]) -> None:
+    def _check(self) -> None:
         checked_entropy(self.unit, self.normalised, (True, False))
-        super()._fit_columns(columns)
 
     def _vector(self, dgm: Diagram, place: int) -> Any:
         return life_entropy(dgm, self.ranges_[place], self._count, self.unit, self.normalised)

@@ -38,6 +38,23 @@ def samples_of(X: Any) -> Samples:
     return _rows_of(list(X))
 
 
+def samples_like(fitted: Sequence[str], X: Any) -> Samples:
+    """Samples with the diagrams of those that were fitted, whose names are given.
+
+    Lists of arrays have no names of their own: there the numbers of diagrams have to be the same.
+    """
+    samples = samples_of(X)
+    if not samples.rows:
+        return samples
+    if len(samples.names) != len(fitted):
+        raise UsageError(f"X: found {len(samples.names)} diagrams for each sample, expected "
+                         f"{len(fitted)} as in the samples that were fitted")
+    if list(fitted) != samples.names and "dgm0" not in (fitted[0], samples.names[0]):
+        raise UsageError(f"X: found diagrams {', '.join(samples.names)}, expected "
+                         f"{', '.join(fitted)}, in the order of the samples that were fitted")
+    return samples
+
+
 def _rows_of(samples: Sequence[Any]) -> Samples:
     samples = [sample[0] if isinstance(sample, (list, tuple)) and len(sample) == 1
                and isinstance(sample[0], Barcode) else sample for sample in samples]
@@ -73,10 +90,14 @@ def _parts_of(sample: Any) -> Sequence[Any] | None:
     if not isinstance(sample, (list, tuple)):
         return None
     # A list of pairs of numbers is a diagram.
-    if sample and all(not isinstance(part, np.ndarray) and np.ndim(part) == 1 and len(part) == 2
-                      for part in sample):
-        return None
-    return sample
+    return None if sample and all(map(_is_pair, sample)) else sample
+
+
+def _is_pair(part: Any) -> bool:
+    try:
+        return not isinstance(part, np.ndarray) and np.ndim(part) == 1 and len(part) == 2
+    except ValueError:  # of lists of different lengths; who reads them says what is wrong
+        return False
 
 
 def _of_giotto(X: Any) -> Samples:
@@ -85,6 +106,9 @@ def _of_giotto(X: Any) -> Samples:
         raise UsageError(f"X: found an array of shape {array.shape}, {_EXPECTED}")
     numbers = _arrays.as_float64(array, "X")
     dims = np.unique(numbers[:, :, 2])
+    if len(array) and not len(dims):
+        raise UsageError(f"X: found an array of shape {array.shape}, expected at least one bar of "
+                         "each dimension; one of length 0 stands for none")
     if not (dims == np.floor(dims)).all() or (dims < 0).any():
         raise UsageError(f"X: found dimensions {dims}, expected whole numbers from 0 on")
     # Bars of length 0 are there to fill up.

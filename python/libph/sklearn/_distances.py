@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from joblib import effective_n_jobs
@@ -69,8 +68,7 @@ class DiagramDistances(BesideFitted):
                 relative_error=self.relative_error, directions=self.directions,
                 threads=effective_n_jobs(self.n_jobs))
             for k in range(self.n_features_in_)]
-        result: NDArray[np.float64] = np.linalg.norm(of_diagrams, norm, axis=0)
-        return result
+        return of_diagrams[0] if len(of_diagrams) == 1 else _joined(np.array(of_diagrams), norm)
 
 
 class DiagramKernels(BesideFitted):
@@ -121,3 +119,12 @@ class DiagramKernels(BesideFitted):
             for k in range(self.n_features_in_)]
         result: NDArray[np.float64] = np.sum(of_diagrams, axis=0)
         return result
+
+
+def _joined(distances: NDArray[np.float64], norm: float) -> NDArray[np.float64]:
+    """The norm along the first axis, without a power that overflows or vanishes."""
+    largest = distances.max(axis=0)
+    largest[(largest == 0) | (largest == math.inf)] = 1
+    unit = np.ldexp(1.0, np.frexp(largest)[1] - 1)  # powers of 2: nothing is rounded
+    result: NDArray[np.float64] = np.linalg.norm(distances / unit, norm, axis=0) * unit
+    return result

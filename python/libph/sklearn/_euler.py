@@ -138,6 +138,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
             if finite.size:
                 ends = sign * float(finite.min()), sign * float(finite.max())
                 low, high = min(low, *ends), max(high, *ends)
-        if self.threshold is not None and low < self.threshold:
-            high = min(high, self.threshold)
+        if self.threshold is not None:
+            threshold = _options.real("threshold", self.threshold)
+            high = min(high, threshold) if low < threshold else high
         return widened(low, high)

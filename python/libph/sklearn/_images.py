@@ -64,11 +64,13 @@ class PersistenceImage(Vectoriser):
         self.pixel = pixel
         self.orientation = orientation
 
+    def _check(self) -> None:
+        _options.choice("pixel", self.pixel, PIXELS)
+        _options.choice("orientation", self.orientation, ORIENTATIONS)
+
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         self._pixels = checked_resolution(self.resolution)
         self._power = checked_power("weight_power", self.weight_power)
-        _options.choice("pixel", self.pixel, PIXELS)
-        _options.choice("orientation", self.orientation, ORIENTATIONS)
         births = ranges_of("birth_range", self.birth_range, len(columns))
         lengths = ranges_of("persistence_range", self.persistence_range, len(columns))
         pairs = [ranges_of_image(dgms, b, p)

@@ -71,7 +71,7 @@ class Entropy(Vectoriser):
         self.unit = unit
         self.normalised = normalised
 
-    def _fit_columns(self, columns: list[list[Diagram]]) -> None:
+    def _check(self) -> None:
         checked_entropy(self.unit, self.normalised, NORMS)
 
     def _vector(self, dgm: Diagram, place: int) -> Any:

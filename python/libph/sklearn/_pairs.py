@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from .._errors import UsageError
 from ._base import MakesTables, TakesDiagrams
-from ._diagrams import Samples, samples_of
+from ._diagrams import Samples, samples_like, samples_of
 
 
 class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
@@ -51,10 +51,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
             A row for each sample, a column for each of those that were fitted.
         """
         check_is_fitted(self, "n_features_in_")
-        samples = samples_of(X)
-        if samples.rows and len(samples.rows[0]) != self.n_features_in_:
-            raise UsageError(f"X: found {len(samples.rows[0])} diagrams for each sample, expected "
-                             f"{self.n_features_in_} as in the samples that were fitted")
+        samples = samples_like(self._fitted.names, X)
         return self._in_table(X, self._all(samples, self._fitted))
 
     def fit_transform(self, X: Any, y: Any = None, **fit_params: Any) -> Any:

@@ -16,6 +16,7 @@ from .._barcodes import Barcode
 from .._batch import computed
 from .._compute import alpha, cubical, rips
 from .._errors import UsageError
+from .._requests import PointImage
 from .._vectors import checked_infinity, settled
 from ._base import MakesTables, TakesLists
 
@@ -72,7 +73,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
         if self.output == "giotto":
             return _giotto(rows, dims)
-        is_one = np.ndim(self.homology_dimensions) == 0
+        is_one = not _are_several(self.homology_dimensions)
         return self._in_table(X, [row[0] for row in rows] if is_one else rows)
 
     def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
@@ -93,10 +94,10 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
     def _checked(self) -> list[int]:
         """The dimensions; all parameters are as they should be."""
         given = self.homology_dimensions
-        if isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
-            dims = [_options.whole("homology_dimensions", dim, 0) for dim in given]
-        else:
-            dims = [_options.whole("homology_dimensions", given, 0)]
+        dims = [_options.whole("homology_dimensions", dim, 0)
+                for dim in (given if _are_several(given) else [given])]
+        if isinstance(given, (set, frozenset)):
+            dims.sort()
         if not dims or len(set(dims)) < len(dims):
             raise _options.refuse("homology_dimensions", given, "different dimensions")
         _options.choice("output", self.output, _OUTPUTS)
@@ -121,6 +122,12 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
             endless = np.flatnonzero(dgm[:, 1] == math.inf)
             dgm = np.delete(dgm, endless[:1], axis=0)
         return dgm if self.infinity is None else settled(dgm, self.infinity, f"H{dim}")
+
+
+def _are_several(dims: Any) -> bool:
+    """Whether it is a list of dimensions, or the like."""
+    return (isinstance(dims, Iterable) and not isinstance(dims, (str, bytes))
+            and getattr(dims, "ndim", 1) > 0)
 
 
 def _own(transformer: Any, names: list[str]) -> dict[str, Any]:
@@ -312,10 +319,12 @@ class CubicalPersistence(_Persistence):
 
     def _samples(self, X: Any) -> Sequence[Any]:
         samples = list_of(X, "images", 1)
-        most = max(np.atleast_1d(self.homology_dimensions))
+        most = max(self._checked())
         for i, sample in enumerate(samples):
-            axes = np.ndim(sample)
-            if most > axes or (most == axes and not self.periodic):
+            image = sample.image if isinstance(sample, PointImage) else sample
+            axes = _arrays.as_array(image, f"sample {i}").ndim
+            if most > axes or (most == axes and not any(
+                    _options.axes("periodic", self.periodic, axes))):
                 raise UsageError(f"sample {i}: homology_dimensions: found {most}, expected less "
                                  f"than the {axes} axes of the image; [X] is a list of one image")
         return samples

@@ -6,18 +6,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
 from sklearn.base import BaseEstimator, ClassNamePrefixFeaturesOutMixin, TransformerMixin
-from sklearn.metrics import pairwise_distances
-from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
 from .. import _options
-from .._points import farthest_points
+from .._points import farthest_points, root_mean_square
 from ._base import neighbours_wanted, table_of
-
-# What libph and scikit-learn both know by these names, with the same numbers.
-METRICS = ["euclidean", "l2", "manhattan", "l1", "cityblock", "chebyshev", "cosine"]
+from ._neighbours import METRICS, Neighbours, distances_between
 
 
 class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
@@ -68,7 +63,7 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         metric = _options.choice("metric", self.metric, METRICS)
         points = table_of(self, X, reset=True)
         neighbours_wanted(k, len(points))
-        self._search = NearestNeighbors(n_neighbors=k, metric=metric, n_jobs=self.n_jobs).fit(points)
+        self._search = Neighbours(points, k, metric, self.n_jobs)
         self._n_features_out = 1
         return self
 
@@ -86,9 +81,8 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
             One column.
         """
         check_is_fitted(self)
-        distances = self._search.kneighbors(table_of(self, X, reset=False))[0]
-        column: NDArray[np.float64] = np.sqrt(np.mean(distances**2, axis=1))[:, None]
-        return column
+        distances, _ = self._search.of(table_of(self, X, reset=False))
+        return root_mean_square(distances)[:, None]
 
 
 class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
@@ -166,10 +160,5 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
             A row for each point, a column for each landmark.
         """
         check_is_fitted(self)
-        points = table_of(self, X, reset=False)
-        distances: NDArray[np.float64]
-        if self.metric == "euclidean":  # scikit-learn's are of dot products: 1e-8 where 0 is
-            distances = cdist(points, self.points_)
-        else:
-            distances = pairwise_distances(points, self.points_, metric=self.metric)
-        return distances
+        metric = _options.choice("metric", self.metric, METRICS)
+        return distances_between(table_of(self, X, reset=False), self.points_, metric)

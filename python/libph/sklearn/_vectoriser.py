@@ -13,7 +13,7 @@ from .._errors import UsageError
 from .._vectors import Diagram, Range, checked_infinity, settled
 from .._vectors._ranges import checked_range
 from ._base import MakesTables, TakesDiagrams
-from ._diagrams import Samples, samples_of
+from ._diagrams import Samples, samples_like, samples_of
 
 
 class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
@@ -40,6 +40,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
             raise UsageError("X: found no samples, expected at least one")
         columns = [list(column) for column in zip(*self._settled(samples))]
         self.n_features_in_ = len(columns)
+        self._check()
         self._diagram_names = samples.names
         self._fit_columns(columns)
         return self
@@ -61,10 +62,8 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
             A row for each sample: what is said of its first diagram, of its second, and so on.
         """
         check_is_fitted(self, "n_features_in_")
-        samples = samples_of(X)
-        if samples.rows and len(samples.rows[0]) != self.n_features_in_:
-            raise UsageError(f"X: found {len(samples.rows[0])} diagrams for each sample, expected "
-                             f"{self.n_features_in_} as in the samples that were fitted")
+        self._check()
+        samples = samples_like(self._diagram_names, X)
         vectors = np.empty((len(samples.rows), self._n_features_out))
         for i, row in enumerate(self._settled(samples)):
             vectors[i] = np.concatenate([np.ravel(self._vector(dgm, j)) for j, dgm in enumerate(row)])
@@ -100,6 +99,9 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         rule = checked_infinity(self.infinity, self._may_keep)
         return [[settled(dgm, rule, f"sample {i}, {name}")
                  for dgm, name in zip(row, samples.names)] for i, row in enumerate(samples.rows)]
+
+    def _check(self) -> None:
+        """Refuses parameters that `transform` reads, which may have changed since `fit`."""
 
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         """Of each place in a sample the diagrams that are there."""

@@ -268,3 +268,11 @@ def test_modules(rng):
     assert same(Flag(fewer).bars(2), Flag(distances.astype(float)).bars(2))
     cut = collapse.flag_complex_collapse_edges_dense(distances, 1.0)
     assert set(cut[2].tolist()) == {1.0}
+    missing = distances.copy()
+    missing[2, 5] = np.nan
+    with pytest.raises(ph.DataError, match="dm: row 2, column 5: found nan"):
+        collapse.flag_complex_collapse_edges_dense(missing)
+    with pytest.raises(ph.DataError, match="data: entry 1: found nan"):
+        collapse.flag_complex_collapse_edges_coo([0, 0], [1, 2], [1, np.nan])
+    with pytest.raises(ph.UsageError, match="dm: found an array of shape .3,., expected a square"):
+        collapse.flag_complex_collapse_edges_dense([1, 2, 3])

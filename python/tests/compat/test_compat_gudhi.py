@@ -378,9 +378,21 @@ def test_reduce_graph(rng):
     assert reduce_graph(sparse.coo_matrix((3, 3))).shape == (3, 3)
 
 
+@pytest.mark.parametrize("edges, words", [
+    (([np.nan], ([0], [1])), "row 0, column 1: found nan, expected a number"),
+    (([1.0, 2.0], ([0, 1], [1, 0])), "mirror image: found 1.0 and 2.0, expected both equal"),
+    (([3.0, 1.0], ([2, 0], [2, 1])), "row 2, column 2: found 3.0, expected none on the diagonal")])
+def test_edges_that_are_refused(edges, words):
+    with pytest.raises(ph.DataError, match=f"input_edges: .*{words}"):
+        reduce_graph(sparse.coo_matrix(edges, shape=(3, 3)))
+
+
 def test_classes_for_scikit_learn(rng):
     sklearn = pytest.importorskip("sklearn", reason="scikit-learn is not installed")
     from libph.compat.gudhi.sklearn import CubicalPersistence, RipsPersistence
+    for kind in (RipsPersistence, CubicalPersistence):
+        with pytest.raises(ph.UsageError, match="homology_dimensions: found .., expected a"):
+            kind([]).fit([])
     clouds = [rng.random((n, 2)) for n in (20, 30)]
     expected = [ph.rips(cloud, field=11) for cloud in clouds]
     squares = [squareform(pdist(cloud)) for cloud in clouds]

@@ -78,6 +78,16 @@ def test_zeros_that_are_stored_are_distances():
     assert of_matrix(dense)["dgms"][0].tolist() == [[0, 2], [0, INF]]
 
 
+def test_a_diagonal_that_is_stored_twice():
+    places = [0, 0, 0], [0, 0, 1]
+    for same_births in (0.5, INF):
+        matrix = sparse.coo_matrix(([same_births, same_births, 1.0], places), shape=(2, 2))
+        assert len(of_matrix(matrix)["dgms"][0]) > 0
+    differ = sparse.coo_matrix(([0.5, 0.7, 1.0], places), shape=(2, 2))
+    with pytest.raises(ph.DataError, match="row 0, column 0: found 0.5 and 0.7, expected both"):
+        of_matrix(differ)
+
+
 def test_asymmetry_by_rounding_is_none_and_the_upper_entry_counts():
     matrix = np.array([[0, 1, 2], [1 + 1e-9, 0, 1], [2, 1, 0]])
     assert 1.0 in of_matrix(matrix, dtype=float)["dgms"][0]

@@ -281,6 +281,20 @@ def test_entries_that_are_stored_twice():
         assert bars.dgm(0)[0, 1] == value
 
 
+def test_a_diagonal_that_is_stored_twice():
+    def births(*diagonal, **keywords):
+        matrix = sparse.coo_matrix(([*diagonal, 1.0], ([0] * len(diagonal) + [0],
+                                                       [0] * len(diagonal) + [1])), shape=(2, 2))
+        return ph.rips(matrix, metric="precomputed", diagonal="births", **keywords).dgm(0)[:, 0]
+
+    assert births(0.5, 0.5).tolist() == births(0.5).tolist() == [0, 0.5]
+    for pair in ((0.5, 0.7), (0.7, 0.5)):
+        with pytest.raises(ph.DataError, match="row 0, column 0: found 0.5 and 0.7, expected both"):
+            births(*pair)
+        for which, value in (("max", 0.7), ("min", 0.5), ("lower", pair[1])):
+            assert births(*pair, symmetrise=which).tolist() == [0, value]
+
+
 def test_rounding_is_accepted():
     matrix = DISTANCES * (1 + 1e-9 * np.tri(30))
     matrix[0, 0] = 1e-9
@@ -323,3 +337,13 @@ def test_delay_embedding():
 def test_delay_embedding_refuses(series, arguments, options, error, words):
     with pytest.raises(error, match=words):
         ph.delay_embedding(series, *arguments, **options)
+
+
+def test_delay_embedding_needs_room_for_what_it_copies(monkeypatch):
+    monkeypatch.setattr(ph._core, "memory_left", lambda: 2**24)
+    series = np.zeros((400_000, 2))
+    for arguments, given in (((3, 2), series), ((3, 1), np.asfortranarray(series))):
+        with pytest.raises(ph.MemoryLimitError, match="a result of shape .* exceed the memory"):
+            ph.delay_embedding(given, *arguments)
+    assert np.shares_memory(ph.delay_embedding(series, 3), series)  # no copy
+    assert ph.delay_embedding(np.empty((6, 0)), 2).shape == (5, 0)

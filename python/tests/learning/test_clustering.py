@@ -34,6 +34,52 @@ def test_distance_to_measure(rng, metric):
                        np.sqrt((near**2).mean(axis=1)), rtol=1e-9)
 
 
+@pytest.mark.parametrize("metric", ["euclidean", "l2", "manhattan", "l1", "chebyshev"])
+@pytest.mark.parametrize("offset, scale", [(1e7, 1), (0, 1e200), (0, 1e-200), (1e5, 1e-3)])
+@pytest.mark.parametrize("k", [1, 5, 40])
+def test_offsets_and_scales_cost_no_digits(rng, metric, offset, scale, k):
+    X = rng.normal(size=(60, 20)) * scale + offset
+    found = DistanceToMeasure(k, metric=metric).fit_transform(X)
+    assert np.allclose(found[:, 0], ph.distance_to_measure(X, k, metric=metric), rtol=1e-12, atol=0)
+    found = FarthestPoints(5, metric=metric).fit(X)
+    assert np.array_equal(found.transform(X)[found.indices_, range(5)], np.zeros(5))
+    new = rng.normal(size=20) * scale + offset
+    expected = [ph.rips([new, point], metric=metric).deaths[0] for point in found.points_]
+    assert np.allclose(found.transform([new])[0], expected, rtol=1e-12, atol=0)
+
+
+def test_rows_far_from_the_points_that_were_fitted():
+    estimator = DistanceToMeasure(2).fit([[1e-200], [3e-200], [4e-200]])
+    for row, expected in ((1e200, 1e200), (-3, 3), (0, 5**0.5 * 1e-200)):
+        assert estimator.transform([[row]]) == pytest.approx(expected, rel=1e-12, abs=0)
+
+
+def test_cosines_of_small_angles(rng):
+    angles = 1e-9 * np.array([0, 1, 3, 7])
+    X = np.column_stack([np.cos(angles), np.sin(angles)]) * [[1], [1e200], [1e-200], [5]]
+    expected = ph.distance_to_measure(X, 2, metric="cosine")
+    assert expected[0] == pytest.approx(1e-18 / 8**0.5)
+    found = DistanceToMeasure(2, metric="cosine").fit_transform(X)
+    assert np.allclose(found[:, 0], expected, rtol=1e-6, atol=0)
+    far = FarthestPoints(4, metric="cosine").fit(X).transform(X[:1])[0]
+    assert np.allclose(np.sort(far), np.square(angles) / 2, rtol=1e-6, atol=0)
+    for estimator in (DistanceToMeasure(1, metric="cosine"), FarthestPoints(1, metric="cosine"),
+                      PersistenceClustering(1, metric="cosine")):
+        with pytest.raises(ph.DataError, match="(row|point) 1: found the zero vector"):
+            estimator.fit([[1, 0], [0, 0]])
+
+
+@pytest.mark.parametrize("scale", [1, 1e200, 1e-200])
+def test_clusters_at_any_scale(rng, scale):
+    X = np.vstack([rng.standard_normal((80, 2)), rng.standard_normal((80, 2)) + 9])
+    found = PersistenceClustering(10).fit(X)
+    scaled = PersistenceClustering(10).fit(X * scale)
+    assert found.n_clusters_ > 1 and np.array_equal(found.labels_, scaled.labels_)
+    distances = scipy.spatial.distance.cdist(X, X) * scale
+    again = PersistenceClustering(10, metric="precomputed").fit(distances)
+    assert adjusted_rand_score(again.labels_, found.labels_) == 1
+
+
 def test_more_neighbours_than_points():
     for estimator in (DistanceToMeasure(4), PersistenceClustering(4)):
         with pytest.raises(ph.UsageError, match="k: found 4, expected at most .* n_samples = 3"):

@@ -32,8 +32,21 @@ def test_a_betti_function_is_the_curve_at_any_value(bars):
 
 
 def test_betti_curves_beyond_all_values(bars):
-    assert bars.betti_curve([-np.inf, 1e300, np.inf, np.nan]).tolist() == [
-        [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]
+    assert bars.betti_curve([-np.inf, 1e300, np.inf]).tolist() == [
+        [0, 1, 0], [0, 0, 0], [0, 0, 0]]
+
+
+@pytest.mark.parametrize("t, words", [
+    (np.nan, "t: found nan, expected a number"), ([0, np.nan], "t: entry 1: found nan"),
+    ([[0, 1], [np.nan, 2]], "t: row 1, column 0: found nan"), ("hello", "t: found str"),
+    (1j, "t: found complex numbers"), (None, "t: found NoneType")])
+def test_functions_are_asked_for_numbers(t, words):
+    bars = ph.rips([[0], [1], [3]])
+    for function in (bars.betti_function(0), bars.exact_landscape(0, infinity="drop")[0]):
+        with pytest.raises(ph.Error, match=words):
+            function(t)
+    with pytest.raises(ph.DataError, match="grid: entry 1: found nan, expected a number"):
+        bars.betti_curve([0, np.nan])
 
 
 def test_the_euler_curve_of_a_barcode_is_an_alternating_sum(bars):

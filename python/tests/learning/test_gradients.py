@@ -120,6 +120,23 @@ def distances(rng):
     return scipy.spatial.distance.squareform(rng.uniform(0.5, 1.0, 14 * 13 // 2))
 
 
+@pytest.mark.parametrize("scale", [1e200, 1e-200])
+@pytest.mark.parametrize("how", [
+    {"weights": True, "weight_exponent": 2}, {"weights": True, "weight_exponent": 1},
+    {"weights": "dtm", "dtm_neighbors": 3},
+    {"weights": "dtm", "dtm_neighbors": 3, "weight_exponent": 2}], ids=str)
+def test_a_gradient_is_the_same_at_any_scale(rng, how, scale):
+    X, weights = rng.standard_normal((14, 2)), rng.random(14)
+    found = []
+    for unit in (1, scale):
+        given = weights * unit if how["weights"] is True else how["weights"]
+        bars = ph.rips(X * unit, **{**how, "weights": given})
+        beside = {"weights": given} if how["weights"] is True else {}
+        found.append(pullback(bars, X * unit, np.ones(len(bars)), np.isfinite(bars.deaths),
+                              **beside))
+    assert np.abs(found[0]).max() > 0.1 and np.allclose(found[0], found[1], rtol=1e-9)
+
+
 def test_condensed_distances(rng, distances):
     check(functools.partial(ph.rips, metric="precomputed"),
           scipy.spatial.distance.squareform(distances), rng)

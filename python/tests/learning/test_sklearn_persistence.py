@@ -199,3 +199,27 @@ def test_ctrl_c_stops_all_samples(slow):
 def test_no_samples():
     assert RipsPersistence().fit_transform([]) == []
     assert RipsPersistence(output="giotto").fit_transform([]).shape == (0, 2, 3)
+
+
+@pytest.mark.parametrize("dims", [{1, 0}, np.array([0, 1]), range(2)], ids=str)
+def test_collections_of_dimensions(rng, dims):
+    clouds, images = rng.random((2, 9, 2)), rng.random((2, 5, 5))
+    for kind, samples in ((RipsPersistence, clouds), (CubicalPersistence, images)):
+        assert same(kind(dims).fit_transform(samples), kind((0, 1)).fit_transform(samples))
+    single = RipsPersistence({1}).fit_transform(clouds)
+    assert same(single, RipsPersistence((1,)).fit_transform(clouds))
+
+
+def test_axes_and_images_of_all_kinds(rng):
+    image = rng.random((5, 5))
+    expected = CubicalPersistence((0, 1, 2), periodic=True).fit_transform([image])
+    for axes in (np.array([0, 1]), [True, True], (0, -1)):
+        assert same(CubicalPersistence((0, 1, 2), periodic=axes).fit_transform([image]), expected)
+    for axes in ((), False, [False, False]):
+        with pytest.raises(ph.UsageError, match="found 2, expected less than the 2 axes"):
+            CubicalPersistence(2, periodic=axes).fit([image])
+    of_points = ph.point_image(rng.random((9, 2)), 0.2)
+    found, = CubicalPersistence().fit_transform([of_points])
+    assert same(found, [ph.cubical(of_points).dgm(dim) for dim in (0, 1)])
+    with pytest.raises(ph.DataError, match="sample 0: row 1: found 1 numbers"):
+        CubicalPersistence().fit([[[1, 2], [3]]])

@@ -203,3 +203,44 @@ def test_what_is_no_list_of_diagrams(X, words):
 def test_other_diagrams_than_those_fitted(dgms):
     with pytest.raises(ph.UsageError, match="found 1 diagrams for each sample, expected 2"):
         Entropy().fit(dgms).transform([row[0] for row in dgms])
+
+
+@pytest.mark.parametrize("estimator, wrong", [
+    (Atol(centres=1), {"contrast": "x"}), (Silhouette(), {"height": "bogus"}),
+    (Landscape(), {"height": "bogus"}), (Entropy(), {"unit": "digits"}),
+    (LifeEntropy(), {"normalised": "yes"}), (PersistenceImage(), {"pixel": "round"}),
+    (PersistenceImage(), {"orientation": "up"})], ids=str)
+def test_parameters_that_changed_since_the_fit_are_checked(estimator, wrong):
+    fitted = clone(estimator).fit([[[0, 1], [0, 2]]]).set_params(**wrong)
+    with pytest.raises(ph.UsageError, match=f"{next(iter(wrong))}: found"):
+        fitted.transform([[[0, 1]]])
+
+
+@pytest.mark.parametrize("kind", [Lengths, ph.sklearn.DiagramDistances], ids=of_class)
+def test_diagrams_have_the_names_of_those_that_were_fitted(kind, clouds):
+    table = RipsPersistence(reduced=True).set_output(transform="pandas").fit_transform(clouds)
+    fitted = kind().fit(table)
+    with pytest.raises(ph.UsageError, match="X: found diagrams H1, H0, expected H0, H1, in"):
+        fitted.transform(table[["H1", "H0"]])
+    giotto = RipsPersistence((0, 1), output="giotto", reduced=True).fit_transform(clouds)
+    other = giotto.copy()
+    other[:, :, 2] *= 2
+    expected = fitted.transform(giotto)
+    with pytest.raises(ph.UsageError, match="X: found diagrams H0, H2, expected H0, H1"):
+        fitted.transform(other)
+    without_names = RipsPersistence(reduced=True).fit_transform(clouds)
+    assert np.array_equal(fitted.transform(without_names), expected)
+    assert len(fitted.transform([])) == 0
+
+
+def test_diagrams_that_are_none(clouds):
+    for kind in (BettiCurve, Statistics, ph.sklearn.DiagramDistances, ph.sklearn.DiagramKernels):
+        with pytest.raises(ph.UsageError, match="shape .3, 0, 3., expected at least one bar"):
+            kind().fit_transform(np.empty((3, 0, 3)))
+        with pytest.raises(ph.DataError, match="sample 0, diagram 0: row 1: found 1 numbers"):
+            kind().fit([[[[0, 1], [2]], [[0, 1]]]])
+
+
+def test_the_threshold_of_an_euler_curve_is_a_number():
+    with pytest.raises(ph.UsageError, match="threshold: found 'a', expected a number"):
+        EulerCurve(threshold="a").fit([[[1, 2]]])

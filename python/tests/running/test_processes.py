@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Computations in threads and processes, and at the end of Python."""
 import concurrent.futures
+import copy
 import multiprocessing
 import os
+import pickle
 import textwrap
 import threading
 import time
@@ -127,3 +129,18 @@ def test_import_needs_numpy_only():
         print(others & {"scipy", "sklearn", "pandas", "matplotlib", "tqdm", "pyarrow", "torch"})
     """)
     assert run_python(code).stdout == "set()\n"
+
+
+@pytest.mark.parametrize("kind", ["cycles", "cocycles"])
+def test_chains_are_pickled(rng, kind):
+    for bars in (ph.rips(rng.random((20, 2)), representatives=kind),
+                 ph.cubical(rng.random((6, 7)), representatives=kind)):
+        for i in range(len(bars)):
+            chain = bars.representative(i)
+            for other in (pickle.loads(pickle.dumps(chain)), copy.deepcopy(chain)):
+                assert np.array_equal(other.cells, chain.cells)
+                assert np.array_equal(other.coefficients, chain.coefficients)
+                if kind == "cycles":
+                    assert other.tightness == chain.tightness
+                    assert [loop.vertices.tolist() for loop in other.loops()] == [
+                        loop.vertices.tolist() for loop in chain.loops()]

@@ -111,7 +111,7 @@ DEPTH = np.full((20, 30), 0.5)
     (CLOUD, {"plane": False, "plane_distance": 0.1}, ph.UsageError, "plane_distance: does nothing"),
     (CLOUD, {"voxel": 0}, ph.UsageError, "voxel: found 0"),
     (CLOUD, {"voxel": 1e-40}, ph.UsageError, "voxel: found 1e-40"),
-    (CLOUD, {"supervoxels": 0.001}, ph.UsageError, "spacing: found 0.001"),
+    (CLOUD, {"supervoxels": 0.001}, ph.UsageError, "supervoxels: found 0.001"),
     (CLOUD, {"min_size": 0}, ph.UsageError, "min_size: found 0"),
     (CLOUD, {"crop": [1, 0, 0, 1, 0, 1]}, ph.UsageError, "crop: found"),
     (CLOUD, {"viewpoint": [0, 0, np.inf]}, ph.UsageError, "viewpoint: found"),
@@ -136,6 +136,9 @@ def test_unknown_keywords():
 def test_a_stored_tree_has_no_options(tmp_path):
     found = ph.segment(TABLE)
     found.save(tmp_path / "t.tree")
+    for name, value in (("crop", np.array([0, 1, 0, 1, 0, 1])), ("viewpoint", np.zeros(3))):
+        with pytest.raises(ph.UsageError, match=f"{name}: does nothing for a stored tree"):
+            ph.segment(tmp_path / "t.tree", **{name: value})
     with pytest.raises(ph.UsageError, match="voxel: does nothing for a stored tree"):
         ph.segment(tmp_path / "t.tree", voxel=0.01)
     stored = ph.segment(tmp_path / "t.tree")

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ... import _options
 from ..._barcodes import Barcode
+from ..._barcodes._output import lengths
 from ..._errors import UsageError
 
 
@@ -39,7 +40,7 @@ class Persistence:
         of them die."""
         births, deaths = self._barcode("order").dgm(dim).T
         order = np.lexsort((births, deaths))
-        return order, np.isfinite(deaths[order])
+        return order, deaths[order] < np.inf
 
     def _dgm(self, dim: int) -> NDArray[np.float64]:
         if self._above is not None and dim == self._dims - 1:
@@ -50,7 +51,7 @@ class Persistence:
         bars: list[tuple[int, tuple[float, float]]] = []
         for dim in reversed(range(self._dims)):
             dgm = self._dgm(dim)
-            longest = np.argsort(dgm[:, 0] - dgm[:, 1], kind="stable")
+            longest = np.argsort(-lengths(*dgm.T), kind="stable")
             bars += [(dim, (birth, death)) for birth, death in dgm[longest].tolist()]
         return bars
 
@@ -64,7 +65,7 @@ class Persistence:
     def betti_numbers(self) -> list[int]:
         """How many bars of each dimension never die."""
         self._barcode("betti_numbers")
-        return [int(np.isinf(self._dgm(dim)[:, 1]).sum()) for dim in range(self._dims)]
+        return [int((self._dgm(dim)[:, 1] == np.inf).sum()) for dim in range(self._dims)]
 
     def persistent_betti_numbers(self, from_value: float, to_value: float) -> list[int]:
         """How many bars of each dimension are born up to `from_value` and die after `to_value`."""

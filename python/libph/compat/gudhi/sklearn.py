@@ -47,7 +47,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
         return [dgms[0] for dgms in found] if np.ndim(self.homology_dimensions) == 0 else found
 
     def _dims(self) -> list[int]:
-        if np.ndim(self.homology_dimensions) > 1:
+        if np.ndim(self.homology_dimensions) > 1 or np.size(self.homology_dimensions) == 0:
             raise _options.refuse("homology_dimensions", self.homology_dimensions,
                                   "a dimension, or a list of some")
         return [_options.whole("homology_dimensions", dim, 0)

@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from .... import _options
+from .... import _arrays, _options
+from ...._errors import DataError
 from ...._points import collapse
+from ...._sources import unique_pairs
 
 __all__ = ["reduce_graph"]
 
@@ -26,16 +28,30 @@ def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
     -------
     scipy.sparse.coo_matrix
         Of the same type of numbers.
+
+    Raises
+    ------
+    DataError
+        If a value is NaN, or an edge has two.
     """
     from scipy.sparse import coo_matrix
     _options.whole("nb_iterations", nb_iterations, 0)
     edges = input_edges.tocoo()
+    row, column, values = _arrays.sparse_entries(edges, "input_edges")
+    for wrong, expected in ((np.isnan(values), "a number"),
+                            ((row == column) & (values != 0), "none on the diagonal")):
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            raise DataError(f"input_edges: {_arrays.place_of((row[k], column[k]))}: found "
+                            f"{values[k]}, expected {expected}")
     if nb_iterations == 0 or not edges.nnz:
         return coo_matrix(edges)
+    is_edge = row != column
+    i, j, values = unique_pairs(row[is_edge], column[is_edge], values[is_edge], 0.0, None, "",
+                                "input_edges")
     # libph has no values below 0. What is collapsed depends on their order alone.
-    levels, ranks = np.unique(edges.data, return_inverse=True)
+    levels, ranks = np.unique(values, return_inverse=True)
     size = max(edges.shape)
-    found = collapse(coo_matrix((ranks.astype(np.float64), (edges.row, edges.col)),
-                                shape=(size, size)))
+    found = collapse(coo_matrix((ranks.astype(np.float64), (i, j)), shape=(size, size)))
     data = levels[found.data.astype(np.int64)].astype(edges.data.dtype)
     return coo_matrix((data, (found.row, found.col)), shape=edges.shape)

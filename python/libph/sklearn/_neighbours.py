@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""Distances between the rows of two tables, to the last digits at any offset and scale.
+
+The fast ones of scikit-learn are of dot products, which lose digits where rows are near each other
+and far from 0, or neither. Here they are of differences of coordinates, in a unit in which no square
+of one overflows.
+"""
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
+from sklearn.neighbors import NearestNeighbors
+
+from .. import _sources
+from .._errors import DataError
+
+# What libph and scikit-learn both know by these names, with the same numbers.
+METRICS = ["euclidean", "l2", "manhattan", "l1", "cityblock", "chebyshev", "cosine"]
+
+_Numbers = NDArray[np.float64]
+_ROOM = 400  # rows may be 2**400 times as far from 0 as points: the square of that is a double
+
+
+class Neighbours:
+    """The nearest of some points.
+
+    Parameters
+    ----------
+    points : ndarray
+        A point a row.
+    k : int
+        How many of them are sought.
+    metric : str
+        One of METRICS.
+    n_jobs : int, optional
+        Threads, as scikit-learn counts them.
+    """
+
+    def __init__(self, points: _Numbers, k: int, metric: str, n_jobs: int | None) -> None:
+        self._points, self._name = _comparable(points, metric)
+        self._k = k
+        self._n_jobs = n_jobs
+        self._exponent = _exponent_of(self._points)
+        self._search = self._search_in(self._exponent)
+
+    def _search_in(self, exponent: int) -> NearestNeighbors:
+        # This tree takes differences, which "brute" and hence "auto" do not.
+        search = NearestNeighbors(n_neighbors=self._k, metric=_of_differences(self._name),
+                                  algorithm="kd_tree", n_jobs=self._n_jobs)
+        return search.fit(np.ldexp(self._points, -exponent))
+
+    def of(self, rows: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
+        """Of each row the distances of its k nearest points, ascending, and which they are."""
+        rows = _comparable(rows, self._name)[0]
+        exponent = max(self._exponent, _exponent_of(rows) - _ROOM)
+        search = self._search if exponent == self._exponent else self._search_in(exponent)
+        distances, places = search.kneighbors(np.ldexp(rows, -exponent))
+        return _in_metric(np.ldexp(distances, exponent), self._name), places
+
+
+def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers:
+    """The distance of each row to each point: a row and a column for each."""
+    (rows, name), (points, _) = _comparable(rows, metric), _comparable(points, metric)
+    exponent = max(_exponent_of(rows), _exponent_of(points))
+    distances = cdist(np.ldexp(rows, -exponent), np.ldexp(points, -exponent), _of_differences(name))
+    return _in_metric(np.ldexp(distances, exponent), name)
+
+
+def _comparable(rows: _Numbers, metric: str) -> tuple[_Numbers, str]:
+    """The rows, and the first name of the metric; of cosine distances their directions."""
+    name = _sources.METRICS[metric]
+    if name != "cosine":
+        return rows, name
+    largest = np.abs(rows).max(axis=1, keepdims=True)
+    if not largest.all():
+        raise DataError(f"X: row {int(np.argmin(largest))}: found the zero vector, which has no "
+                        "direction; the cosine distance needs one")
+    rows = rows / largest
+    return rows / np.sqrt((rows**2).sum(axis=1, keepdims=True)), name
+
+
+def _of_differences(name: str) -> str:
+    return {"manhattan": "cityblock", "chebyshev": "chebyshev"}.get(name, "euclidean")
+
+
+def _in_metric(distances: _Numbers, name: str) -> _Numbers:
+    """Of directions x and y the number 1 - cos is |x - y|² / 2, which keeps its digits."""
+    return distances**2 / 2 if name == "cosine" else distances
+
+
+def _exponent_of(rows: _Numbers) -> int:
+    """That of the largest coordinate, as a power of 2."""
+    return int(np.frexp(np.abs(rows).max(initial=0.0))[1])
