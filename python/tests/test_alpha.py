@@ -81,6 +81,7 @@ def first_within(points, reach):
 
 @needs_cgal
 def test_vertices_of_a_tree_are_points():
+    from scipy.cluster.hierarchy import fcluster
     random = np.random.default_rng(9)
     for size in (1, 2, 3, 10, 40):
         for dim in (1, 2, 3):
@@ -100,7 +101,7 @@ def test_vertices_of_a_tree_are_points():
                 assert_array_equal(same, expected[:, None] == expected)
                 assert all(names[name] == name for name in of_point)
             if tree.births.min() < np.inf and is_there.all() and size > 1:
-                joined = scipy.cluster.hierarchy.fcluster(tree.linkage, 0.251, "distance")
+                joined = fcluster(tree.linkage, 0.251, "distance")
                 of_point = tree.components(0.251)
                 assert_array_equal(joined[:, None] == joined, of_point[:, None] == of_point)
 

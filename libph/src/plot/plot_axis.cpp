@@ -37,12 +37,6 @@ double round_step(double rough) {
   return step;
 }
 
-/// Of a text in UTF-8.
-double characters_of(std::string_view text) {
-  return static_cast<double>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 /// Whether numbers of this magnitude are written without a power of ten.
 bool has_plain_labels(int power) { return power >= -3 && power <= 4; }
 
@@ -172,7 +166,8 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   // Long labels need room: at 7 points a digit is about 4 wide.
   for (int count = 5; count >= 2; --count) {
     double needed = 0;
-    for (const Tick& tick : shown) needed += 4.0 * characters_of(tick.label) + 8;
+    for (const Tick& tick : shown)
+      needed += 4.0 * static_cast<double>(characters_of(tick.label).size()) + 8;
     if (needed <= std::abs(to_ - from_) + 8) break;
     shown = ticks(count);
   }
