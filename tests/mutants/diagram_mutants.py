@@ -60,7 +60,7 @@ MUTANTS = [
     ("bootstrap: sums, not means", "libph/src/significance/multiplier_bootstrap.cpp",
      "deviations[k] = largest / count", "deviations[k] = largest", ["significance_tests"]),
     ("permutation test: the observed one is no shuffle", "libph/src/significance/permutation_test.cpp",
-     "(as_low_count + 1) /", "as_low_count /", ["significance_tests"]),
+     "(static_cast<double>(as_low_count) + 1) /", "static_cast<double>(as_low_count) /", ["significance_tests"]),
     ("permutation test: pairs of a bar with itself", "libph/src/significance/permutation_test.cpp",
      "sizes[g] * (sizes[g] - 1)", "sizes[g] * sizes[g]", ["significance_tests"]),
     ("barycentre: the diagonal does not count", "libph/src/diagram/barycentre.cpp",
