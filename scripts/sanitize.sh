@@ -8,9 +8,9 @@
 #   debug       GCC: the checks of libstdc++'s debug mode
 #   valgrind    each eighth of the commands, without CGAL: memory that was never written
 #   integers    Clang: a list, to be judged, of where integers wrap or lose digits, which is defined
-# EVERY=N: each Nth of the commands; REFERENCE: the build to compare with (default: build/release, built
-# here); JOBS: how many at a time; TESTS: a regular expression of the tests that are run. A line for
-# each kind comes last.
+# EVERY=N: each Nth of the commands; SECONDS_EACH: what takes longer is left out, and counted;
+# REFERENCE: the build to compare with (default: build/release, built here); JOBS: how many at a time;
+# TESTS: a regular expression of the tests that are run. A line for each kind comes last.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -42,7 +42,8 @@ build() {
 outputs() {
   local kind=$1 status=0
   shift
-  python3 -B tests/platforms/same_outputs.py --every "${EVERY:-1}" "$REFERENCE" "$@" | tee "build/$kind.log" || status=$?
+  python3 -B tests/platforms/same_outputs.py --every "${EVERY:-1}" --seconds "${SECONDS_EACH:-600}" \
+    "$REFERENCE" "$@" | tee "build/$kind.log" || status=$?
   counts+="${counts:+; }$(tail -1 "build/$kind.log")"
   return "$status"
 }
@@ -62,6 +63,8 @@ run() {
     asan-ubsan|tsan|debug)
       build "$kind" || return
       tests "$kind" || status=$?
+      # In debug mode each search in a sorted range looks at all of it.
+      if [ "$kind" = debug ]; then SECONDS_EACH=${SECONDS_EACH:-20}; fi
       outputs "$kind" "build/$kind" || status=$? ;;
     valgrind)
       build valgrind --target "${programs[@]}" || return

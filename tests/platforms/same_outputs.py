@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Whether programs of two builds print and write the same bytes.
 
-same_outputs.py [--every N] BUILD OTHER [EMULATOR…]. Compared are exit code, standard output and error,
+same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…]. Compared are exit code, standard output and error,
 and each file that is written, but for times and memory, over the commands of commands.py, or each Nth
 of them. EMULATOR runs the programs of OTHER. Numbers of the C library's functions may differ by 1e-13
 of their size; it is said how many outputs do. Where OTHER is built without CGAL, as for other
-platforms, commands with alpha complexes are left out, and counted. The last line has the counts. Exit
-code 0 if nothing else differs.
+platforms, commands with alpha complexes are left out, and counted. So are those that OTHER has not
+done after S seconds. The last line has the counts. Exit code 0 if nothing else differs.
 """
+import argparse
 import itertools
 import math
 import re
@@ -26,8 +27,8 @@ TRIANGULATED = {"alpha", "delaunay-cech", "delaunay-rips"}
 NUMBER = re.compile(rb"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 
-def result_of(build, emulator, command):
-    """Exit code, outputs and files as bytes, by name."""
+def result_of(build, emulator, command, seconds=None):
+    """Exit code, outputs and files as bytes, by name. @throws subprocess.TimeoutExpired"""
     with tempfile.TemporaryDirectory() as folder:
         for file in DATA.iterdir():
             Path(folder, file.name).symlink_to(file)
@@ -37,7 +38,7 @@ def result_of(build, emulator, command):
         if not program.exists():  # for Windows
             program = program.with_name(program.name + ".exe")
         run = subprocess.run([*emulator, str(program), *command.words[1:]], cwd=folder,
-                             capture_output=True, check=False)
+                             capture_output=True, check=False, timeout=seconds)
         outputs = {path.name: path.read_bytes() for path in Path(folder).glob("out*")}
     return {"exit code": b"%d" % run.returncode, "standard output": run.stdout,
             "standard error": run.stderr, **outputs}
@@ -83,17 +84,22 @@ def compare(command, ours, theirs):
 
 
 def main():
-    arguments = sys.argv[1:]
-    step = 1
-    if arguments[0] == "--every":
-        step = int(arguments[1])
-        arguments = arguments[2:]
-    build, other, *emulator = arguments
-    count = compared = refused = close = lacking = 0
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--seconds", type=float)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("other", type=Path)
+    parser.add_argument("emulator", nargs=argparse.REMAINDER)
+    options = parser.parse_args()
+    count = compared = refused = close = lacking = late = 0
     faults = []
-    for command in itertools.islice(commands(), 0, None, step):
-        ours = result_of(Path(build).resolve(), [], command)
-        theirs = result_of(Path(other).resolve(), emulator, command)
+    for command in itertools.islice(commands(), 0, None, options.every):
+        ours = result_of(options.build.resolve(), [], command)
+        try:
+            theirs = result_of(options.other.resolve(), options.emulator, command, options.seconds)
+        except subprocess.TimeoutExpired:
+            late += 1
+            continue
         if lacks_alpha(command, theirs):
             lacking += 1
             continue
@@ -108,6 +114,8 @@ def main():
     differ = sum(not line.startswith("  ") for line in faults)
     in_last_bits = f", {close} in the last bits of functions of the C library" if close else ""
     left_out = f", {lacking} commands left out without CGAL" if lacking else ""
+    if late:
+        left_out += f", {late} not done after {options.seconds:g} s"
     print("\n".join([*faults, f"{count} commands, {compared} outputs, {differ} differ{in_last_bits}{left_out}"]))
     return 1 if faults or not count else 0
 
