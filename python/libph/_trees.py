@@ -49,6 +49,12 @@ class MergeTree:
         self.younger: NDArray[np.int64] = np.asarray(tree.younger)
         self.shape = shape
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        ends = np.column_stack([self.edges, self.elder, self.younger])
+        sizes = np.column_stack([np.asarray(self._tree.elder_sizes),
+                                 np.asarray(self._tree.younger_sizes)])
+        return (_restored, (self.births, self.values, ends, sizes, self.shape))
+
     def __len__(self) -> int:
         return len(self.births)
 
@@ -78,6 +84,11 @@ class MergeTree:
         """
         return np.asarray(self._tree.basins(_options.real("min_persistence", min_persistence),
                                             _options.whole("min_size", min_size, 1)))
+
+
+def _restored(births: NDArray[np.float64], values: NDArray[np.float64], ends: NDArray[np.int64],
+              sizes: NDArray[np.int64], shape: tuple[int, ...] | None) -> MergeTree:
+    return MergeTree(_core.restored_tree(births, values, ends.ravel(), sizes.ravel()), shape)
 
 
 def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> MergeTree:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Known answers, function by function."""
 import itertools
+import pickle
 
 import numpy as np
 import pytest
 import scipy.cluster.hierarchy as hierarchy
 import scipy.sparse as sparse
+from numpy.testing import assert_array_equal
 from scipy.spatial.distance import pdist, squareform
 
 import libph as ph
@@ -242,6 +244,20 @@ def test_basins_of_an_image():
     assert ph.merge_tree(volume).shape == (4, 5, 6)
     cells = ph.merge_tree(volume, construction="cells")
     assert cells.shape == (5, 6, 7) and len(cells) == 5 * 6 * 7
+
+
+def test_merge_trees_can_be_pickled():
+    image = np.random.default_rng(3).normal(size=(4, 5, 6))
+    for tree in (ph.merge_tree(image), ph.merge_tree(image[0], complex="cubical"), ph.merge_tree(np.empty((0, 2)))):
+        again = pickle.loads(pickle.dumps(tree))
+        assert again.shape == tree.shape
+        for name in ("births", "values", "edges", "elder", "younger", "linkage"):
+            assert_array_equal(getattr(again, name), getattr(tree, name))
+        assert_array_equal(again.components(0.1), tree.components(0.1))
+        assert_array_equal(again.basins(0.5, 2), tree.basins(0.5, 2))
+    restored, (births, values, ends, sizes, shape) = tree.__reduce__()
+    with pytest.raises(ph.DataError, match="merge tree: found arrays of different trees"):
+        restored(births, np.zeros(1), np.zeros((1, 4), dtype=np.int64), sizes, shape)
 
 
 def test_merge_tree_of_equal_points():

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ph/merge_tree.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -35,6 +36,32 @@ Block column(const MergeTree& tree, Member Merge::*member) {
   numbers.reserve(tree.merges.size());
   for (const Merge& merge : tree.merges) numbers.push_back(merge.*member);
   return Block::of(std::move(numbers));
+}
+
+/// A tree of the arrays that it gave. @throws Error (bad_data) if they cannot be those of one.
+MergeTree restored(const py::buffer& births, const py::buffer& values, const py::buffer& ends,
+                   const py::buffer& sizes) {
+  MergeTree tree{vector_of<double>(births), {}};
+  const std::vector<double> value = vector_of<double>(values);
+  const std::vector<Index> end = vector_of<Index>(ends), size = vector_of<Index>(sizes);
+  const bool are_there =
+      std::ranges::all_of(end, [&](Index v) { return v >= 0 && v < tree.size(); });
+  if (end.size() != 4 * value.size() || size.size() != 2 * value.size() || !are_there)
+    throw Error(ErrorKind::bad_data,
+                "merge tree: found arrays of different trees, expected those of one");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    Merge merge{.value = value[i],
+                .u = end[4 * i],
+                .v = end[4 * i + 1],
+                .elder = end[4 * i + 2],
+                .younger = end[4 * i + 3],
+                .elder_size = size[2 * i],
+                .younger_size = size[2 * i + 1]};
+    merge.elder_birth = tree.births[static_cast<std::size_t>(merge.elder)];
+    merge.younger_birth = tree.births[static_cast<std::size_t>(merge.younger)];
+    tree.merges.push_back(merge);
+  }
+  return tree;
 }
 
 /// As SciPy has it: two clusters, the value at which they join, how many vertices they have.
@@ -79,6 +106,8 @@ void bind_merge_trees(py::module_& m) {
             return Block::of(t.basins(min_persistence, min_size));
           },
           py::arg("min_persistence"), py::arg("min_size"));
+  m.def("restored_tree", &restored, py::arg("births"), py::arg("values"), py::arg("ends"),
+        py::arg("sizes"));
   m.def("merge_tree", &merge_tree_of, py::arg("recipe"), py::arg("run"), py::arg("size"));
 }
 
