@@ -16,7 +16,7 @@ class Alpha;
 class ExplicitComplex;
 
 /// Two components become one. The elder lives on: the one born first; among equals the one whose
-/// oldest vertex comes first in the order of the filtration (for points, the smaller number).
+/// oldest vertex comes first in the order of the filtration (in Rips: the smaller number).
 struct Merge {
   double value = 0;        ///< filtration value of the edge
   Index u = 0, v = 0;      ///< the edge that joined them: an edge of a minimum spanning forest
