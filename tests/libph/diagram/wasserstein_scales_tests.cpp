@@ -73,6 +73,12 @@ TEST(WassersteinScales, SmallDifferencesOfLongBars) {
       for (Bars* bars : {&a, &b})
         bars->push_back({1, scale * (bar.birth + shift()), scale * (bar.death + shift())});
     }
+    // Short ones, which cost about as much alone as in a pair.
+    for (Bars* bars : {&a, &b})
+      for (int i = random.integer(0, 1); i > 0; --i) {
+        const double birth = 1 + shift();
+        bars->push_back({1, scale * birth, scale * (birth + 4 * apart * random.real())});
+      }
     std::ranges::reverse(b);
     // In units in which the least matching costs about as much as long doubles hold digits of.
     std::vector<bool> used(b.size());
