@@ -9,7 +9,6 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/memory/forecast_text.hpp"
-#include "barcode/parts/cloud_input.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "barcode/parts/cloud_input.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "ph/parts/cloud_part.hpp"
 
