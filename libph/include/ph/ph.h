@@ -51,7 +51,11 @@ typedef enum ph_distance {
   PH_COSINE = 4,
   PH_HAMMING = 5
 } ph_distance;
+#ifdef __cplusplus /* A number that is none may be passed, and is refused. */
+typedef enum ph_number : unsigned int {
+#else
 typedef enum ph_number {
+#endif
   PH_UINT8 = 0,
   PH_UINT16 = 1,
   PH_INT16 = 2,

@@ -227,7 +227,7 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
     count *= static_cast<std::size_t>(extents[k]);
   }
   require(data != nullptr, "data: found NULL");
-  require(type >= PH_UINT8 && type <= PH_FLOAT64, "type: found no ph_number");
+  require(type <= PH_FLOAT64, "type: found no ph_number");
   const auto voxel = static_cast<VoxelType>(type);
   if (strides != nullptr) context.memory.require(count * bytes_of(voxel));  // it may be a copy
   std::vector<std::ptrdiff_t> steps;
