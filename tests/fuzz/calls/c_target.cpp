@@ -162,7 +162,7 @@ struct Strided {
   std::vector<T> memory;
   std::vector<std::int64_t> strides;
   std::size_t first = 0;
-  const T* data() const { return memory.data() + first; }
+  const T* data() const { return memory.empty() ? nullptr : memory.data() + first; }
 };
 
 /// @param numbers in C order.
