@@ -298,8 +298,9 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
     const std::size_t count =
         size < 2 ? 0 : static_cast<std::size_t>(size) * static_cast<std::size_t>(size - 1) / 2;
     context.memory.require(count * sizeof(double));
-    return Rips(DistanceMatrix(size, std::vector<double>(lower, lower + count)), rips_options(o),
-                context);
+    // Options first, then numbers, whatever the order in which a compiler evaluates arguments.
+    const RipsOptions rips = rips_options(o);
+    return Rips(DistanceMatrix(size, std::vector<double>(lower, lower + count)), rips, context);
   });
 }
 
