@@ -79,11 +79,9 @@ void write_surface_file(const std::string& path, const py::buffer& points, Index
   mesh.regular = regular;
   run(options, false, [&](const RunContext&) {
     OutputFile file(path);
-    write_surface(
-        file,
-        PointsView(numbers.data(), static_cast<Index>(numbers.size()) / std::max<Index>(columns, 1),
-                   columns),
-        mesh, surface_format_of_path(path).value_or(SurfaceFormat::ply));
+    write_surface(file,
+                  PointsView(numbers.data(), static_cast<Index>(numbers.size()) / columns, columns),
+                  mesh, surface_format_of_path(path).value_or(SurfaceFormat::ply));
     file.commit();
     return 0;
   });

@@ -24,7 +24,7 @@ Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
 
 /// Whether barcodes that are compared were computed in the same way, as far as their files say it
-/// (JSON does): a note says what the first one that differs has, and the others have not.
+/// (JSON does): a note says in what the first one that differs from the first of all does so.
 class SameOrigin {
  public:
   explicit SameOrigin(Session& session) : session_(session) {}

@@ -51,7 +51,7 @@ typedef enum ph_distance {
   PH_COSINE = 4,
   PH_HAMMING = 5
 } ph_distance;
-#ifdef __cplusplus /* A number that is none may be passed, and is refused. */
+#ifdef __cplusplus /* Any other number may be passed, too, and is refused. */
 typedef enum ph_number : unsigned int {
 #else
 typedef enum ph_number {

@@ -17,6 +17,7 @@ Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
 /// A tree whose vertex v is ids[v] of `size` vertices of the input. The others never enter.
+/// Precondition: an id for each vertex, below `size`.
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
 /// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what

@@ -126,8 +126,11 @@ std::vector<Axis::Tick> Axis::round_values(int count) const {
                most = std::pow(10.0, negated_ ? -low_ : high_);
   const double step = round_step((most - least) / count);
   const int power = magnitude(most), digits = magnitude(step * 1.0001);
+  constexpr double slack = 1e-6;
+  const double last = std::floor(most / step + slack);
   std::vector<Tick> ticks;
-  for (double i = std::ceil(least / step); i * step <= most && std::ssize(ticks) < 4 * count; ++i) {
+  for (double i = std::ceil(least / step - slack); i <= last && std::ssize(ticks) < 4 * count;
+       ++i) {
     const double value = i * step, place = (negated_ ? -1 : 1) * std::log10(value);
     const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
     const std::string label =

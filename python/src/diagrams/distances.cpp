@@ -126,7 +126,8 @@ Block distances(const std::vector<py::buffer>& diagrams,
                          const DistanceMatrix all =
                              diagram_distances(rows.spans(), metric.function(), context);
                          const auto count = static_cast<std::size_t>(size * size);
-                         const MemoryClaim claim(context.memory, 2 * count * sizeof(double));
+                         // The square, and half of it as it was found.
+                         const MemoryClaim claim(context.memory, 3 * count * sizeof(double) / 2);
                          std::vector<double> square;
                          square.reserve(count);
                          for (Index i = 0; i < all.size(); ++i)

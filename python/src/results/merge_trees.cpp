@@ -24,8 +24,8 @@ MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::si
     const Built built = recipe.build(components, context);
     MergeTree tree = std::visit([&](const auto& complex) { return merge_tree(complex, context); },
                                 built.complex);
-    return tree.births.size() >= size ? tree
-                                      : with_input_ids(std::move(tree), recipe.vertex_ids(), size);
+    if (tree.births.size() >= size) return tree;
+    return with_input_ids(std::move(tree), recipe.vertex_ids(), size);
   });
 }
 
