@@ -92,8 +92,8 @@ struct ConfidenceBand {
 /// Source: Chazal, Fasy, Lecci, Rinaldo, Wasserman, Stochastic convergence of persistence
 /// landscapes and silhouettes, 2014: the multiplier bootstrap, with normal multipliers.
 /// O(repetitions · numbers); repetitions are shared by threads.
-/// @param functions a row for each sample, `samples` rows of equal length. Numbers are at most 1e300
-///        in absolute value.
+/// @param functions a row for each sample, `samples` rows of equal length; numbers of at most
+///        1e300 in absolute value.
 /// @param samples at least 2.
 /// @throws Error (usage) on fewer samples, rows that differ in length, or an option out of its
 ///         range; Error (bad_data) on a number beyond that; Error (resource, cancelled).
