@@ -107,7 +107,7 @@ void check_points_alone(PointsView points, const RipsOptions& options) {
 
 RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
                           const RunContext& context) {
-  RipsGraph::check_size(points.rows());
+  RipsGraph::check_arguments(points.rows(), options.threshold);
   check_device(options);
   if (options.only_points)
     check_points_alone(points, options);
@@ -153,7 +153,7 @@ RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& o
 
 template <Metric M>
 RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, const RunContext& context) {
-  RipsGraph::check_size(metric.size());
+  RipsGraph::check_arguments(metric.size(), options.threshold);
   check_device(options, "distances");
   check_together(options);
   const RipsVertices vertices(metric.size(), options.vertices, options.births,

@@ -163,6 +163,7 @@ CALLS = [(room, text, expected, words) for room, rows in {
         ("c.points(field=2**31)", "USAGE", "2147483648"), ("c.points(field=2**62)", "USAGE", "46116860184"),
         ("c.points(threshold=-1.0)", "USAGE", "threshold: found -1"),
         ("c.points(threshold=-inf)", "USAGE", "threshold: found -inf"),
+        ("c.points(with_number(POINTS, (1, 1), nan), threshold=-1)", "USAGE", "threshold: found -1"),
         ("c.points(min_persistence=nan)", "USAGE", "least persistence: found nan"),
         ("c.points(threads=-1)", "USAGE", "threads"),
         ("c.points(memory_limit=1)", "RESOURCE", "memory limit"),

@@ -77,6 +77,9 @@ class RipsGraph {
 
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);
+  /// Before any point or distance is looked at, whatever will be made of them.
+  /// @throws Error (resource, usage) too many points, or a threshold that is negative or NaN.
+  static void check_arguments(Index size, std::optional<double> threshold);
   /// @return the distance, without the sign of a zero. @throws Error (bad_data) on a negative or
   /// NaN one.
   static double checked_distance(Index i, Index j, double value);
@@ -148,7 +151,6 @@ class RipsGraph {
     if (points_) throw_no_edges();
   }
   [[noreturn]] static void throw_no_edges();
-  static void check_arguments(Index size, std::optional<double> threshold);
   /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
   /// As many ranges as keep the threads busy.
