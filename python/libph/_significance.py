@@ -252,7 +252,8 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
     distances : array_like
         A square matrix, as `diagram_distances` makes it; finite.
     groups : sequence
-        Of each barcode its group: numbers or words. At least two groups of at least two.
+        Of each barcode its group: numbers other than NaN, or words. At least two groups of at
+        least two.
     shuffles : int
         How many. The least p is 1 / (shuffles + 1).
     power : float
@@ -287,11 +288,13 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
         raise DataError(f"distances: row {i}, column {i}: found {matrix[i, i]}, expected 0 on the "
                         "diagonal")
     try:
-        labels = np.asarray(groups)
+        labels = np.asarray(groups, dtype=object)  # a number beside words stays a number
+        if any(label != label for label in labels.flat):
+            raise ValueError("NaN is equal to nothing")
         names, numbers = np.unique(labels, return_inverse=True)
-    except (TypeError, ValueError):  # None among them, or lists of different lengths
-        raise _options.refuse("groups", groups, "numbers or words, one for each row of the "
-                              "distances") from None
+    except (TypeError, ValueError):  # None, words beside numbers, lists of different lengths
+        raise _options.refuse("groups", groups, "numbers other than NaN, or words, one for "
+                              "each row of the distances") from None
     if labels.shape != (len(matrix),):
         raise UsageError(f"groups: found an array of shape {labels.shape}, expected {len(matrix)}, "
                          "one for each row of the distances")

@@ -259,6 +259,8 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.confidence_radius(POINTS, alpha=0)", "UsageError", "alpha: found 0"),
         ("ph.confidence_radius(POINTS, size=21)", "UsageError", "size: found 21"),
         ("ph.permutation_test(DISTANCES, range(20))", "UsageError", "groups: found 20"),
+        ("ph.permutation_test(DISTANCES, [0.0, 1.0, 1.0, NAN] * 5)", "UsageError", "groups: found .*numbers other than NaN"),
+        ("ph.permutation_test(DISTANCES, [0, 0, '1', '1'] * 5)", "UsageError", "groups: found .*numbers other than NaN"),
         ("bars.landscape(1, range=(1, 0))", "UsageError", r"range: found \(1, 0\)"),
         ("bars.landscape(1, range=(-1e308, 1e308))", "UsageError", "-1e.308 to 1e.308"),
         ("bars.image(1, bandwidth=NAN)", "UsageError", "bandwidth: found nan"),
