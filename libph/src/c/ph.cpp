@@ -167,7 +167,8 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
 template <class Make>
 ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
-    *out = new ph_barcode(persistence(make(options, context), task_of(options), context));
+    const Options task = task_of(options);  // before any number is looked at
+    *out = new ph_barcode(persistence(make(options, context), task, context));
   });
 }
 

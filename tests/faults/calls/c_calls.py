@@ -181,6 +181,7 @@ CALLS = [(room, text, expected, words) for room, rows in {
         ("c.distances(size=-1)", "USAGE", "negative"), ("c.distances(size=2**31 + 1)", "USAGE", "2.31"),
         ("c.distances(size=2**62)", "USAGE", "2.31"), ("c.distances(None, 2**31)", "USAGE", "found NULL"),
         ("c.distances(size=10**6, memory_limit=10**6)", "RESOURCE", "memory limit"),
+        ("c.distances(with_number(DISTANCES, 3, nan), max_dim=-2)", "USAGE", "max_dim: found -2"),
         ("c.distances(with_number(DISTANCES, 3, nan))", "BAD_DATA", r"distance \(3, 0\): found nan"),
         ("c.distances(with_number(DISTANCES, 44, -1))", "BAD_DATA", r"distance \(9, 8\): found -1"),
         ("c.distances(with_number(DISTANCES, 0, -inf))", "BAD_DATA", r"distance \(1, 0\): found -inf"),
