@@ -33,7 +33,7 @@ def write_inputs(folder):
     path = lambda name: os.path.join(folder, name)
     write_zeros(path("bytes.npy"), "|u1", (360, 360, 360), b"\x03" * 10)  # 44 MiB
     write_zeros(path("long.npy"), "<f4", (300, 200, 200), MIDDLE)  # 46
-    write_zeros(path("picture.npy"), "<f4", (3600, 3600), MIDDLE)  # 49
+    write_zeros(path("picture.npy"), "<f4", (4400, 4400), MIDDLE)  # 74
     write_zeros(path("floats.npy"), "<f8", (190, 190, 190), MIDDLE)  # 52
     write_zeros(path("shown.npy"), "<f8", (9, 1000, 1000), MIDDLE)  # 69
     with open(path("bars.txt"), "w") as file:  # a stored barcode and comments, 60
