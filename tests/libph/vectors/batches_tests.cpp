@@ -149,7 +149,8 @@ TEST(Atol, OfFewBars) {
             (Atol{{{0, 1}, {1, 3}}, {std::sqrt(5) / 2, std::sqrt(5) / 2}}));
   expect_error(ErrorKind::bad_data, "different bars: found 2, expected at least 3",
                [&] { fit_atol(Spans{two}, {.centres = 3}); });
-  expect_error(ErrorKind::bad_data, "different bars: found 0", [&] { fit_atol({}, {.centres = 1}); });
+  expect_error(ErrorKind::bad_data, "different bars: found 0",
+               [&] { fit_atol({}, {.centres = 1}); });
   const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};  // squares between are 0
   EXPECT_EQ(fit_atol(Spans{close}, {.centres = 2, .most_rounds = 0}).centres.size(), 2U);
 }
