@@ -272,8 +272,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
   if (const std::string changes = alternatives(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,
-                fmt::format("{}; peak {}; what would fit: {}; or raise --memory-limit", what, peak,
-                            changes));
+                fmt::format("{}; peak {}; {}; or raise --memory-limit", what, peak, changes));
   throw Error(ErrorKind::resource, fmt::format("{}; peak {}", what, peak));
 }
 

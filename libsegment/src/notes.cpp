@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -47,6 +48,20 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
+}
+
+/// Where coordinates are so large that the distances between them are lost.
+std::string about_precision(const SegmentOptions& o, const Cloud& cloud) {
+  constexpr double much = 0.01;  // of a voxel
+  float largest = 0;
+  for (const float x : cloud.xyz())
+    if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+  const double step = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
+  if (step <= much * o.voxel_size()) return {};
+  return fmt::format(
+      "coordinates reach {:.3g} m, where single precision has steps of {:.2g} m; subtract an "
+      "offset from the points and the viewpoint",
+      largest, step);
 }
 
 /// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.
@@ -115,6 +130,7 @@ std::vector<std::string> notes(const Segmentation& s, const SegmentOptions& opti
   std::vector<std::string> texts;
   if (!s.difference.empty()) texts.push_back("check: " + s.difference);
   if (cloud && depth) texts.push_back(about_camera(*depth, *cloud));
+  if (cloud) texts.push_back(about_precision(options, *cloud));
   if (cloud) texts.push_back(about_viewpoint(options, s));
   if (cloud && s.segments.empty() && cloud->size() > 0)
     texts.push_back(about_units(options, depth != nullptr, *cloud, s));

@@ -46,14 +46,14 @@ class Mesh(NamedTuple):
     values: NDArray[np.float64] | None
 
 
-def path_of(path: Any) -> bytes:
+def path_of(path: Any, argument: str = "path") -> bytes:
     """The path as _core takes it; "-" is a file of this name."""
     try:
         name = os.fsencode(path)
     except (TypeError, UnicodeError):
         name = b""
     if b"\0" in name or not name:
-        raise _options.refuse("path", path, "a path")
+        raise _options.refuse(argument, path, "a path")
     return b"./-" if name == b"-" else name
 
 

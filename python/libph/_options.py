@@ -39,8 +39,8 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
     except TypeError:
         number = least - 1
     if not least <= number <= most:
-        bounds = f"at least {least}" if most == 2**63 - 1 else f"{least} to {most}"
-        raise refuse(name, value, f"a whole number, {bounds}")
+        bounds = f", at least {least}" if most == 2**63 - 1 else f", {least} to {most}"
+        raise refuse(name, value, "a whole number" + bounds * (least > -2**31))
     return number
 
 

@@ -293,7 +293,7 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
             raise ValueError("NaN is equal to nothing")
         names, numbers = np.unique(labels, return_inverse=True)
     except (TypeError, ValueError):  # None, words beside numbers, lists of different lengths
-        raise _options.refuse("groups", groups, "numbers other than NaN, or words, one for "
+        raise _options.refuse("groups", groups, "numbers or words, none of them NaN, one for "
                               "each row of the distances") from None
     if labels.shape != (len(matrix),):
         raise UsageError(f"groups: found an array of shape {labels.shape}, expected {len(matrix)}, "

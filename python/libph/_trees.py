@@ -22,7 +22,8 @@ _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
 class MergeTree:
     """H0 as a tree: how components of the sublevel sets join as the value grows.
 
-    Of points this is single-linkage clustering. Vertices are points, or voxels in C order.
+    Of points this is single-linkage clustering. Vertices are points, or voxels in C
+    order; corners of voxels, where the construction is "cells".
 
     Attributes
     ----------

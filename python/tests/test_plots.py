@@ -81,3 +81,21 @@ def test_the_legend_of_a_barcode_hides_no_bar(name):
              for lines in ax.collections for line in lines.get_paths()]
     assert len(paths) == len(BARCODES[name])
     assert not any(line.intersects_bbox(box, filled=False) for line in paths)
+
+
+def test_infinite_ends_lie_outside():
+    from matplotlib.figure import Figure
+    bars = ph.cubical(np.array([[-np.inf, 3.0, -np.inf, 1.0], [2, 5, 4, 0]]))
+    assert bars.dgm(0)[:, 0].tolist().count(-np.inf) == 2
+    ax = bars.plot(ax=Figure().add_subplot())
+    places = np.sort(ax.collections[0].get_offsets(), axis=0)
+    left, right = ax.get_xlim()
+    assert len(places) == 3 and left < places[0, 0] == places[1, 0] < 0 == places[2, 0] < right
+    ax = bars.plot("barcode", ax=Figure().add_subplot())
+    ends = np.array([segment[:, 0] for segment in ax.collections[0].get_segments()])
+    assert sorted(ends[:, 0] < 0) == [False, True, True] and (ends[:, 1] > 3).sum() == 1
+    early = ph.cubical(np.array([[-np.inf, -np.inf, 2.0, 1.0]]), min_persistence=-1)
+    assert (early.deaths == -np.inf).any()
+    ax = early.plot("barcode", ax=Figure().add_subplot())
+    ends = np.array([segment[:, 0] for segment in ax.collections[0].get_segments()])
+    assert ends[early.deaths == -np.inf].max() < 1

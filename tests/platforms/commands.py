@@ -29,7 +29,7 @@ class Command:
     words: list
     inputs: dict = dataclasses.field(default_factory=dict)  # beside those of examples/data: bytes by name
     may_refuse: bool = False  # by exit code 64: the complex lacks what is asked for
-    # Values are those of exp, log, pow or sin of the C library, whose last bits depend on the
+    # Values are those of exp, log, pow, hypot or sin of the C library, whose last bits depend on the
     # processor: glibc has others for one without fused multiply-add.
     of_library: bool = False
 
@@ -64,9 +64,10 @@ def of_examples():
     yield [SEGMENT, "table.pcd", "--plot", "out.png"]
     for kind in ("statistics", "betti", "landscape", "silhouette", "image", "entropy", "life-entropy", "lengths",
                  "atol", "euler"):
-        yield [VECTORISE, "bars", "--kind", kind, "-o", "out.npy", "--fit", "out.json"]
-    yield [VECTORISE, "bars", "--kind", "atol", "--contrast", "gauss"]
-    yield [VECTORISE, "bars", "--kind", "image", "--power", "1.7"]
+        yield Command([VECTORISE, "bars", "--kind", kind, "-o", "out.npy", "--fit", "out.json"],
+                      of_library=kind in ("image", "atol"))
+    yield Command([VECTORISE, "bars", "--kind", "atol", "--contrast", "gauss"], of_library=True)
+    yield Command([VECTORISE, "bars", "--kind", "image", "--power", "1.7"], of_library=True)
     yield [VECTORISE, "blobs.pgm", "phantom.nii.gz", "--kind", "euler"]
     for options in ([], ["--distance", "wasserstein"], ["--distance", "wasserstein", "--order", "3", "--ground", "1.5"],
                     ["--distance", "sliced"]):
@@ -125,14 +126,15 @@ def of_rounded_values():
         yield Command([*rips, "--max-dim", "2"], points)
         yield Command([*rips, "--significance"], points, of_library=True)
         yield Command([*rips, "--collapse", "on", "--threshold", "0.9"], points)
-        yield Command([*rips, "--dtm", "5", "--weight-exponent", "2"], points)
+        yield Command([*rips, "--dtm", "5", "--weight-exponent", "2"], points, of_library=True)
         yield Command([*rips, "--approximate", "0.3"], points)
         yield Command([*rips, "--subsample-radius", "0.4", "--field", "3"], points)
         yield Command([*rips, "--max-dim", "0"], points)
         yield Command([*rips, "--delay", "2,3"], points)
     yield Command([*rips, "--engine", "beta-skeleton"], planar)
     for exponent in ("1", "2", "inf"):
-        yield Command([*rips, "--vertex-weights", "weights.txt", "--weight-exponent", exponent], entering)
+        yield Command([*rips, "--vertex-weights", "weights.txt", "--weight-exponent", exponent], entering,
+                      of_library=exponent == "2")
     for points in (planar, spatial):
         for kind in ("alpha", "delaunay-cech", "delaunay-rips"):
             yield Command([*rips, "--complex", kind, "--representatives", "cycles"], points)
@@ -171,7 +173,8 @@ def of_rounded_values():
 
 
 def commands():
-    yield from map(Command, of_examples())
+    for words in of_examples():
+        yield words if isinstance(words, Command) else Command(words)
     yield from of_samples()
     yield from of_random_inputs(40)
     yield from of_rounded_values()

@@ -46,6 +46,14 @@ test("the widest gap", () => {
   assert.equal(widestGap([2, 2, 2, 2, 2, 2]).ratio, 1);
 });
 
+test("more equal bars than are looked at, and bars whose length overflows", () => {
+  const equal = (many) => finding(noise(1, Array(many).fill(0.5))).sentence;
+  assert.match(equal(20), /: all are equally long\.$/);
+  assert.match(equal(3000), /: the longest are equally long\.$/);
+  const huge = [0, 1].map((dim) => [dim, -1e308, 1e308]);
+  assert.match(finding([...huge, [1, 0, 1e308]]).sentence, /^One loop is longer than any number: /);
+});
+
 test("a few loops and no noise: all of them", () => {
   const points = [[0, 0, kNever], ...noise(0, [0.14, 0.13, 0.12], 0)];
   const two = finding([...points, [1, 0.153, 1.657], [1, 0.107, 0.82]]);

@@ -139,7 +139,11 @@ class Alternatives {
       const BuiltComplex built =
           build_complex(data_.read, data_.name, data_.dropped, arguments, trial);
       const Estimate e = estimate(built.complex, arguments.options, trial);
-      if (e.bytes_high > static_cast<double>(context_.memory.limit()) + kBesideLimit) return false;
+      const auto limit = static_cast<double>(context_.memory.limit());
+      // Images in slabs fit themselves to the limit: beside a small one that would be all.
+      const bool is_image = std::holds_alternative<Image>(data_.read.data);
+      const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
+      if (e.bytes_high > limit + beside) return false;
       found_.push_back(fmt::format("{} ({} to {})", change, format_size(e.bytes_low),
                                    format_size(e.bytes_high)));
       return true;
@@ -246,8 +250,13 @@ class Alternatives {
   }
 
   int default_max_dim() const {
-    if (const auto* image = std::get_if<Image>(&data_.read.data))
-      return static_cast<int>(image->dim());
+    if (const auto* image = std::get_if<Image>(&data_.read.data)) {
+      const auto& periodic = arguments_.cubical.periodic;
+      const auto axes = static_cast<std::ptrdiff_t>(image->dim());
+      // Bars of as many dimensions as there are axes are there only on a torus.
+      const bool is_torus = std::count(periodic.begin(), periodic.end(), true) >= axes;
+      return static_cast<int>(axes) - (is_torus ? 0 : 1);
+    }
     if (const auto* points = std::get_if<Points>(&data_.read.data); points && arguments_.voxel)
       return static_cast<int>(points->cols());
     return 1;
@@ -272,7 +281,9 @@ std::string alternatives(const Job& job, const Arguments& arguments, app::Sessio
         Input::open(files::path_of(job.input), &session.context(), Input::Excess::stays_in_file);
     const NamedData data = read_input(input, arguments, session.context());
     const auto found = Alternatives(data, arguments, session.context()).find();
-    return fmt::format("{}", fmt::join(found, "; "));
+    if (found.empty()) return "";
+    const bool is_image = std::holds_alternative<Image>(data.read.data);
+    return fmt::format("what {} fit: {}", is_image ? "may" : "would", fmt::join(found, "; "));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
     return "";

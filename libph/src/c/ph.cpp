@@ -101,8 +101,8 @@ ph_options complete(const ph_options* given) {
   if (given == nullptr) return options;
   if (given->size < sizeof(given->size) || given->size > sizeof(options))
     throw Error(ErrorKind::usage,
-                fmt::format("ph_options: found size {}, expected at most {}: call ph_options_init",
-                            given->size, sizeof(options)));
+                fmt::format("ph_options: found size {}, expected {} to {}: call ph_options_init",
+                            given->size, sizeof(given->size), sizeof(options)));
   std::memcpy(&options, given, given->size);
   return options;
 }
@@ -156,7 +156,9 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
     std::stop_source stop;
     RunContext context;
     context.stop = stop.get_token();
-    require(options.threads >= 0, "ph_options::threads: found less than 0");
+    if (options.threads < 0)
+      throw Error(ErrorKind::usage, fmt::format("ph_options::threads: found {}, expected 0 or more",
+                                                options.threads));
     context.threads = options.threads;
     if (options.memory_limit != 0) context.memory.set_limit(options.memory_limit);
     watched(options, stop, [&] { compute(options, context); });
@@ -207,7 +209,10 @@ Rips rips_of(PointsView points, const ph_options& options, const RunContext& con
 
 PointsView points_of(const double* data, std::int64_t rows, std::int64_t columns,
                      std::int64_t row_stride, std::int64_t column_stride) {
-  require(rows >= 0 && columns >= 0, "points: found a negative number of rows or columns");
+  if (rows < 0 || columns < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("points: found {} rows of {} columns, expected 0 or more of each", rows,
+                            columns));
   require(data != nullptr || rows == 0 || columns == 0, "data: found NULL");
   return {data, rows, columns, row_stride, column_stride};
 }
@@ -228,7 +233,10 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
     count *= static_cast<std::size_t>(extents[k]);
   }
   require(data != nullptr, "data: found NULL");
-  require(type <= PH_FLOAT64, "type: found no ph_number");
+  if (type > PH_FLOAT64)
+    throw Error(ErrorKind::usage,
+                fmt::format("type: found {}, expected a ph_number, 0 to {}",
+                            static_cast<unsigned>(type), static_cast<unsigned>(PH_FLOAT64)));
   const auto voxel = static_cast<VoxelType>(type);
   if (strides != nullptr) context.memory.require(count * bytes_of(voxel));  // it may be a copy
   std::vector<std::ptrdiff_t> steps;

@@ -17,7 +17,8 @@ bool is_field_characteristic(std::int64_t p) {
 
 Zp::Zp(std::int64_t p) : p_(p) {
   if (!is_field_characteristic(p)) {
-    throw Error(ErrorKind::usage, "the field needs a prime below 2^31, found " + std::to_string(p));
+    throw Error(ErrorKind::usage,
+                "field: found " + std::to_string(p) + ", expected a prime below 2^31");
   }
 }
 

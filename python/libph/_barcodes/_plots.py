@@ -2,7 +2,7 @@
 """Pictures with matplotlib: they return the Axes and leave global settings alone."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,23 +28,33 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, noise: float | None, style: 
         if kind != "diagram":
             raise UsageError(f"noise: does nothing for kind={kind!r}, expected a diagram")
         noise = _options.real("noise", noise, "a finite number, at least 0", 0)
-        low, high, _ = _ends(bars)
+        low, high = _ends(bars).finite
         ax.fill_between([low, high], [low, high], [low + noise, high + noise], color="0.9",
                         linewidth=0, zorder=-1)
     draw(bars, ax, style)
     return ax
 
 
-def _ends(bars: Barcode) -> tuple[float, float, float]:
-    """The least and largest finite value, and where infinity is drawn."""
-    values = np.concatenate([bars.births, bars.deaths])
-    return _ends_of(values[np.isfinite(values)])
+class _Ends(NamedTuple):
+    """The least and largest finite value, and where -inf and inf are drawn."""
+
+    finite: tuple[float, float]
+    infinite: tuple[float, float]
+
+    def place(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where values are drawn."""
+        return np.clip(values, *self.infinite)
 
 
-def _ends_of(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
-    room = (high - low) or 1.0
-    return low, high, high + 0.1 * room
+def _ends(bars: Barcode) -> _Ends:
+    return _ends_of(np.concatenate([bars.births, bars.deaths]))
+
+
+def _ends_of(values: NDArray[np.float64]) -> _Ends:
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    room = 0.1 * ((high - low) or 1.0)
+    return _Ends((low, high), (low - room, high + room))
 
 
 def _dims(bars: Barcode) -> list[int]:
@@ -56,16 +66,23 @@ def _label(bars: Barcode) -> str:
 
 
 def _diagram(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
-    low, high, infinity = _ends(bars)
+    ends = _ends(bars)
+    (low, high), (before, infinity) = ends
     ax.plot([low, high], [low, high], color="0.7", linewidth=1, zorder=0)
-    if np.isinf(bars.deaths).any():
-        ax.axhline(infinity, color="0.7", linewidth=1, linestyle="--", zorder=0)
+    line = {"color": "0.7", "linewidth": 1, "linestyle": "--", "zorder": 0}
+    if (bars.deaths == np.inf).any():
+        ax.axhline(infinity, **line)
         ax.annotate("∞", (low, infinity), textcoords="offset points", xytext=(0, 3))
+    if (bars.deaths == -np.inf).any():
+        ax.axhline(before, **line)
+        ax.annotate("−∞", (high, before), textcoords="offset points", xytext=(0, 3))
+    if (bars.births == -np.inf).any():
+        ax.axvline(before, **line)
+        ax.annotate("−∞", (before, high), textcoords="offset points", xytext=(3, 0))
     for dim in _dims(bars):
-        dgm = bars.dgm(dim)
-        deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
-        ax.scatter(dgm[:, 0], deaths, **{"s": 16, "label": f"H{dim}", "color": f"C{dim % 10}",
-                                         **style})
+        births, deaths = ends.place(bars.dgm(dim)).T
+        ax.scatter(births, deaths, **{"s": 16, "label": f"H{dim}", "color": f"C{dim % 10}",
+                                      **style})
     ax.set_xlabel(f"Birth: {_label(bars).lower()}")
     ax.set_ylabel("Death")
     if len(bars):
@@ -73,21 +90,20 @@ def _diagram(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
-    low, _, infinity = _ends(bars)
+    ends = _ends(bars)
     row = 0
-    ends = []
+    drawn = []
     for dim in _dims(bars):
-        dgm = bars.dgm(dim)
-        deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
-        births = np.where(np.isinf(dgm[:, 0]), low, dgm[:, 0])
-        ax.hlines(np.arange(row, row + len(dgm)), births, deaths,
+        dgm = ends.place(bars.dgm(dim))
+        ax.hlines(np.arange(row, row + len(dgm)), *dgm.T,
                   **{"label": f"H{dim}", "color": f"C{dim % 10}", **style})
-        ends.append(np.column_stack([births, deaths]))
+        drawn.append(dgm)
         row += len(dgm)
     ax.set_yticks([])
     ax.set_xlabel(_label(bars))
     if len(bars):
-        place = _empty_place(np.concatenate(ends), (low + infinity) / 2)
+        all_ends = np.concatenate(drawn)
+        place = _empty_place(all_ends, (all_ends.min() + all_ends.max()) / 2)
         if place:
             ax.legend(loc=place)
         else:
@@ -108,8 +124,9 @@ def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:
 
 
 def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
-    low, high, infinity = _ends(bars)
-    values = np.unique(np.concatenate([bars.births, bars.deaths, [low, infinity]]))
+    ends = _ends(bars)
+    values = np.unique(np.concatenate([bars.births, bars.deaths,
+                                       [ends.finite[0], ends.infinite[1]]]))
     values = values[np.isfinite(values)]
     curves = bars.betti_curve(values)
     for dim in _dims(bars):
@@ -128,15 +145,14 @@ def plot_matching(a: NDArray[np.float64], b: NDArray[np.float64], pairs: NDArray
     if ax is None:
         import matplotlib.pyplot
         _, ax = matplotlib.pyplot.subplots()
-    values = np.concatenate([a.ravel(), b.ravel()])
-    low, high, infinity = _ends_of(values[np.isfinite(values)])
-    ax.plot([low, high], [low, high], color="0.7", linewidth=1, zorder=0)
-    a, b = (np.clip(dgm, low, np.where(np.isinf(dgm), infinity, dgm)) for dgm in (a, b))
+    ends = _ends_of(np.concatenate([a.ravel(), b.ravel()]))
+    ax.plot(ends.finite, ends.finite, color="0.7", linewidth=1, zorder=0)
+    a, b = ends.place(a), ends.place(b)
     lines = []
     for i, j in pairs:
-        ends = [dgm[k] if k >= 0 else None for dgm, k in ((a, i), (b, j))]
-        lines.append([np.repeat(ends[1 - side].mean(), 2) if end is None else end
-                      for side, end in enumerate(ends)])
+        points = [dgm[k] if k >= 0 else None for dgm, k in ((a, i), (b, j))]
+        lines.append([np.repeat(points[1 - side].mean(), 2) if point is None else point
+                      for side, point in enumerate(points)])
     ax.add_collection(LineCollection(lines, **{"colors": "0.4", "linewidths": 1, "zorder": 1,
                                                **style}))
     for dgm, name, marker in ((a, "a", "o"), (b, "b", "s")):

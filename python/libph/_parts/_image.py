@@ -155,6 +155,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     loops : bool
         Whether `ImageLoops` will find bars of a volume that need all layers at once. The part holds
         the voxels until they take it, and has all its layers in memory, whatever `slab_layers` is.
+        `ImagePart.has_loops` says whether there can be such bars.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

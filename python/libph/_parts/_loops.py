@@ -84,7 +84,7 @@ class ImageLoops:
             found = "one that has lent its voxels, or was sent or joined" if part.has_loops else \
                 "one without loops"
             raise UsageError(f"part: found {found}, expected one right from "
-                             "image_part(…, loops=True) of a volume")
+                             "image_part(…, loops=True) whose has_loops is true")
         try:
             self._loops = _run.run(_core.RunningLoops, held, self._field, options=dict(run))
         except UsageError:
@@ -100,7 +100,8 @@ class ImageLoops:
         Raises
         ------
         DataError
-            If that is damaged, or of another part or image.
+            If that is damaged, or of another part, or of an image of other extents or options.
+            Voxels are not compared: no part has seen them all.
         """
         _run.check_names("begin", run, ["told"])
         _run.run(self._loops.begin, _as_bytes("told", told), options=dict(run))

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _arrays, _core, _options, _run
-from .._errors import DataError, MissingInputError, UsageError
-from .._files import path_of
+from .._errors import DataError, Error, MissingInputError, UsageError
+from .._files import _as_keywords, path_of
 
 
 class Scene(NamedTuple):
@@ -36,15 +36,20 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
             return Scene(_cloud(data, colours, run), name, False)
         if colours is not None:
             raise UsageError("colours: does nothing for a file of a cloud, which has its own")
-        return Scene(_run.run(_core.read_scene, path_of(data), options=run), name, False)
+        return Scene(_run.run(_core.read_scene, path_of(data, "cloud"), options=run), name, False)
     seen_by = _camera(intrinsics, camera, run)
     scale = None if depth_scale is None else _scale(depth_scale)
-    if not is_path:
-        return Scene(_depth(data, colours, seen_by, scale, run), name, True)
-    if colours is not None and not isinstance(colours, (str, bytes, os.PathLike)):
-        raise _options.refuse("colours", colours, "a path, as the depth image is one")
-    cloud = _run.run(_core.read_depth, path_of(data), b"" if colours is None else path_of(colours),
-                     seen_by, scale, options=run)
+    if colours is not None and isinstance(colours, (str, bytes, os.PathLike)) != is_path:
+        raise _options.refuse("colours", colours, "a path, as the depth image is one" if is_path
+                              else "an array, as the depth image is one")
+    try:
+        if not is_path:
+            return Scene(_depth(data, colours, seen_by, scale, run), name, True)
+        cloud = _run.run(_core.read_depth, path_of(data, "cloud"),
+                         b"" if colours is None else path_of(colours, "colours"), seen_by, scale,
+                         options=run)
+    except Error as error:  # "--camera NAME: …"
+        raise type(error)(_as_keywords(str(error))) from None
     return Scene(cloud, name, True)
 
 
@@ -62,7 +67,7 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
     known = _core.camera_named(name) if isinstance(name, str) else None
     if known is not None:
         return known
-    path = path_of(name)
+    path = path_of(name, "camera")
     if not os.path.exists(path):
         raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected a file that is "
                                 f"there or one of {', '.join(_core.camera_names())}")
@@ -110,8 +115,9 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
     if array.ndim != 2:
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
                          "rows and columns, as a camera is given")
-    if scale is None:
-        scale = 1.0 if array.dtype.kind == "f" else 1000.0
+    if scale is None:  # masked whole numbers are floats by now
+        given = data if isinstance(data, np.ma.MaskedArray) else array
+        scale = 1.0 if given.dtype.kind == "f" else 1000.0
     image = _arrays.side_by_side(_arrays.as_image(array, "cloud"), "cloud")
     bytes_of = None if colours is None else _colours(colours, array.shape)
     return _run.run(_core.cloud_of_depth, image, bytes_of, camera, scale, options=run)

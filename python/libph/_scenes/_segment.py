@@ -98,7 +98,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         Whether persistence is computed twice, by union-find and by reduction of a matrix.
     colours : array_like or path, optional
         Red, green and blue of each point or pixel, as bytes or as floats from 0 to 1. The
-        segmentation does not look at them; files and pictures have them.
+        segmentation does not look at them; files and pictures have them. A path of an image where
+        `cloud` is the path of a depth image.
     intrinsics : array_like, optional
         Of a depth image: fx, fy, cx, cy in pixels, or the matrix of the camera (3, 3).
     camera : str or path, optional
@@ -232,8 +233,11 @@ def _length(name: str, value: Any) -> float:
 
 def _steps(name: str, value: Any) -> int:
     """0: exact."""
-    return 0 if isinstance(value, str) and value == "exact" else _options.whole(
-        name, value, 1, _MOST_STEPS)
+    if isinstance(value, str):
+        if value != "exact":
+            raise _options.refuse(name, value, "a whole number of at least 1, or 'exact'")
+        return 0
+    return _options.whole(name, value, 1, _MOST_STEPS)
 
 
 def _point(name: str, value: Any) -> list[float]:

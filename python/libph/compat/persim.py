@@ -74,13 +74,18 @@ def _with_costs(matching: _distances.Matching, norm: float) -> tuple[float, NDAr
     return matching.distance, np.column_stack([matching.pairs, costs])
 
 
-def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
+def _rows(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     rows = _arrays.as_float64(_arrays.as_array(dgm, name), name)
     if rows.size == 0:
         return np.empty((0, 2))
     if rows.ndim != 2 or rows.shape[1] < 2:
         raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows birth, "
                          "death")
+    return rows
+
+
+def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
+    rows = _rows(dgm, name)
     keep = np.isfinite(rows[:, 1])
     if not keep.all():
         warnings.warn(f"{name} has points with non-finite death times;ignoring those points",
@@ -131,11 +136,12 @@ def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None
     dgms = list(diagrams) if isinstance(diagrams, (list, tuple)) else [diagrams]
     names = [f"$H_{{{k}}}$" for k in range(len(dgms))] if labels is None else labels
     if plot_only is not None and len(plot_only):
+        plot_only = [_options.whole("plot_only", k, -len(dgms), len(dgms) - 1) for k in plot_only]
         dgms = [dgms[k] for k in plot_only]
         names = [names[k] for k in plot_only] if isinstance(names, list) else names
     if not isinstance(names, list):
         names = [names] * len(dgms)
-    rows = [np.array(dgm, dtype=np.float64).reshape(-1, 2) for dgm in dgms]
+    rows = [_rows(dgm, f"diagrams[{k}]")[:, :2] for k, dgm in enumerate(dgms)]
     with nullcontext() if colormap == "default" else plt.style.context(colormap):
         ax = ax or plt.gca()
         _draw(ax, rows, names, xy_range, size, ax_color, diagonal and not lifetime, lifetime)
@@ -153,7 +159,10 @@ def _draw(ax: Axes, dgms: list[NDArray[np.float64]], names: list[str], xy_range:
     numbers = np.concatenate([np.zeros(0), *(dgm.ravel() for dgm in dgms)])
     finite = numbers[np.isfinite(numbers)]
     if xy_range:
-        left, right, bottom, top = xy_range
+        ends = _options.several("xy_range", xy_range, "left, right, bottom, top")
+        if len(ends) != 4:
+            raise _options.refuse("xy_range", xy_range, "left, right, bottom, top")
+        left, right, bottom, top = (_options.real("xy_range", end) for end in ends)
     else:
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
         room = (high - low) / 5 or 1.0

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from .. import _arrays, _run
+from .. import _arrays, _options, _run
 from .._compute import cubical
 from .._core import version as __version__
 from .._errors import DataError, NotBuiltIn, UsageError
@@ -126,7 +126,7 @@ def _look_at_shape(X: Any, is_distances: bool, n_perm: int | None) -> None:
     elif rows < columns:
         warnings.warn("The input point cloud has more columns than rows; did you mean to "
                       "transpose?", stacklevel=3)
-    if not n_perm:
+    if n_perm is None or _options.whole("n_perm", n_perm, -2**63) == 0:
         return
     if is_distances and _arrays.is_sparse(X):
         raise UsageError("Greedy permutation is not supported for sparse distance matrices")

@@ -63,6 +63,20 @@ def test_arrays_of_all_kinds(rng):
     assert np.array_equal(ph.segment(masked).labels, ph.segment(holes).labels)
 
 
+def test_a_masked_depth_image_keeps_its_unit():
+    depth = np.full((240, 320), 800, np.uint16)
+    depth[60:120, 60:120] = 700
+    camera = (260, 260, 159.5, 119.5)
+    masked = np.ma.masked_array(depth, mask=False)
+    masked[0, 0] = np.ma.masked
+    holes = depth / 1000
+    holes[0, 0] = np.nan
+    expected = ph.segment(holes, intrinsics=camera)
+    assert len(expected.objects) == 1
+    for given in (masked, masked / 1000):
+        assert np.array_equal(ph.segment(given, intrinsics=camera).labels, expected.labels)
+
+
 @pytest.mark.parametrize("cloud", [np.empty((0, 3)), [], np.full((5, 3), np.nan),
                                    np.full((4, 6, 3), np.nan), [[0, 0, 1]]], ids=str)
 @pytest.mark.filterwarnings("ignore::UserWarning")
@@ -116,6 +130,13 @@ DEPTH = np.full((20, 30), 0.5)
     (CLOUD, {"crop": [1, 0, 0, 1, 0, 1]}, ph.UsageError, "crop: found"),
     (CLOUD, {"viewpoint": [0, 0, np.inf]}, ph.UsageError, "viewpoint: found"),
     (CLOUD, {"max_range": -1}, ph.UsageError, "max_range: found -1"),
+    (CLOUD, {"method": "paper", "steps": "x"}, ph.UsageError, "steps: found 'x', .* or 'exact'"),
+    (np.full((4, 3), 1e300), {}, ph.DataError, r"point 0, coordinate 0: found 1e\+300"),
+    (np.ones((85, 181)), {"camera": "xtion"}, ph.UsageError, "camera xtion: found an image of"),
+    (DEPTH, {"camera": 5}, ph.UsageError, "camera: found 5"),
+    (DEPTH, {"intrinsics": CAMERA, "colours": "c.png"}, ph.UsageError,
+     "colours: found 'c.png', expected an array"),
+    ("", {}, ph.UsageError, "cloud: found ''"),
     ("no/such/file.pcd", {}, ph.MissingInputError, "no/such/file.pcd"),
     (TABLE, {"colours": CLOUD}, ph.UsageError, "colours: does nothing for a file of a cloud"),
     (None, {}, ph.UsageError, "cloud: found NoneType"),
@@ -176,6 +197,9 @@ def test_doubts_are_warnings():
     assert not found.objects and "are these millimetres" in " ".join(found.meta["notes"])
     with pytest.warns(UserWarning, match=r"see viewpoint|viewpoint X,Y,Z|no plane|no point"):
         ph.segment(CLOUD * 0.1 + 3)
+    offset = np.array([5e5, 4e6, 100])  # of a map
+    with pytest.warns(UserWarning, match="single precision has steps of 0.25 m; subtract"):
+        ph.segment(points / 1000 + offset, viewpoint=offset)
 
 
 # ---- runs

@@ -123,13 +123,15 @@ def entries():
                     {"d.png": DEPTH, file: content})
     for name, content, code, message, named in (
             ("a frame that is missing", b"a.xyz\nmissing.xyz\n", 66, "cannot open", "missing.xyz"),
-            ("a name with NUL", b"a\0.xyz\n", 66, "cannot open", "a\\x00.xyz"),
+            ("a name with NUL", b"a.xyz\0b.xyz\n", 65, "found a NUL behind 'a.xyz'", "--frames-from"),
+            ("coordinates beyond single precision", b"far.xyz\n", 65, r"found 1e\+39, expected at most", "coordinate 2"),
             ("a name that would clear the screen", b"\x1b[2J.xyz\n", 66, "cannot open", "\\x1B[2J.xyz"),
             ("a folder", b".\n", 66, "directory", "."),
             ("the list itself", b"frames.txt\n", 65, "no points", "frames.txt"),
             ("a name of 5000 letters", b"a" * 5000 + b".xyz\n", 73, "too long", "aaaa")):
         yield Entry(68, name, "ph-segment", ("--frames-from", "frames.txt", "-o", "out/"), code,
-                    message, named, creates=("out",), files={"frames.txt": content, "a.xyz": CLOUD, "b.xyz": CLOUD})
+                    message, named, creates=("out",), files={"frames.txt": content, "a.xyz": CLOUD, "b.xyz": CLOUD,
+                                                                    "far.xyz": b"0 0 1\n0 0 1e39\n"})
 
 
 ENTRIES = list(entries())

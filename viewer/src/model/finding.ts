@@ -155,7 +155,11 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Rep
   const above = many - found.endless.length;
   if (above === 0) {
     const which = many <= 2 ? `: ${out.map(of).join(" and ")}` : "";
-    return `${subject} ${fate(found, many, meta, out.every((bar) => bars.isInfinite(bar)))}${which}`;
+    const isLong = (bar: number) => isFinite(bars.birth[bar]!) && isFinite(bars.death[bar]!);
+    const what = out.every(isLong)
+      ? `${many === 1 ? "is" : "are"} longer than any number`
+      : fate(found, many, meta, out.every((bar) => bars.isInfinite(bar)));
+    return `${subject} ${what}${which}`;
   }
   const verb = many === 1 ? "stands out" : "stand out";
   const last = out[many - 1]!;
@@ -235,7 +239,8 @@ function lengthsInWords({ dim, lengths, alive, endless }: Lengths, named: boolea
     all = named ? ` ${holes(dim, 2)}` : "";
   if (many === 1) return `there is one${endless.length > 0 ? " other" : ""}${hole}, and it is short`;
   if (alive === many) return `all${all} are alive at the threshold, and short`;
-  if (many <= kMostKnown && lengths[0] === lengths[many - 1]) return `all${all} are equally long`;
+  if (lengths[0] === lengths[many - 1])
+    return `${many <= kMostKnown ? "all" : "the longest"}${all} are equally long`;
   const upper = Math.max(1, alive);
   const ratio = lengths[upper - 1]! / lengths[upper]!;
   const least = alive > 0 ? "at least " : "";

@@ -20,8 +20,8 @@ namespace {
               std::string("bars of dimension 1: what their critical cells take exceeds the memory "
                           "limit; ") +
                   (wants_loops(shape, {.min_dim = 2, .max_dim = 2})
-                       ? "bars of dimension 0 fit (max_dim 0)"
-                       : "all other dimensions fit (max_dim 0, or min_dim 2)"));
+                       ? "bars of dimension 0 take less (max_dim 0)"
+                       : "all other dimensions take less (max_dim 0, or min_dim 2)"));
 }
 
 /// What is done while the critical cells of loops are there: without them it would fit.

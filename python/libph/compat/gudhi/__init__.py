@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from typing import Any, NoReturn
 
+from ... import _options
 from ..._core import version as __version__
 from ..._errors import NotBuiltIn
 from ._cubical import CubicalComplex, PeriodicCubicalComplex
@@ -62,4 +63,6 @@ def bottleneck_distance(diagram_1: Any, diagram_2: Any, e: float | None = None) 
     -------
     float
     """
-    return _bottleneck(diagram_1, diagram_2, 0.0 if e is None else e)
+    if e is not None:
+        _options.real("e", e, "a number of at least 0", 0)
+    return _bottleneck(diagram_1, diagram_2)

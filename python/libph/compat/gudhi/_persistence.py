@@ -68,9 +68,13 @@ class Persistence:
         return [int((self._dgm(dim)[:, 1] == np.inf).sum()) for dim in range(self._dims)]
 
     def persistent_betti_numbers(self, from_value: float, to_value: float) -> list[int]:
-        """How many bars of each dimension are born up to `from_value` and die after `to_value`."""
+        """How many bars of each dimension are born up to `from_value`, and die after `to_value` or
+        never."""
         self._barcode("persistent_betti_numbers")
         born = _options.real("from_value", from_value)
         alive = _options.real("to_value", to_value)
-        return [int(((dgm[:, 0] <= born) & (dgm[:, 1] > alive)).sum())
-                for dgm in map(self._dgm, range(self._dims))]
+        counts = []
+        for dgm in map(self._dgm, range(self._dims)):
+            lives = (dgm[:, 1] > alive) | (dgm[:, 1] == np.inf)
+            counts.append(int(((dgm[:, 0] <= born) & lives).sum()))
+        return counts

@@ -38,6 +38,7 @@ class FlagTree(Persistence):
         self._options = options
         # GUDHI lists edges in any case.
         self._dimension = max(1, _options.whole("max_dimension", max_dimension, 0))
+        self._creators: NDArray[np.int64] | None = None  # of bars in the highest dimension
 
     def __getattr__(self, name: str) -> Any:
         if name not in _TREE_METHODS:
@@ -70,19 +71,21 @@ class FlagTree(Persistence):
             Whether bars of the dimension of the complex come along: as there are no simplices
             above, they never die.
         """
-        above = None
+        above, creators = None, None
         data, options = self._data, self._options
+        min_persistence = _options.real("min_persistence", min_persistence)
         if _options.flag("persistence_dim_max", persistence_dim_max):
             if options.get("approximation") is not None:
                 raise NotBuiltIn("persistence_dim_max: libph has no such bars of a sparse Rips "
                                  "complex; GUDHI has them")
-            data, options, above = self._skeleton()
+            data, options, above, creators = self._skeleton(homology_coeff_field)
         if min_persistence < 0 and options["threshold"] is None:
             # Beyond the enclosing radius there are bars of length zero.
             options = {**options, "threshold": np.inf}
         barcode = rips(data, max_dim=self._dimension - 1, field=homology_coeff_field,
                        min_persistence=min_persistence, **options)
         self._keep(barcode, self._dimension + (above is not None), above)
+        self._creators = creators
 
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0,
                     persistence_dim_max: bool = False) -> list[tuple[int, tuple[float, float]]]:
@@ -109,6 +112,9 @@ class FlagTree(Persistence):
             killed = _flag.youngest_edges(self._values, barcode.death_cells(dim)[order[dies]])
             finite.append(np.column_stack([born[dies], killed]))
             essential.append(born[~dies])
+        if self._creators is not None:  # bars of the dimension of the complex, which never die
+            finite.append(np.empty((0, 4), dtype=finite[0].dtype))
+            essential.append(_flag.youngest_edges(self._values, self._creators))
         return finite[0], finite[1:], essential[0][:, 0], essential[1:]
 
     # ---- values of vertices and edges
@@ -133,9 +139,10 @@ class FlagTree(Persistence):
             return distances
         return _weights.meeting(distances, births[u], births[v], 1)
 
-    def _skeleton(self) -> tuple[NDArray[np.float64], dict[str, Any], NDArray[np.float64]]:
-        """Edges as a matrix, how `rips` takes them, and births of bars in the dimension of the
-        complex: values of its simplices that kill no bar of the dimension below."""
+    def _skeleton(self, field: int) -> tuple[NDArray[np.float64], dict[str, Any],
+                                             NDArray[np.float64], NDArray[np.int64]]:
+        """Edges as a matrix, how `rips` takes them, and the bars in the dimension of the complex:
+        values and vertices of its simplices that kill no bar of the dimension below."""
         n = len(self._data)
         limit = self._options["threshold"]
         limit = np.inf if limit is None else limit
@@ -156,12 +163,16 @@ class FlagTree(Persistence):
         matrix = np.minimum(matrix, matrix.T)
         # All edges, those beyond the enclosing radius among them.
         options = {"metric": "precomputed", "threshold": limit, "weights": births}
-        below = rips(matrix, max_dim=self._dimension - 1, min_persistence=-1, **options)
-        deaths = below.dgm(self._dimension - 1)[:, 1]
-        levels, counts = np.unique(values, return_counts=True)
-        kill = np.bincount(np.searchsorted(levels, deaths[np.isfinite(deaths)]),
-                           minlength=len(levels))
-        return matrix, options, np.repeat(levels, counts - kill)
+        below = rips(matrix, max_dim=self._dimension - 1, min_persistence=-1, field=field,
+                     **options)
+        dies = np.isfinite(below.dgm(self._dimension - 1)[:, 1])
+        killers = np.sort(below.death_cells(self._dimension - 1)[dies], axis=1)
+        known = np.concatenate([killers, simplices])
+        _, first, number = np.unique(known, axis=0, return_index=True, return_inverse=True)
+        creates = first[number.ravel()[len(killers):]] >= len(killers)
+        simplices, values = simplices[creates], values[creates]
+        order = np.argsort(values, kind="stable")
+        return matrix, options, values[order], simplices[order]
 
 
 class RipsComplex:
@@ -182,7 +193,8 @@ class RipsComplex:
 
     def __init__(self, *, points: ArrayLike = (), distance_matrix: ArrayLike = (),
                  max_edge_length: float = np.inf, sparse: float | None = None) -> None:
-        self._data, self._rips = _space(points, distance_matrix, max_edge_length)
+        self._data, self._rips = _space(points, distance_matrix, "max_edge_length",
+                                        max_edge_length)
         if sparse is not None:
             epsilon = _options.positive("sparse", sparse)
             if epsilon >= 1:
@@ -210,7 +222,7 @@ class WeightedRipsComplex:
 
     def __init__(self, distance_matrix: ArrayLike, weights: ArrayLike | None = None,
                  max_filtration: float = np.inf) -> None:
-        self._data, self._rips = _space((), distance_matrix, max_filtration)
+        self._data, self._rips = _space((), distance_matrix, "max_filtration", max_filtration)
         if weights is not None:
             self._rips["weights"] = 2 * _arrays.as_values(weights, "weights", len(self._data),
                                                           "point")
@@ -240,8 +252,11 @@ class DTMRipsComplex(WeightedRipsComplex):
                  k: int = 1, q: float = 2, max_filtration: float = np.inf) -> None:
         self._data, self._rips = _space(() if points is None else points,
                                         () if distance_matrix is None else distance_matrix,
-                                        max_filtration)
-        if _options.whole("k", k, 1) == 1 or not len(self._data):
+                                        "max_filtration", max_filtration)
+        q = _options.positive("q", q)
+        if not len(self._data):
+            return
+        if _options.whole("k", k, 1, len(self._data)) == 1:
             return
         self._rips["weight_exponent"] = 1
         if q == 2:
@@ -254,12 +269,12 @@ class DTMRipsComplex(WeightedRipsComplex):
             lambda i: self._data[i], len(self._data), {"n_neighbors": k - 1, "r": q})
 
 
-def _space(points: Any, distances: Any, limit: float
+def _space(points: Any, distances: Any, name: str, limit: float
            ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-    """Data and keywords for `rips`."""
+    """Data and keywords for `rips`; `name`: of the limit."""
     options: dict[str, Any] = {
         "metric": "euclidean", "threshold": None if limit == np.inf else
-        _options.real("max_edge_length", limit)}
+        _options.real(name, limit, "a number of at least 0", 0)}
     if not hasattr(distances, "__len__") or len(distances) == 0:
         return _arrays.as_points(points, "points"), options
     if hasattr(points, "__len__") and len(points):

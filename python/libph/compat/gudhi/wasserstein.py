@@ -43,6 +43,8 @@ def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 
     if _options.flag("enable_autodiff", enable_autodiff):
         raise NotBuiltIn("enable_autodiff: libph gives numbers alone; GUDHI has it")
     _check_width(X, Y)
+    if not 1 <= _options.real("order", order) < math.inf:
+        raise _options.refuse("order", order, "a finite number of at least 1")
     rows = [np.asarray(dgm, dtype=np.float64).reshape(-1, 2) for dgm in (X, Y)]
     kept = [np.arange(len(dgm)) if _options.flag("keep_essential_parts", keep_essential_parts)
             else np.flatnonzero(np.isfinite(dgm).all(axis=1)) for dgm in rows]
