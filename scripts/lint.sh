@@ -16,7 +16,7 @@ layout() {
 }
 
 clang-tidy() {
-  files=$(sources | grep -v '/pcl/')
+  files=$(sources | grep -vE '/pcl/|/windows/')
   cmake --preset dev >/dev/null &&
     xargs -P "$jobs" -n 4 clang-tidy-19 --quiet --warnings-as-errors='*' \
       --extra-arg=-Wno-sign-conversion --extra-arg=-Wno-deprecated-declarations -p build/dev <<<"$files"

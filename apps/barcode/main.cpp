@@ -6,7 +6,7 @@
 #include "common/run/program.hpp"
 
 int main(int argc, char** argv) {
-  return ph::app::run_program(ph::barcode::kProgram, [&](std::stop_token stop) {
+  return ph::app::run_program(ph::barcode::kProgram, [&](const std::stop_token& stop) {
     ph::barcode::Arguments arguments;
     if (const auto answer = ph::barcode::parse_arguments(argc, argv, arguments))
       return ph::app::answer_command_line(*answer);

@@ -294,7 +294,7 @@ class Builder {
                                       const char* expected = "a finite number") const {
     if (path.empty()) return {};
     const Input input = Input::open(files::path_of(path), &context_);
-    const std::vector<double> all =
+    std::vector<double> all =
         read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
     for (std::size_t v = 0; v < all.size(); ++v)
       if (!(all[v] >= least && std::isfinite(all[v])))
@@ -302,6 +302,7 @@ class Builder {
             {"not a weight", fmt::format("{} for point {}", shortest(all[v]), v), expected, {}});
     if (ids_.empty()) return all;
     std::vector<double> kept;
+    kept.reserve(ids_.size());
     for (const Index id : ids_) kept.push_back(all[static_cast<std::size_t>(id)]);
     return kept;
   }

@@ -162,7 +162,7 @@ class Alternatives {
   }
 
   /// Where there can be no loops --loops is refused.
-  static std::string without_loops(std::string change, Arguments& changed) {
+  static std::string without_loops(const std::string& change, Arguments& changed) {
     return std::exchange(changed.loops, std::nullopt) ? change + " without --loops" : change;
   }
 
@@ -210,7 +210,7 @@ class Alternatives {
     for (int dim = highest - 1; dim >= arguments_.options.min_dim; --dim) {
       changed.options.max_dim = dim;
       std::string text = fmt::format("{}--max-dim {}", others, dim);
-      if (dim == 0) text = without_loops(std::move(text), changed);
+      if (dim == 0) text = without_loops(text, changed);
       if (try_out(text, changed)) return;
     }
   }

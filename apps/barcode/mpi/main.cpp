@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   ph::barcode::MpiTransport transport(&argc, &argv);
-  const int code = ph::app::run_program(kProgram, [&](std::stop_token stop) {
+  const int code = ph::app::run_program(kProgram, [&](const std::stop_token& stop) {
     ph::barcode::Arguments arguments;
     arguments.on_ranks = true;
     try {

@@ -112,14 +112,15 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
                        const std::string& description,
-                       std::function<void(const std::string& value)> take) {
-  CLI::Option* option = app.add_option_function<std::string>(names, std::move(take), description);
+                       const std::function<void(const std::string& value)>& take) {
+  CLI::Option* option = app.add_option_function<std::string>(names, take, description);
   return option->type_name(placeholder)->type_size(1);
 }
 
 CLI::Option* add_choice(CLI::App& app, const std::string& names,
                         const std::vector<std::string_view>& choices,
-                        const std::string& description, std::function<void(std::size_t)> take) {
+                        const std::string& description,
+                        const std::function<void(std::size_t)>& take) {
   std::string placeholder;
   for (const std::string_view choice : choices)
     placeholder += (placeholder.empty() ? "" : "|") + std::string(choice);

@@ -36,12 +36,13 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 /// twice it is an error. @param names "--max-dim" or "-o,--output". @param placeholder "D".
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
                        const std::string& description,
-                       std::function<void(const std::string& value)> take);
+                       const std::function<void(const std::string& value)>& take);
 
 /// The same for a value that is one of some names: `take` gets the position of the one given.
 CLI::Option* add_choice(CLI::App& app, const std::string& names,
                         const std::vector<std::string_view>& choices,
-                        const std::string& description, std::function<void(std::size_t)> take);
+                        const std::string& description,
+                        const std::function<void(std::size_t)>& take);
 /// The same for a path, which is not empty; it is put into `path`, which outlives `app`.
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
                       const std::string& description, std::string& path);

@@ -110,7 +110,7 @@ std::string why_infinite(std::span<const Bar> a, std::span<const Bar> b) {
 
 std::string text_of(const DistanceBounds& distance, const DistanceChoice& choice,
                     std::span<const Bar> a, std::span<const Bar> b) {
-  const std::string value = shortest(distance.value), lower = shortest(distance.lower);
+  std::string value = shortest(distance.value), lower = shortest(distance.lower);
   if (std::isinf(distance.value)) return fmt::format("{}: {}", value, why_infinite(a, b));
   if (distance.lower > choice.limits.at_most)
     return fmt::format("more than {}: from {} to {}", shortest(choice.limits.at_most), lower,

@@ -117,7 +117,7 @@ std::optional<Frame> FrameSource::next() {
 
 /// The frames to come are not known: the name without extension, or one with a number behind it.
 std::string FrameSource::name_of(const std::string& input) {
-  const std::string stem = app::output_names({input}).front();
+  std::string stem = app::output_names({input}).front();
   const auto [known, is_new] = taken_.emplace(stem, 1);
   if (is_new) return stem;
   std::size_t number = known->second;

@@ -69,8 +69,8 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
       o.array == ArrayMeaning::distances)
     return {o.array, {}};
   const bool is_rips = o.array == ArrayMeaning::rips;
-  const ArrayGuess otherwise{
-      is_rips || !o.columns.empty() ? ArrayMeaning::points : ArrayMeaning::image, {}};
+  ArrayGuess otherwise{is_rips || !o.columns.empty() ? ArrayMeaning::points : ArrayMeaning::image,
+                       {}};
   const NpyLayout npy = npy_layout(input);
   if (npy.shape.size() == 3 && !is_rips) {
     const Index rows = npy.shape[1], columns = npy.shape[2];

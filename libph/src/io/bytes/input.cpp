@@ -156,7 +156,7 @@ Input::Input(Input&&) noexcept = default;
 Input& Input::operator=(Input&&) noexcept = default;
 Input::~Input() = default;
 
-Input Input::view(std::string_view bytes, std::string name) {
+Input Input::view(std::string_view bytes, const std::string& name) {
   Input input;
   input.text_ = bytes;
   input.extension_ = lower_extension(name);

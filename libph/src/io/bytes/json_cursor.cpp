@@ -57,7 +57,7 @@ bool is_json_number(std::string_view word) {
 
 }  // namespace
 
-void JsonCursor::fail(std::size_t place, Fault fault) const {
+void JsonCursor::fail(std::size_t place, const Fault& fault) const {
   const std::string_view before = text_.substr(0, place);
   const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
   const std::size_t start = before.rfind('\n');

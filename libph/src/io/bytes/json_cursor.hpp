@@ -38,7 +38,7 @@ class JsonCursor {
   void expect_end();
 
   std::size_t place() const { return at_; }
-  [[noreturn]] void fail(std::size_t place, Fault fault) const;
+  [[noreturn]] void fail(std::size_t place, const Fault& fault) const;
 
  private:
   bool accept_word(std::string_view word);

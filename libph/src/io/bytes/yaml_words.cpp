@@ -75,7 +75,7 @@ const YamlWords::Value* YamlWords::find(std::string_view path) const {
   return found == values_.end() ? nullptr : &found->second;
 }
 
-void YamlWords::fail(std::size_t column, Fault fault) const {
+void YamlWords::fail(std::size_t column, const Fault& fault) const {
   input_.fail_at(number_, column, fault);
 }
 

@@ -40,7 +40,7 @@ class YamlWords {
   void take_key(std::string_view line, std::size_t indent);
   void take_value(Value& value, std::string_view rest, std::size_t column);
   void take_list(Value& value, std::string_view rest, std::size_t column);
-  [[noreturn]] void fail(std::size_t column, Fault fault) const;
+  [[noreturn]] void fail(std::size_t column, const Fault& fault) const;
 
   const Input& input_;
   std::map<std::string, Value, std::less<>> values_;

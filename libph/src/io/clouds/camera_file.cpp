@@ -44,7 +44,7 @@ class CameraYaml {
         word.line, word.column,
         {std::move(what), '"' + printable(word.text, 40) + '"', std::move(expected), {}});
   }
-  [[noreturn]] void fail(const YamlWords::Value& value, Fault fault) const {
+  [[noreturn]] void fail(const YamlWords::Value& value, const Fault& fault) const {
     yaml_.input().fail_at(value.line, value.column, fault);
   }
 

@@ -62,7 +62,7 @@ class Input {
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
                     Excess excess = Excess::refused);
   /// A view of bytes that outlive the input.
-  static Input view(std::string_view bytes, std::string name);
+  static Input view(std::string_view bytes, const std::string& name);
   /// An input that owns its bytes: what was unpacked from another one.
   static Input hold(std::pmr::vector<char> bytes, std::string name,
                     const RunContext* context = nullptr);
