@@ -164,16 +164,17 @@ Input Input::view(std::string_view bytes, const std::string& name) {
   return input;
 }
 
-Input Input::hold(std::pmr::vector<char> bytes, std::string name, const RunContext* context) {
-  Input input = view({}, std::move(name));
+Input Input::hold(std::pmr::vector<char> bytes, const std::string& name,
+                  const RunContext* context) {
+  Input input = view({}, name);
   input.storage_ = std::make_shared<Storage>(std::move(bytes));
   input.text_ = std::string_view(input.storage_->held.data(), input.storage_->held.size());
   input.context_ = context;
   return input;
 }
 
-Input Input::hold(ScratchFile bytes, std::string name, const RunContext* context) {
-  Input input = view({}, std::move(name));
+Input Input::hold(ScratchFile bytes, const std::string& name, const RunContext* context) {
+  Input input = view({}, name);
   input.storage_ = std::make_shared<Storage>(std::move(bytes));
   input.text_ = std::string_view(input.storage_->scratch->data(), input.storage_->scratch->size());
   input.context_ = context;

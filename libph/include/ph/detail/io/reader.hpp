@@ -64,11 +64,12 @@ class Input {
   /// A view of bytes that outlive the input.
   static Input view(std::string_view bytes, const std::string& name);
   /// An input that owns its bytes: what was unpacked from another one.
-  static Input hold(std::pmr::vector<char> bytes, std::string name,
+  static Input hold(std::pmr::vector<char> bytes, const std::string& name,
                     const RunContext* context = nullptr);
 
   /// The same of bytes that stay in a file.
-  static Input hold(ScratchFile bytes, std::string name, const RunContext* context = nullptr);
+  static Input hold(ScratchFile bytes, const std::string& name,
+                    const RunContext* context = nullptr);
 
   Input(Input&& other) noexcept;
   Input& operator=(Input&& other) noexcept;
