@@ -51,11 +51,16 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
 }
 
 /// Where coordinates are so large that the distances between them are lost.
-std::string about_precision(const SegmentOptions& o, const Cloud& cloud) {
+std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const Segmentation& s) {
   constexpr double much = 0.01;  // of a voxel
   float largest = 0;
-  for (const float x : cloud.xyz())
-    if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+  const auto take = [&](double x) {
+    if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
+  };
+  // Where something was found its boxes tell, without another look at all points.
+  for (const Segment& segment : s.segments)
+    for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
+  if (s.segments.empty()) std::ranges::for_each(cloud.xyz(), take);
   const double step = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
   if (step <= much * o.voxel_size()) return {};
   return fmt::format(
@@ -130,7 +135,7 @@ std::vector<std::string> notes(const Segmentation& s, const SegmentOptions& opti
   std::vector<std::string> texts;
   if (!s.difference.empty()) texts.push_back("check: " + s.difference);
   if (cloud && depth) texts.push_back(about_camera(*depth, *cloud));
-  if (cloud) texts.push_back(about_precision(options, *cloud));
+  if (cloud) texts.push_back(about_precision(options, *cloud, s));
   if (cloud) texts.push_back(about_viewpoint(options, s));
   if (cloud && s.segments.empty() && cloud->size() > 0)
     texts.push_back(about_units(options, depth != nullptr, *cloud, s));

@@ -40,7 +40,9 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
         number = least - 1
     if not least <= number <= most:
         bounds = f", at least {least}" if most == 2**63 - 1 else f", {least} to {most}"
-        raise refuse(name, value, "a whole number" + bounds * (least > -2**31))
+        if least <= -2**31:  # as good as none
+            bounds = ""
+        raise refuse(name, value, f"a whole number{bounds}")
     return number
 
 

@@ -4,8 +4,8 @@
 
 same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…]. Compared are exit code, standard output and error,
 and each file that is written, but for times and memory, over the commands of commands.py, or each Nth
-of them. EMULATOR runs the programs of OTHER. Numbers of the C library's functions may differ by 1e-12
-of their size; it is said how many outputs do. Where OTHER is built without CGAL, as for other
+of them. EMULATOR runs the programs of OTHER. Numbers of the C library's functions may differ by 1e-13
+of their size, or by 1e-100; it is said how many outputs do. Where OTHER is built without CGAL, as for other
 platforms, commands with alpha complexes are left out, and counted. So are those that OTHER has not
 done after S seconds. The last line has the counts. Exit code 0 if nothing else differs.
 """
@@ -25,7 +25,8 @@ from commands import DATA, commands
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
 TRIANGULATED = {"alpha", "delaunay-cech", "delaunay-rips"}
-NEAR = 1e-12  # a function of a number whose last bit differs, such as exp(-300), loses some digits
+NEAR = 1e-13  # of the size
+NOTHING = 1e-100  # exp(-300) has fewer right digits than exp(-1)
 NUMBER = re.compile(rb"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 
@@ -60,7 +61,7 @@ def doubles_of(array):
 
 def are_near(ours, theirs):
     return len(ours) == len(theirs) and all(
-        math.isclose(a, b, rel_tol=NEAR) for a, b in zip(ours, theirs))
+        math.isclose(a, b, rel_tol=NEAR, abs_tol=NOTHING) for a, b in zip(ours, theirs))
 
 
 def are_close(ours, theirs):

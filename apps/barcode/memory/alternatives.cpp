@@ -61,6 +61,8 @@ std::vector<double> sample_of(const SparseDistances& distances) {
   return sample;
 }
 
+bool is_image(const NamedData& data) { return std::holds_alternative<Image>(data.read.data); }
+
 class Alternatives {
  public:
   Alternatives(const NamedData& data, const Arguments& arguments, const RunContext& context)
@@ -141,8 +143,7 @@ class Alternatives {
       const Estimate e = estimate(built.complex, arguments.options, trial);
       const auto limit = static_cast<double>(context_.memory.limit());
       // Images in slabs fit themselves to the limit: beside a small one that would be all.
-      const bool is_image = std::holds_alternative<Image>(data_.read.data);
-      const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
+      const double beside = is_image(data_) ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
       if (e.bytes_high > limit + beside) return false;
       found_.push_back(fmt::format("{} ({} to {})", change, format_size(e.bytes_low),
                                    format_size(e.bytes_high)));
@@ -282,8 +283,8 @@ std::string alternatives(const Job& job, const Arguments& arguments, app::Sessio
     const NamedData data = read_input(input, arguments, session.context());
     const auto found = Alternatives(data, arguments, session.context()).find();
     if (found.empty()) return "";
-    const bool is_image = std::holds_alternative<Image>(data.read.data);
-    return fmt::format("what {} fit: {}", is_image ? "may" : "would", fmt::join(found, "; "));
+    // How many cells of an image are critical no estimate knows.
+    return fmt::format("what {} fit: {}", is_image(data) ? "may" : "would", fmt::join(found, "; "));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
     return "";

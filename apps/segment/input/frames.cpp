@@ -83,10 +83,10 @@ void FrameSource::take_files(const OutputPaths& files) {
 bool FrameSource::next_line(std::string& line) {
   while (list_ && std::getline(*list_, line)) {
     if (line.ends_with('\r')) line.pop_back();
-    if (line.find('\0') != std::string::npos)
+    if (const std::size_t nul = line.find('\0'); nul != std::string::npos)
       throw Error(ErrorKind::bad_data,
                   fmt::format("--frames-from: found a NUL behind '{}', expected names, one a line",
-                              printable(line.substr(0, line.find('\0')))));
+                              printable(line.substr(0, nul))));
     if (!line.empty()) return true;
   }
   return false;

@@ -103,7 +103,7 @@ def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None
     Parameters
     ----------
     diagrams : ndarray or list of ndarray
-        Rows birth, death.
+        Rows birth, death; further columns are not looked at.
     plot_only : list of int, optional
         Which of them.
     title : str, optional

@@ -15,15 +15,6 @@ SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 DIAGONAL = float(np.sqrt(2))
 
 
-@pytest.fixture(scope="module")
-def peer():
-    """GUDHI itself."""
-    genuine = pytest.importorskip("gudhi", reason="GUDHI is not installed")
-    if genuine is gudhi:
-        pytest.skip("gudhi is the drop-in")
-    return genuine
-
-
 def by_dim(bars):
     return sorted((dim, *bar) for dim, bar in bars)
 
@@ -149,13 +140,13 @@ def test_generators(rng):
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_trees_of_gudhi(peer, seed):
+def test_trees_of_gudhi(gudhi_itself, seed):
     rng = np.random.default_rng(seed)
     points = rng.integers(0, 4, (9, 2)).astype(float) if seed % 2 else rng.random((9, 3))
     limit = [INF, 0.7 * pdist(points).max()][seed % 3 == 0]
     data = {"points": points} if seed % 4 else {"distance_matrix": squareform(pdist(points))}
     trees = [module.RipsComplex(**data, max_edge_length=limit).create_simplex_tree(max_dimension=3)
-             for module in (gudhi, peer)]
+             for module in (gudhi, gudhi_itself)]
     # Where GUDHI's complex has a lower dimension, it knows no bars of that dimension.
     top = trees[1].dimension()
     for options in ({}, {"homology_coeff_field": 3}, {"min_persistence": 0.2},
@@ -168,7 +159,7 @@ def test_trees_of_gudhi(peer, seed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_weighted_trees_of_gudhi(peer, seed):
+def test_weighted_trees_of_gudhi(gudhi_itself, seed):
     from gudhi.dtm_rips_complex import DTMRipsComplex
     from gudhi.weighted_rips_complex import WeightedRipsComplex
     rng = np.random.default_rng(seed)
@@ -229,6 +220,7 @@ def test_errors(options, text):
 def test_errors_name_arguments_of_gudhi():
     for call, text in (
             (lambda: gudhi.DTMRipsComplex(SQUARE, k=5), "k: found 5"),
+            (lambda: gudhi.DTMRipsComplex([], k=0), "k: found 0"),
             (lambda: gudhi.DTMRipsComplex(SQUARE, k=2, q=0), "q: found 0"),
             (lambda: gudhi.bottleneck_distance([], [], -1), "e: found -1"),
             (lambda: wasserstein.wasserstein_distance([], [], order=INF), "order: found inf"),
@@ -333,7 +325,7 @@ def test_errors_of_periodic_images():
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_images_of_gudhi(peer, seed):
+def test_images_of_gudhi(gudhi_itself, seed):
     rng = np.random.default_rng(seed)
     shape = [(9,), (4, 5), (3, 4, 4), (3, 3, 3, 2)][seed % 4]
     values = rng.random(shape) if seed % 2 else rng.integers(0, 4, shape).astype(float)
@@ -341,7 +333,7 @@ def test_images_of_gudhi(peer, seed):
     pairs = [[module.CubicalComplex(top_dimensional_cells=values),
               module.PeriodicCubicalComplex(top_dimensional_cells=values,
                                             periodic_dimensions=periodic)]
-             for module in (gudhi, peer)]
+             for module in (gudhi, gudhi_itself)]
     for ours, theirs in zip(*pairs):
         for options in ({}, {"min_persistence": 0.3}, {"homology_coeff_field": 2}):
             bars = ours.persistence(**options)

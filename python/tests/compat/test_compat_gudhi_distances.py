@@ -12,15 +12,6 @@ from libph.compat.gudhi.flag_filtration.edge_collapse import reduce_graph
 from reference import INF, Flag, random_distances, same, sorted_rows
 
 
-@pytest.fixture(scope="module")
-def peer():
-    """GUDHI itself."""
-    genuine = pytest.importorskip("gudhi", reason="GUDHI is not installed")
-    if genuine is gudhi:
-        pytest.skip("gudhi is the drop-in")
-    return genuine
-
-
 def test_bottleneck():
     a = np.array([[2.7, 3.7], [9.6, 14.0], [34.2, 34.974], [3.0, INF]])
     b = [(2.8, 4.45), (9.5, 14.1), (3.2, INF)]
@@ -33,10 +24,10 @@ def test_bottleneck():
                 function(wrong, [])
 
 
-def test_bottleneck_of_gudhi(peer, rng):
+def test_bottleneck_of_gudhi(gudhi_itself, rng):
     for _ in range(20):
         a, b = (np.sort(rng.random((int(rng.integers(0, 8)), 2)), axis=1) for _ in range(2))
-        assert np.isclose(gudhi.bottleneck_distance(a, b), peer.bottleneck_distance(a, b))
+        assert np.isclose(gudhi.bottleneck_distance(a, b), gudhi_itself.bottleneck_distance(a, b))
 
 
 def test_wasserstein():
@@ -56,7 +47,7 @@ def test_wasserstein():
         gudhi.hera.wasserstein_distance(np.zeros((2, 3)), [])
 
 
-def test_wasserstein_of_gudhi(peer, rng):
+def test_wasserstein_of_gudhi(gudhi_itself, rng):
     hera = pytest.importorskip("gudhi.hera", reason="GUDHI is not installed")
     for _ in range(20):
         a, b = (np.sort(rng.random((int(rng.integers(0, 8)), 2)), axis=1) for _ in range(2))

@@ -254,9 +254,8 @@ class DTMRipsComplex(WeightedRipsComplex):
                                         () if distance_matrix is None else distance_matrix,
                                         "max_filtration", max_filtration)
         q = _options.positive("q", q)
-        if not len(self._data):
-            return
-        if _options.whole("k", k, 1, len(self._data)) == 1:
+        count = len(self._data)
+        if _options.whole("k", k, 1, count or 2**63 - 1) == 1 or count == 0:
             return
         self._rips["weight_exponent"] = 1
         if q == 2:

@@ -45,7 +45,7 @@ struct Cloud {
   /// Appends a field of zeros to every point; its index. Rewrites `data`.
   std::size_t add_field(std::string name, FieldType type, std::size_t count = 1);
   /// The x, y, z of every point as float32 triples (3 * size() numbers); NaN where the cloud has a
-  /// hole. @throws Error (bad_data) if x, y or z is missing.
+  /// hole. @throws Error (bad_data) if x, y or z is missing, or beyond single precision.
   std::vector<float> xyz() const;
   /// Colours as packed 0x00RRGGBB, one a point; nothing if the cloud has none.
   std::optional<std::vector<std::uint32_t>> rgb() const;
