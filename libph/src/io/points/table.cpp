@@ -116,13 +116,10 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Cells of a row; where an empty one is no error, the last one may be.
-std::size_t width_of(const TextLines& lines, const TableLayout& layout,
-                     const ReadOptions& options) {
+// Cells of a row. An empty last one counts if the header has a name for it: it is a missing value.
+std::size_t width_of(const TextLines& lines, const TableLayout& layout) {
   const std::size_t count = count_cells(lines);
-  const bool is_last_missing = options.nan == NanPolicy::drop &&
-                               count + 1 == layout.header.size() && ends_empty(lines.line());
-  return count + (is_last_missing ? 1 : 0);
+  return count + (count + 1 == layout.header.size() && ends_empty(lines.line()) ? 1 : 0);
 }
 
 // How to read the first column, too; nothing of a square matrix, which it would make none.
@@ -194,8 +191,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   TextLines next(lines);
   const bool has_next = next.next();
   if (is_unnamed && !layout.header.empty() &&
-      (!has_next || begins_empty(next.line()) ||
-       width_of(next, layout, options) != layout.header.size())) {
+      (!has_next || begins_empty(next.line()) || width_of(next, layout) != layout.header.size())) {
     layout.header.clear();  // a row that begins with an empty cell
   }
   const bool has_header = !layout.header.empty();
@@ -203,7 +199,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));
   if (has_header && !has_next) return layout;
   const TextLines& row = has_header ? next : lines;
-  layout.width = width_of(row, layout, options);
+  layout.width = width_of(row, layout);
   // Points and pictures may well be symmetric behind numbers that count.
   if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
     leave_counts_out(input, lines, options, layout);

@@ -156,15 +156,14 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     }
     if (k != width || cells.more()) {
       for (; cells.more(); ++k) cells.skip();
-      // Of this row, or of the one that the width is from.
       const bool is_last_missing = layout != nullptr && allow != Allow::any &&
-                                   options.nan == NanPolicy::error &&
-                                   ((k + 1 == width && ends_empty(lines.line())) ||
-                                    (k == width + 1 && k == layout->header.size()));
+                                   options.nan == NanPolicy::error && k + 1 == width &&
+                                   ends_empty(lines.line());
       lines.fail(
           lines.line().data(),
           {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
-           fmt::format("{}, as in line {}", width, first_line),
+           lines.number() == first_line ? fmt::format("{}, as the header has names", width)
+                                        : fmt::format("{}, as in line {}", width, first_line),
            k < width && lines.offset() == input.size()
                ? is_last_missing ? "is the file truncated? else --nan drop accepts the empty cell"
                                  : "is the file truncated?"
