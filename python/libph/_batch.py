@@ -36,7 +36,8 @@ def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: An
         take more than one, such as `lower_star`, tuples of them.
     **options
         Keywords of the function, the same for all inputs; and `threads`, `memory_limit`,
-        `progress`, `timeout`, `stop`, which are of all inputs together; see `libph`.
+        `progress`, `timeout`, `stop`, which are of all inputs together; see `libph`. Time runs
+        from when all inputs are there.
 
     Returns
     -------
@@ -46,8 +47,9 @@ def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: An
     Raises
     ------
     Error
-        As the function; the message begins with the number of the first input that fails. There
-        are no barcodes then.
+        As the function; the message begins with the number of the input that failed, which stops
+        the others. Where several fail, threads decide which one is named. There are no barcodes
+        then.
 
     Examples
     --------

@@ -129,6 +129,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         "raw_type": f"{dtype.kind}{dtype.itemsize}",
         "raw_big_endian": dtype.newbyteorder("=") != dtype,
         "raw_skip": _options.whole("raw_skip", raw_skip, 0)}
+    if columns is not None and not options["columns"]:
+        raise _options.refuse("columns", columns, "names or numbers of columns")
     if raw_shape is not None and name == "auto":
         name = "raw"
     if name != "raw" and (raw_shape is not None or dtype != np.uint8 or options["raw_skip"]):
@@ -164,9 +166,15 @@ def _as_keywords(message: str) -> str:
 
     >>> _as_keywords("found NaN; --nan drop leaves it out, --from-correlation reads r")
     "found NaN; nan='drop' leaves it out, from_correlation reads r"
+    >>> _as_keywords("--complex cubical reads an image; --columns 2-3 leaves it out")
+    "array='image' reads an image; columns=['2-3'] leaves it out"
     """
-    message = message.replace("--diagonal zero", "diagonal='any'")
-    values = "drop|max|min|lower|births|zero|any|error|cubical|points|distance|grid"
+    for option, keyword in (("--diagonal zero", "diagonal='any'"),
+                            ("--complex cubical", "array='image'"),
+                            ("--complex rips", "array='rips'")):
+        message = message.replace(option, keyword)
+    message = re.sub(r"--columns (\d+-\d+)", r"columns=['\1']", message)
+    values = "drop|max|min|lower|births|zero|any|error|points|distance|grid"
     message = re.sub(rf"--([a-z-]+) ({values})\b",
                      lambda m: f"{m[1].replace('-', '_')}='{m[2]}'", message)
     return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), message)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/system/files.hpp"
+#include "io/points/table.hpp"
 #include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {
@@ -71,7 +72,11 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
   ReadOptions options = arguments.read;
   options.context = &context;
   options.dropped = &dropped;
-  ReadResult read = read_any(input, arguments.format, options, files::path_of(arguments.values));
+  Format format = arguments.format;
+  // A row for each time, however many numbers it has; arrays may have one axis.
+  if (arguments.delay && format == Format::automatic && !detail::format_by_content(input))
+    format = Format::points;
+  ReadResult read = read_any(input, format, options, files::path_of(arguments.values));
   if (arguments.delay) embed(input.name(), *arguments.delay, dropped.size(), context, read);
   if (std::string note = note_on_mesh(read, arguments); !note.empty())
     read.notes.push_back(std::move(note));

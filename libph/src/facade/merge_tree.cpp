@@ -143,8 +143,8 @@ std::vector<LinkageRow> linkage(const MergeTree& tree) {
 MergeTree merge_tree(const Rips& rips, const RunContext& context) {
   if (rips.graph().has_names())
     throw Error(ErrorKind::usage,
-                "the merge tree needs all points: expected no vertices chosen, equal points not "
-                "merged, and a threshold that reaches the births (weights) of all");
+                "merge tree: found vertices that were chosen, equal points that were merged, or a "
+                "threshold below the births (weights) of some points, expected all points");
   return rips.with_filtration(0, [&](const auto& f) { return tree_of(f, context); });
 }
 

@@ -27,7 +27,8 @@ std::optional<Format> triangle_of(const Input& input) {
   while (lengths.size() < kMostLookedAt && lines.next()) {
     if (std::exchange(first, false) && !header_names(lines.line()).empty()) continue;
     if (lines.line().find(':') != std::string_view::npos) return Format::simplices;
-    lengths.push_back(count_cells(lines));
+    const char separator = separator_in(lines.line());
+    lengths.push_back(count_cells(lines, separator == '\t' ? ' ' : separator));
   }
   if (lengths.size() < 3) return std::nullopt;
   bool rising = lengths[0] == 1, falling = true;

@@ -128,6 +128,11 @@ def test_files_that_are_refused(tmp_path):
         ph.read(tmp_path / "bad.csv", array="x")
     with pytest.raises(TypeError, match="unexpected keyword"):
         ph.read(tmp_path / "bad.csv", skip=3)
+    wide = write(tmp_path, "wide.csv", "1,2\n3,4\n5,6\n")
+    with pytest.raises(ph.DataError, match="as many rows as columns, for distances"):
+        ph.read(wide, array="distances")
+    with pytest.raises(ph.UsageError, match=r"columns: found \[\], expected names"):
+        ph.read(wide, columns=[])
 
 
 def test_a_name_that_is_no_text(tmp_path):

@@ -72,6 +72,43 @@ class Tables(GuessTest):
         self.write("ragged.csv", "x,y,z\n0,0,1\n3,1\n2,2,2\n")
         self.assertNotIn("--nan", self.expect(65, "ragged.csv").stderr)
 
+    def test_missing_values_between_tabs(self):
+        table = "\tx\ty\n" + "".join(f"{i}\t{x!r}\t{y!r}\n" for i, (x, y) in enumerate(self.points))
+        self.write("t.tsv", table)
+        self.check(self.pairs, "t.tsv", note="left out")
+        self.write("empty.tsv", table.replace("\n", "\t\n").replace(f"\n3\t{self.points[3][0]!r}\t",
+                                                                   "\n3\t\t"))
+        self.refused(65, ["empty.tsv:5:3: empty cell", "--nan drop"], "empty.tsv")
+        # All rows lack the same column: none may take its place.
+        self.write("column.tsv", "x\ty\tz\n" + "".join(f"{x!r}\t\t{y!r}\n" for x, y in self.points))
+        self.refused(65, ["column.tsv:2:", "empty cell"], "column.tsv")
+        self.check(self.pairs, "column.tsv", "--columns", "x,z")
+
+    def test_a_cloud_without_comments(self):
+        cloud = [[*p, k % 3 / 2] for k, p in enumerate(self.points)]
+        for header, separator in (("r,x,y,z,comment", ","), ("r;x;y;z;comment", ";"),
+                                  ("r\tx\ty\tz\tcomment", "\t")):
+            self.write("c.xyz", header + "\n" + "".join(
+                separator.join(map(repr, [0.5, *p])) + separator + "\n" for p in cloud))
+            self.refused(65, ["c.xyz:2:", "found 4 cells, expected 5, as the header has names"],
+                         "c.xyz")
+
+    def test_times_are_rows(self):
+        self.write("row.csv", "1,2,4,8,16\n")
+        self.refused(65, ["a series of 1 times"], "row.csv", "--delay", "2")
+        rows = [[v + k for k in range(5)] for v in flat(self.points)]
+        self.write("rows.csv", csv(rows))
+        self.write("rows.npy", files.array((24, 5), flat(rows)))
+        windows = distances_of([a + b for a, b in zip(rows, rows[1:])])
+        for name in ("rows.csv", "rows.npy"):
+            self.check(windows, name, "--delay", "2", silent=["image"])
+
+    def test_a_triangle_with_its_diagonal(self):
+        self.write("t.txt", "0\n1,0\n5,3,0\n")
+        self.h0("t.txt", note="each row ends in 0")
+        self.write("t.txt", "0\n1,0\n5,3,1\n")
+        self.h0("t.txt", silent=["ends in 0"])
+
     def test_no_rows(self):
         for text in ("", "# nothing\n", "x,y\n"):
             self.write("empty.csv", text)

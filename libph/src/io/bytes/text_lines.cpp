@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -16,9 +17,8 @@ constexpr std::size_t kShown = 40;           // bytes of a cell that a message s
 constexpr std::size_t kProbe = 4096;         // bytes looked at to tell text from binary
 constexpr std::size_t kPollBytes = 1 << 18;  // between two looks at the stop token
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool ends_cell(char c) { return is_blank(c) || c == ',' || c == ';'; }
+bool ends_cell(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
 char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 std::string quoted(std::string_view bytes) {
@@ -88,20 +88,42 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 // Length of the first cell of a header; separators between quotes do not count.
 std::size_t header_cell(std::string_view rest, char separator) {
   bool in_quotes = false;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (rest[i] == '"') in_quotes = !in_quotes;
-    if (!in_quotes && (separator == ' ' ? is_blank(rest[i]) : rest[i] == separator)) return i;
+    if (!in_quotes && rest[i] == separator) return i;
   }
   return rest.size();
+}
+
+// The end of what stands between quotes, which are written twice within.
+const char* end_of_quotes(const char* begin, const char* end) {
+  for (const char* close = begin;;) {
+    close = std::find(close + 1, end, '"');
+    if (close == end) return begin;  // no quotes
+    if (close + 1 == end || close[1] != '"') return close + 1;
+    ++close;
+  }
+}
+
+// Where the comment of a line begins; its end if there is none.
+const char* start_of_comment(const char* begin, const char* end) {
+  constexpr std::array<std::string_view, 7> kSpreadsheetErrors{
+      "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"};
+  bool in_quotes = false;
+  for (const char* p = begin;; ++p) {
+    const auto* const hash =
+        static_cast<const char*>(std::memchr(p, '#', static_cast<std::size_t>(end - p)));
+    if (hash == nullptr) return end;
+    if (std::count(p, hash, '"') % 2 != 0) in_quotes = !in_quotes;
+    const std::string_view rest(hash, static_cast<std::size_t>(end - hash));
+    const bool is_error = std::ranges::any_of(
+        kSpreadsheetErrors, [&](std::string_view error) { return rest.starts_with(error); });
+    if (!in_quotes && !is_error) return hash;
+    p = hash;
+  }
 }
 
 }  // namespace
@@ -158,14 +180,14 @@ bool TextLines::next() {
     }
     const char* begin = start_;
     if (begin != stop) {
-      const auto* comment =
-          static_cast<const char*>(std::memchr(begin, '#', static_cast<std::size_t>(stop - begin)));
-      if (comment != nullptr) {
+      const char* const comment = start_of_comment(begin, stop);
+      if (comment != stop) {
         stop = comment;
       } else if (stop[-1] == '\r') {
         --stop;
       }
     }
+    const auto is_blank = [tab = tab_](char c) { return c == ' ' || c == tab; };
     while (begin != stop && is_blank(*begin)) ++begin;
     while (begin != stop && is_blank(stop[-1])) --stop;
     if (begin == stop) continue;
@@ -180,18 +202,31 @@ void TextLines::fail(const char* place, const Fault& fault) const {
   input_.fail_at(number_, column(place), fault);
 }
 
+char detail::separator_in(std::string_view line) {
+  for (const char separator : {',', ';', '\t'})
+    if (header_cell(line, separator) != line.size()) return separator;
+  return ' ';
+}
+
 std::vector<std::string> detail::header_cells(std::string_view line, bool names_only) {
-  const char separator = line.find(',') != std::string_view::npos   ? ','
-                         : line.find(';') != std::string_view::npos ? ';'
-                                                                    : ' ';
+  const char separator = separator_in(line);
+  const auto trimmed = [separator](std::string_view text) {
+    const auto is_blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+  };
   std::vector<std::string> cells;
+  bool all_missing = true;
   for (std::string_view rest = trimmed(line); !rest.empty();) {
     const std::size_t length = header_cell(rest, separator);
     const std::string_view cell = without_quotes(trimmed(rest.substr(0, length)));
     if (names_only && looks_numeric(cell)) return {};
+    all_missing = all_missing && is_missing_value(cell);
     cells.emplace_back(cell);
     rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
   }
+  if (names_only && all_missing) return {};
   return cells;
 }
 
@@ -289,23 +324,24 @@ std::string_view Cells::word() {
 std::string_view Cells::skip() {
   const char* begin = position_;
   const char* stop = end_of_cell(begin);
+  if (skipped_to_ != ' ') {
+    stop = std::find(stop, end_, skipped_to_);
+    while (stop != begin && is_blank(stop[-1])) --stop;
+  }
   after_cell(stop);
   return {begin, static_cast<std::size_t>(stop - begin)};
 }
 
 const char* Cells::end_of_cell(const char* begin) const {
   const char* stop = begin;
-  if (stop != end_ && *stop == '"') {
-    const char* close = std::find(stop + 1, end_, '"');
-    if (close != end_) stop = close + 1;
-  }
+  if (stop != end_ && *stop == '"') stop = end_of_quotes(begin, end_);
   while (stop != end_ && !ends_cell(*stop)) ++stop;
   return stop;
 }
 
 bool Cells::is_empty_cell(const char* begin, const char* stop) const {
   if (stop - begin == 2) return *begin == '"' && begin[1] == '"';
-  return stop == begin && stop != end_ && (*stop == ',' || *stop == ';');
+  return stop == begin && stop != end_ && ends_cell(*stop);
 }
 
 void Cells::expect_end(std::string_view expected) {
@@ -321,7 +357,7 @@ void Cells::after_cell(const char* end_of_cell) {
     position_ = p;
     return;
   }
-  const char found = *p == ',' || *p == ';' ? *p : ' ';
+  const char found = ends_cell(*p) ? *p : ' ';
   if (separator_ == 0) {
     separator_ = found;
   } else if (found != separator_) {
@@ -329,7 +365,7 @@ void Cells::after_cell(const char* end_of_cell) {
     if (found != ' ') ++end_of_both;
     while (end_of_both != end_ && !ends_cell(*end_of_both)) ++end_of_both;
     const auto name = [](char c) {
-      return c == ' ' ? std::string("a blank") : fmt::format("'{}'", c);
+      return c == ' ' ? std::string("a blank") : c == '\t' ? "a tab" : fmt::format("'{}'", c);
     };
     lines_->fail(
         position_,

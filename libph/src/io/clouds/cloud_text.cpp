@@ -158,15 +158,13 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
   as_points.array = ArrayMeaning::points;
   as_points.columns.clear();
   detail::TableLayout layout = detail::table_layout(input, as_points);
-  if (layout.names_rows) {
-    // Programs that read clouds alone have no --columns.
-    for (std::string& text : layout.notes) text.resize(std::min(text.find("; "), text.size()));
-    detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);
-    if (table.header.size() == layout.width) table.header.erase(table.header.begin());
-    return detail::cloud_of_rows(table, input, options, detail::RowSource::text);
-  }
-  return detail::cloud_of_rows(detail::read_text_table(input, Allow::any, options), input, options,
-                               detail::RowSource::text);
+  // Programs that read clouds alone have no --columns.
+  for (std::string& text : layout.notes) text.resize(std::min(text.find("; "), text.size()));
+  detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);
+  if (table.header.size() == layout.width && layout.names_rows)
+    table.header.erase(table.header.begin(),
+                       table.header.begin() + static_cast<std::ptrdiff_t>(layout.columns.front()));
+  return detail::cloud_of_rows(table, input, options, detail::RowSource::text);
 }
 
 Cloud read_pts(const Input& input, const ReadOptions& options) {

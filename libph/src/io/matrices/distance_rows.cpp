@@ -35,16 +35,22 @@ std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t
   return std::vector<double>(triangle(n));
 }
 
-void fail_row(const TextLines& lines, std::size_t row, std::size_t found, std::size_t expected) {
+void fail_row(const TextLines& lines, std::size_t row, std::size_t found, std::size_t expected,
+              std::string_view hint) {
   lines.fail(
       lines.line().data(),
       {fmt::format("row {} of the matrix is too {}", row, found < expected ? "short" : "long"),
        fmt::format("{} cell{}", found, found == 1 ? "" : "s"), fmt::format("{}", expected),
-       found < expected && lines.offset() == lines.input().size() ? "is the file truncated?" : ""});
+       !hint.empty()                                                ? std::string(hint)
+       : found < expected && lines.offset() == lines.input().size() ? "is the file truncated?"
+                                                                    : ""});
 }
 
-TextEntries::TextEntries(const TextLines& lines, const ReadOptions& options)
-    : lines_(lines), options_(options), cells_(lines, cell_hints(options)), entries_(options) {}
+TextEntries::TextEntries(const TextLines& lines, const ReadOptions& options, char separator)
+    : lines_(lines),
+      options_(options),
+      cells_(lines, cell_hints(options), separator),
+      entries_(options) {}
 
 EntryPlace TextEntries::place(std::size_t row, std::size_t column) const {
   return {row, column, static_cast<std::size_t>(cells_.place() - lines_.input().text().data())};

@@ -23,12 +23,13 @@ std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t
 std::string why_square(const ReadOptions& options);
 
 [[noreturn]] void fail_row(const TextLines& lines, std::size_t row, std::size_t found,
-                           std::size_t expected);
+                           std::size_t expected, std::string_view hint = {});
 
 /// Reads entries of a text matrix, each checked where it stands.
 class TextEntries {
  public:
-  TextEntries(const TextLines& lines, const ReadOptions& options);
+  /// @param separator see Cells.
+  TextEntries(const TextLines& lines, const ReadOptions& options, char separator = ' ');
 
   void start() { cells_.start(); }
   bool more() const { return cells_.more(); }

@@ -44,14 +44,14 @@ class RowNames {
 DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) {
   const detail::TableLayout layout = detail::table_layout(input, options);
   layout.tell(options);
-  TextLines lines(input);
+  TextLines lines = layout.lines(input);
   if (!layout.start(lines)) return detail::no_points(input, options);
   const std::vector<bool> taken = layout.taken();
   const std::size_t n = layout.columns.size();
   std::vector<double> pairs = detail::make_triangle(input, n, n, checked_product(n, n), options);
   std::vector<double> births;
   RowNames names(layout);
-  detail::TextEntries entries(lines, options);
+  detail::TextEntries entries(lines, options, layout.separator);
   std::size_t row = 0;
   do {
     if (row == n) {
@@ -88,6 +88,8 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
       ++cell;
     }
     for (; entries.more(); ++cell) entries.skip();
+    if (cell + 1 == layout.width && detail::ends_empty(lines.line()))
+      detail::fail_row(lines, row, cell, layout.width, "--nan drop accepts an empty last cell");
     if (cell != layout.width) detail::fail_row(lines, row, cell, layout.width);
     ++row;
   } while (lines.next());

@@ -71,8 +71,8 @@ TableShape shape_of(const Input& input, const TableLayout& layout) {
   const std::vector<bool> taken = layout.taken();
   const bool has_names = layout.names_rows && layout.header.size() == layout.width;
   TableShape shape{.same_names = has_names};
-  TextLines lines(input);
-  Cells cells(lines);
+  TextLines lines = layout.lines(input);
+  Cells cells(lines, {}, layout.separator);
   std::size_t rows = 0;
   for (bool more = layout.start(lines); more && rows <= n; more = lines.next(), ++rows) {
     if (rows >= side) continue;

@@ -58,7 +58,8 @@ DistanceMatrix from_one_line(const TextLines& lines, std::size_t line, std::vect
 }
 
 // The rows after the first one, which has one cell, of the lower triangle.
-DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vector<double> values) {
+DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vector<double> values,
+                               const ReadOptions& options) {
   std::size_t n = 2;
   do {
     entries.start();
@@ -74,6 +75,12 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
     ++n;
   } while (lines.next());
   entries.finish();
+  bool are_zero = true;
+  for (std::size_t i = 1; i < n; ++i) are_zero = are_zero && values[triangle(i + 1) - 1] == 0;
+  if (are_zero && n > 3)
+    detail::note(options,
+                 "each row ends in 0: two points at one place; if that is the diagonal, leave the "
+                 "zeros and the first row out");
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
@@ -131,7 +138,7 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
                   {"row 1 of the matrix is too long", fmt::format("{} cells", first.size()), "1",
                    "the lower triangle has 1, 2, 3, … cells a row"});
   }
-  return read_lower_rows(lines, entries, std::move(first));
+  return read_lower_rows(lines, entries, std::move(first), options);
 }
 
 }  // namespace

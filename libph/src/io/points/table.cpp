@@ -2,31 +2,39 @@
 #include "io/points/table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <limits>
 #include <utility>
 
-#include "core/floating.hpp"
 #include "io/readers.hpp"
 
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kShownNames = 10;
+bool begins_empty(std::string_view line) { return line.find_first_of(",;\t") == 0; }
 
-bool begins_empty(std::string_view line) { return line.find_first_of(",;") == 0; }
+bool is_whole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
-// Cells of a line with its first one empty, as tables have it whose rows have names.
-std::vector<std::string> unnamed_header(std::string_view line) {
+// Cells of a line with its first one empty, as tables have it whose rows have names. Numbers are
+// names where they count the columns, or where the next line begins with a name.
+std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
   std::vector<std::string> names = header_cells(line, false);
-  const bool is_named =
-      std::ranges::any_of(names, [](const std::string& name) { return !name.empty(); });
-  if (!is_named || !names.front().empty()) names.clear();
+  if (names.empty() || !names.front().empty()) return {};
+  bool is_named = false, has_numbers = false, counts = true, are_whole = true;
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    is_named = is_named || !names[k].empty();
+    has_numbers = has_numbers || number_in(names[k]);
+    are_whole = are_whole && (!number_in(names[k]) || is_whole(names[k]));
+    counts = counts && names[k] == std::to_string(names[1] == "0" ? k - 1 : k);
+  }
+  const bool are_names =
+      !has_numbers || counts || (are_whole && !number_in(first_of_next) && !first_of_next.empty());
+  if (!is_named || !are_names) names.clear();
   return names;
 }
 
@@ -49,20 +57,18 @@ struct FirstColumn {
 FirstColumn first_column(const Input& input, const TableLayout& layout,
                          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   FirstColumn column;
-  TextLines lines(input);
-  Cells cells(lines);
+  TextLines lines = layout.lines(input);
+  Cells cells(lines, {}, layout.separator);
   if (!layout.start(lines)) return column;
-  std::int64_t least = 0;
+  double least = 0;
   do {
     cells.start();
     if (!cells.more()) continue;
     const std::string_view cell = without_quotes(cells.skip());
-    std::int64_t number = -1;
-    const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    const bool whole = error == std::errc{} && stop == cell.data() + cell.size();
+    const double number = number_in(cell).value_or(-1);
     if (column.rows == 0) least = number;
-    column.counts = column.counts && whole && (least == 0 || least == 1) &&
-                    number == least + static_cast<std::int64_t>(column.rows);
+    column.counts = column.counts && (least == 0 || least == 1) &&
+                    number == least + static_cast<double>(column.rows);
     column.names_columns = column.names_columns && column.rows + 1 < layout.header.size() &&
                            layout.header[column.rows + 1] == cell;
     ++column.rows;
@@ -100,7 +106,9 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   };
   const std::size_t n = layout.width;
   if (std::vector<std::string> names = counting_header(first); names.size() == n) {
-    TableLayout rest{.header = std::move(names), .width = n, .columns = range(0, n)};
+    TableLayout rest = layout;
+    rest.header = std::move(names);
+    rest.columns = range(0, n);
     if (is_matrix(rest)) {
       layout.header = std::move(rest.header);
       layout.notes.push_back(fmt::format(
@@ -109,27 +117,90 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
     }
   }
   if (!options.columns.empty()) return;
-  const TableLayout rest{.width = n, .columns = range(1, n), .names_rows = true};
+  TableLayout rest = layout;
+  rest.columns = range(1, n);
+  rest.names_rows = true;
   if (first_column(input, rest, n).counts && is_matrix(rest)) {
     layout.names_rows = true;
     layout.notes.emplace_back("the first column counts the rows of a symmetric matrix: left out");
   }
 }
 
-// Cells of a row. An empty last one counts if the header has a name for it: it is a missing value.
-std::size_t width_of(const TextLines& lines, const TableLayout& layout) {
-  const std::size_t count = count_cells(lines);
-  return count + (count + 1 == layout.header.size() && ends_empty(lines.line()) ? 1 : 0);
+// Cells of the first row. An empty last one counts if the header has a name for it, or, without a
+// header, if the next row has a cell there: it is a missing value.
+std::size_t width_of(const TextLines& row, const TableLayout& layout) {
+  const std::size_t count = count_cells(row, layout.separator);
+  if (!ends_empty(row.line())) return count;
+  if (!layout.header.empty()) return count + (count + 1 == layout.header.size() ? 1 : 0);
+  TextLines next(row);
+  return count + (next.next() && count_cells(next, layout.separator) == count + 1 ? 1 : 0);
 }
 
 // How to read the first column, too; nothing of a square matrix, which it would make none.
 std::string way_to_take_it(const Input& input, const TableLayout& layout) {
-  const TableLayout rest{.header = layout.header,
-                         .width = layout.width,
-                         .columns = range(1, layout.width),
-                         .names_rows = true};
+  TableLayout rest = layout;
+  rest.columns = range(1, layout.width);
+  rest.names_rows = true;
   const bool is_square = shape_of(input, rest).rows == rest.columns.size();
-  return is_square ? "" : fmt::format("; --columns 1-{} takes it, too", layout.width);
+  return is_square ? ""
+                   : fmt::format("; --columns 1-{} takes {}, too", layout.width,
+                                 layout.unnamed() > 1 ? "them" : "it");
+}
+
+std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
+  Cells cells(line, {}, layout.separator);
+  cells.start();
+  return cells.more() ? cells.skip() : std::string_view();
+}
+
+// Whether each tab separates two cells: not if blanks stand between numbers, too.
+bool has_tabs_between_cells(const Input& input) {
+  constexpr std::size_t kLines = 2;  // a header and a row
+  TextLines lines(input);
+  lines.keep_tabs();
+  bool has_tabs = false;
+  for (std::size_t k = 0; k < kLines && lines.next();) {
+    if (lines.line().find_first_not_of(" \t") == std::string_view::npos) continue;
+    ++k;
+    const char separator = separator_in(lines.line());
+    if (separator == ',' || separator == ';') return false;
+    has_tabs = has_tabs || separator == '\t';
+    if (separator == ' ' && number_in(header_cells(lines.line(), false).front())) return false;
+    for (const std::string& cell : header_cells(lines.line(), false)) {
+      const std::size_t blank = cell.find(' ');
+      if (separator == '\t' && blank != std::string::npos && number_in(cell.substr(0, blank)))
+        return false;
+    }
+  }
+  return has_tabs;
+}
+
+// Whether --columns has a name of this line that is no number of a column.
+bool asks_for_names(const ReadOptions& options, std::string_view line) {
+  const std::vector<std::string> names = header_cells(line, false);
+  return std::ranges::any_of(options.columns, [&](const std::string& word) {
+    const double number = number_in(word).value_or(0);
+    const bool is_number = number >= 1 && number <= static_cast<double>(names.size());
+    return !is_number && std::ranges::find(names, word) != names.end();
+  });
+}
+
+// Whether the first line has a name in a column that is not read, and where it is read whole
+// numbers in place of fractions: years, for example.
+bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
+  const std::vector<bool> taken = layout.taken();
+  const auto looks = [&](const TextLines& line) {
+    bool has_names = false, are_whole = true;
+    Cells cells(line, {}, layout.separator);
+    cells.start();
+    for (std::size_t k = 0; k < taken.size() && cells.more(); ++k) {
+      const std::string_view cell = without_quotes(cells.skip());
+      has_names = has_names || (!taken[k] && !cell.empty() && !number_in(cell));
+      are_whole = are_whole && (!taken[k] || is_whole(cell));
+    }
+    return std::pair(has_names, are_whole);
+  };
+  return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
 // Whether the first column has names, or counts the rows; says why in a note.
@@ -138,13 +209,16 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   const bool is_full = layout.header.size() == layout.width;
   const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes it
   if (is_full && layout.header[0].empty()) {
+    const bool is_one = layout.unnamed() == 1;
     layout.notes.push_back(
-        fmt::format("the first column has no name, as an index of the rows: left out{}",
+        fmt::format("the first {} no name, as an index of the rows: left out{}",
+                    is_one ? "column has" : fmt::format("{} columns have", layout.unnamed()),
                     number_in(first_cell) ? way_to_take_it(input, layout) : ""));
     return true;
   }
   const bool is_index = is_full && is_name_of_index(layout.header[0]);
-  if (!number_in(first_cell)) {
+  const bool is_quoted = is_one_short && first_cell.starts_with('"');
+  if (!number_in(first_cell) || is_quoted) {
     if (!is_index && !is_one_short && !(is_full && first_column(input, layout).names_columns))
       return false;
     layout.notes.emplace_back("the first column has names of the rows: left out");
@@ -172,6 +246,17 @@ std::vector<bool> TableLayout::taken() const {
   return taken;
 }
 
+std::size_t TableLayout::unnamed() const {
+  const auto named = std::ranges::find_if(header, [](const auto& name) { return !name.empty(); });
+  return static_cast<std::size_t>(named - header.begin());
+}
+
+TextLines TableLayout::lines(const Input& input) const {
+  TextLines lines(input);
+  if (keeps_tabs) lines.keep_tabs();
+  return lines;
+}
+
 bool TableLayout::start(TextLines& lines) const {
   if (!lines.next()) return false;
   return header.empty() || lines.next();
@@ -183,22 +268,30 @@ void TableLayout::tell(const ReadOptions& options) const {
 
 TableLayout table_layout(const Input& input, const ReadOptions& options) {
   TableLayout layout;
-  TextLines lines(input);
+  layout.keeps_tabs = has_tabs_between_cells(input);
+  TextLines lines = layout.lines(input);
   if (!lines.next()) return layout;
-  layout.header = header_names(lines.line());
-  const bool is_unnamed = layout.header.empty();
-  if (is_unnamed) layout.header = unnamed_header(lines.line());
   TextLines next(lines);
   const bool has_next = next.next();
-  if (is_unnamed && !layout.header.empty() &&
-      (!has_next || begins_empty(next.line()) || width_of(next, layout) != layout.header.size())) {
-    layout.header.clear();  // a row that begins with an empty cell
+  const auto separator = [&](const TextLines& row) {
+    const char found = separator_in(row.line());
+    return found == '\t' && !layout.keeps_tabs ? ' ' : found;
+  };
+  if (has_next) layout.separator = separator(next);
+  layout.header = header_names(lines.line());
+  if (layout.header.empty() && has_next) {
+    layout.header = unnamed_header(lines.line(), first_cell(next, layout));
+    if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
+      layout.header.clear();  // a row that begins with an empty cell
   }
+  if (layout.header.empty() && has_next && asks_for_names(options, lines.line()))
+    layout.header = header_cells(lines.line(), false);
   const bool has_header = !layout.header.empty();
   if (has_header)
     layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));
   if (has_header && !has_next) return layout;
   const TextLines& row = has_header ? next : lines;
+  layout.separator = separator(row);
   layout.width = width_of(row, layout);
   // Points and pictures may well be symmetric behind numbers that count.
   if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
@@ -208,113 +301,15 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes it
     if (names.size() != layout.width) names.clear();
     layout.columns = chosen_columns(options.columns, names, layout.width, input);
+    if (!has_header && has_next && may_be_names(lines, next, layout))
+      layout.notes.push_back(
+          fmt::format("line {} is read as numbers; take it out if it is a header", lines.number()));
     return layout;
   }
-  Cells cells(row);
-  cells.start();
-  if (has_header) layout.names_rows = leads_with_names(input, layout, cells.skip());
-  layout.columns = range(layout.names_rows ? 1 : 0, layout.width);
+  if (has_header) layout.names_rows = leads_with_names(input, layout, first_cell(row, layout));
+  const std::size_t index = std::max<std::size_t>(layout.unnamed(), 1);
+  layout.columns = range(layout.names_rows ? index : 0, layout.width);
   return layout;
-}
-
-std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
-                                        const std::vector<std::string>& header, std::size_t width,
-                                        const Input& input) {
-  const auto fail = [&](const std::string& word, std::string_view why) {
-    std::vector<std::string> names;
-    for (const std::string& name : header) {
-      if (names.size() == kShownNames) break;
-      if (!name.empty()) names.push_back(printable(name, 40));
-    }
-    throw Error(ErrorKind::usage,
-                fmt::format("--columns: found '{}'{}, expected columns of {}: {}{}{} from 1 to {}",
-                            printable(word, 40), why, input.name(), fmt::join(names, ", "),
-                            header.size() > names.size() ? ", ..." : "",
-                            names.empty() ? "numbers" : ", or numbers", width));
-  };
-  const auto number = [&](std::string_view text) -> std::size_t {  // 0: none
-    std::size_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc{} && stop == text.data() + text.size();
-    return whole && value <= width ? value : 0;
-  };
-  std::vector<bool> taken(width, false);
-  const auto take = [&](std::size_t column, const std::string& word) {
-    if (taken[column]) fail(word, " again");
-    taken[column] = true;
-  };
-  for (const std::string& word : wanted) {
-    if (const auto named = std::ranges::find(header, word); named != header.end()) {
-      const auto column = static_cast<std::size_t>(named - header.begin());
-      if (std::find(named + 1, header.end(), word) != header.end())
-        fail(word, ", the name of several columns");
-      if (number(word) != 0 && number(word) != column + 1)
-        fail(word, fmt::format(", a name and the number of another column (by number: {0}-{0} "
-                               "or {1}-{1})",
-                               column + 1, number(word)));
-      take(column, word);
-      continue;
-    }
-    const std::size_t dash = word.find('-');
-    const std::size_t first = number(std::string_view(word).substr(0, dash));
-    const std::size_t last =
-        dash == std::string::npos ? first : number(std::string_view(word).substr(dash + 1));
-    if (first == 0 || last < first) fail(word, "");
-    for (std::size_t k = first; k <= last; ++k) take(k - 1, word);
-  }
-  std::vector<std::size_t> columns;
-  for (std::size_t k = 0; k < width; ++k)
-    if (taken[k]) columns.push_back(k);
-  return columns;
-}
-
-std::string_view without_quotes(std::string_view cell) {
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-    return cell.substr(1, cell.size() - 2);
-  return cell;
-}
-
-bool is_missing_value(std::string_view cell) { return without_quotes(cell) == "NA"; }
-
-std::optional<double> number_in(std::string_view cell) {
-  if (is_missing_value(cell)) return std::numeric_limits<double>::quiet_NaN();
-  cell = without_quotes(cell);
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const auto [stop, error] = floating_from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc::invalid_argument || stop != cell.data() + cell.size())
-    return std::nullopt;
-  return value;
-}
-
-CellHints cell_hints(const ReadOptions& options) {
-  return {"names or an index? --columns takes some columns only",
-          options.nan == NanPolicy::error
-              ? "--nan drop accepts missing values; --columns takes some columns only"
-              : ""};
-}
-
-std::size_t count_cells(const TextLines& lines) {
-  Cells cells(lines);
-  std::size_t count = 0;
-  for (cells.start(); cells.more(); ++count) cells.skip();
-  return count;
-}
-
-bool ends_empty(std::string_view line) { return line.ends_with(',') || line.ends_with(';'); }
-
-void refuse_columns(const ReadOptions& options, std::string_view found) {
-  if (!options.columns.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("--columns: makes sense for points and matrices as text only, found {}",
-                            found));
-}
-
-std::string_view matrix_option(const ReadOptions& options) {
-  if (options.from_correlation) return "--from-correlation";
-  if (options.diagonal == Diagonal::births) return "--diagonal births";
-  if (options.symmetrise != Symmetrise::none) return "--symmetrise";
-  return options.array == ArrayMeaning::distances ? "--diagonal" : "";
 }
 
 }  // namespace ph::detail

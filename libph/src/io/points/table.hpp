@@ -15,9 +15,15 @@ struct TableLayout {
   std::vector<std::string> header = {};   ///< names of the columns, on the first line; empty: none
   std::size_t width = 0;                  ///< cells of the first row; 0: there is none
   std::vector<std::size_t> columns = {};  ///< those that hold numbers to be read, ascending
-  bool names_rows = false;                ///< the first column has names and is not among them
+  bool names_rows = false;                ///< the first column is an index and not among them
   std::vector<std::string> notes = {};    ///< what was assumed
+  char separator = ' ';                   ///< of the first row: ',', ';', a tab, or blanks
+  bool keeps_tabs = false;                ///< each tab separates two cells
 
+  /// How many columns lead the others and have no name though there is a header.
+  std::size_t unnamed() const;
+  /// The lines of the table, before the first one.
+  TextLines lines(const Input& input) const;
   /// Whether column k is one of `columns`, for all k < width.
   std::vector<bool> taken() const;
   /// Goes to the first row, behind the header. @return whether there is one.
@@ -33,15 +39,18 @@ TableLayout table_layout(const Input& input, const ReadOptions& options);
 
 /// The number that a cell holds, NaN if double cannot hold it; nothing if it holds no number.
 std::optional<double> number_in(std::string_view cell);
-/// Whether a cell is NA, as R writes a value that is not there.
+/// Whether a cell is NA or #N/A, as R and spreadsheets write a value that is not there.
 bool is_missing_value(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
 /// Cells of a line of names, without the quotes around them and without an empty last one.
 /// @param names_only nothing if one is a number, or empty.
 std::vector<std::string> header_cells(std::string_view line, bool names_only);
-/// Cells of the current line, without an empty last one.
-std::size_t count_cells(const TextLines& lines);
+/// What separates the cells of a line: a comma, a semicolon or a tab outside of quotes, the first
+/// of these that there is, else blanks.
+char separator_in(std::string_view line);
+/// Cells of the current line, without an empty last one. @param separator see Cells.
+std::size_t count_cells(const TextLines& lines, char separator = ' ');
 /// Whether a line ends in a separator: its last cell is empty if another one is expected.
 bool ends_empty(std::string_view line);
 

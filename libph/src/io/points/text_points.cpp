@@ -28,11 +28,11 @@ bool names_coordinate(std::string_view name) {
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
-// Whether the first point may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of two whole
+// Whether the first row may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of one or two whole
 // numbers among others that says nothing.
 bool may_be_header(PointsView rows) {
   const Index columns = rows.cols();
-  if (rows.rows() < 2 || columns < 2 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
+  if (rows.rows() < 2 || columns == 0 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
   for (Index k = 1; k < columns; ++k)
     if (rows(0, k) != rows(0, 0) + static_cast<double>(k)) return false;
   if (columns > 2) return true;
@@ -42,32 +42,46 @@ bool may_be_header(PointsView rows) {
   return false;
 }
 
+// Whether the first row is of digits alone, as names are: a column of values may begin with 0.0.
+bool begins_with_digits(const Input& input) {
+  TextLines lines(input);
+  return lines.next() &&
+         lines.line().find_first_not_of("0123456789,; \t") == std::string_view::npos;
+}
+
+// Says which numbers may be none: those of an index that was not left out, or of a header.
+void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
+                    const ReadOptions& options) {
+  constexpr Index kFewest = 8;  // rows that hardly count by chance
+  if (!options.columns.empty()) return;
+  const bool is_image = options.array == ArrayMeaning::image;
+  const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
+  const bool may_be_index =
+      !layout.names_rows && !(has_name && names_coordinate(layout.header.front()));
+  if (may_be_index && rows.rows() >= kFewest && rows.cols() > 1 && counts_rows(rows, 0)) {
+    detail::note(
+        options,
+        fmt::format("the first column{} counts the rows and is read as {}; --columns 2-{} leaves "
+                    "it out",
+                    has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
+                    is_image ? "values" : "a coordinate", rows.cols()));
+  }
+  if (layout.header.empty() && may_be_header(rows) && begins_with_digits(input))
+    detail::note(options, fmt::format("the first row {} and is read as {}; take it out if it is a "
+                                      "header",
+                                      rows.cols() == 1 ? "is a whole number" : "counts the columns",
+                                      is_image ? "values" : "a point"));
+}
+
 // The numbers of a table, without those of its index.
 detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
-  constexpr Index kFewest = 8;  // rows that hardly count by chance
   ReadOptions as_points = options;
   as_points.array = ArrayMeaning::points;
   const detail::TableLayout layout = detail::table_layout(input, as_points);
   detail::TextTable table = detail::read_text_table(
       input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
       &layout);
-  const Points& rows = table.rows;
-  const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
-  const bool may_be_index =
-      !layout.names_rows && !(has_name && names_coordinate(layout.header.front()));
-  if (may_be_index && options.columns.empty() && rows.rows() >= kFewest && rows.cols() > 1 &&
-      counts_rows(rows, 0)) {
-    detail::note(
-        options,
-        fmt::format("the first column{} counts the rows and is read as a coordinate; "
-                    "--columns 2-{} leaves it out",
-                    has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
-                    rows.cols()));
-  }
-  if (layout.header.empty() && options.columns.empty() && may_be_header(rows))
-    detail::note(options,
-                 "the first row counts the columns and is read as a point; take it out if it is a "
-                 "header");
+  tell_of_counts(input, layout, table.rows, as_points);
   return table;
 }
 
@@ -90,9 +104,10 @@ namespace detail {
 TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options, bool counted,
                           const TableLayout* layout) {
   TextTable table;
-  TextLines lines(input);
+  TextLines lines = layout != nullptr ? layout->lines(input) : TextLines(input);
   // Clouds are read by programs that have none of these options.
-  Cells cells(lines, layout != nullptr && allow != Allow::any ? cell_hints(options) : CellHints());
+  Cells cells(lines, layout != nullptr && allow != Allow::any ? cell_hints(options) : CellHints(),
+              layout != nullptr ? layout->separator : ' ');
   bool more = layout != nullptr ? layout->start(lines) : lines.next();
   std::size_t said = 0;
   if (counted) {
@@ -162,8 +177,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       lines.fail(
           lines.line().data(),
           {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
-           lines.number() == first_line ? fmt::format("{}, as the header has names", width)
-                                        : fmt::format("{}, as in line {}", width, first_line),
+           lines.number() != first_line ? fmt::format("{}, as in line {}", width, first_line)
+           : table.header.empty()       ? fmt::format("{}, as in the next line", width)
+                                        : fmt::format("{}, as the header has names", width),
            k < width && lines.offset() == input.size()
                ? is_last_missing ? "is the file truncated? else --nan drop accepts the empty cell"
                                  : "is the file truncated?"
@@ -272,6 +288,7 @@ Image read_grid(const Input& input, const ReadOptions& options) {
   const TableLayout layout = table_layout(input, as_image);
   const Allow allow = options.nan == NanPolicy::drop ? Allow::missing : Allow::infinite;
   Points rows = read_text_table(input, allow, options, false, &layout).rows;
+  tell_of_counts(input, layout, rows, as_image);
   Image image;
   if (rows.rows() > 0) image.extents = {rows.rows(), rows.cols()};
   if (rows.rows() == 1 || rows.cols() == 1) image.extents = {rows.size()};

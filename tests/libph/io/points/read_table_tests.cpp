@@ -47,8 +47,10 @@ TEST(ReadTable, ChoosesColumns) {
   const auto points = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(text, {.columns = std::move(columns)}).data);
   };
-  // A line with a number is no header: columns have numbers only.
-  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x"}); }));
+  // A line with a number is a header if it has a name that is asked for; 2 may mean either.
+  EXPECT_EQ(points({"x"}), (Points{{1}, {4}}));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x", "2"}); }));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"z"}); }));
   const std::string named = "name,x,u,y\na,1,2,3\nb,4,5,6\n";
   const auto of = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(named, {.columns = std::move(columns)}).data);
@@ -62,6 +64,80 @@ TEST(ReadTable, ChoosesColumns) {
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] {
     read_any(Input::view("OFF\n1 0 0\n0 0 0\n", "m.off"), Format::off, {.columns = {"1"}});
   }));
+}
+
+TEST(ReadTable, YearsAreNamesIfAskedFor) {
+  const std::string text = "city,2019,2020\nA,1.5,2\nB,3.5,4\n";
+  const ReadResult named = any(text, {.columns = {"2019", "2020"}});
+  EXPECT_EQ(std::get<Points>(named.data), (Points{{1.5, 2}, {3.5, 4}}));
+  const ReadResult numbered = any(text, {.columns = {"2-3"}});
+  EXPECT_EQ(std::get<Points>(numbered.data).rows(), 3);
+  EXPECT_TRUE(says(numbered, "line 1 is read as numbers"));
+  EXPECT_FALSE(says(any("A,1,2\nB,3,4\n", {.columns = {"2-3"}}), "line 1 is read"));
+}
+
+TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
+  const std::string text = ",5.5\n0.5,0.25\n1,2\n";
+  EXPECT_TRUE(
+      contains(bad_data([&] { any(text, {.array = ArrayMeaning::points}); }), "1:1: empty cell"));
+  const ReadResult kept = any(text, {.nan = NanPolicy::drop, .array = ArrayMeaning::points});
+  EXPECT_EQ(std::get<Points>(kept.data), (Points{{0.5, 0.25}, {1, 2}}));
+  // What counts columns, or has names in its rows, is a header.
+  EXPECT_EQ(std::get<Points>(any(",1,2\n1,1.5,2\n2,3.5,4\n").data), (Points{{1.5, 2}, {3.5, 4}}));
+  EXPECT_EQ(std::get<Points>(any(",2019,2020\nA,1.5,2\nB,3.5,4\n").data),
+            (Points{{1.5, 2}, {3.5, 4}}));
+}
+
+TEST(ReadTable, MissingValuesAreNoHeader) {
+  for (const std::string missing : {"NA", "#N/A", "\"NA\""}) {
+    const std::string text = missing + "\n4\n7\n";
+    EXPECT_TRUE(contains(bad_data([&] { any(text); }), "1:1: not a number")) << missing;
+    const ReadResult kept = any(text, {.nan = NanPolicy::drop});
+    EXPECT_EQ(std::get<Points>(kept.data), (Points{{4}, {7}})) << missing;
+    EXPECT_EQ(kept.point_ids, (std::vector<Index>{1, 2})) << missing;
+  }
+  EXPECT_TRUE(contains(bad_data([&] { any("1,2\n3,#DIV/0!\n"); }), "2:3: not a number"));
+}
+
+TEST(ReadTable, ATabSeparatesTwoCells) {
+  const std::string text = "\tx\ty\tz\n0\t1.5\t\t7\n1\t2.5\t3\t8\n2\t4\t5\t\n3\t1\t2\t3\n";
+  EXPECT_TRUE(contains(bad_data([&] { any(text); }), ":2:7: empty cell"));
+  const ReadResult kept = any(text, {.nan = NanPolicy::drop});
+  EXPECT_EQ(std::get<Points>(kept.data), (Points{{2.5, 3, 8}, {1, 2, 3}}));
+  EXPECT_TRUE(contains(bad_data([&] { any("1\t2\n\t\n"); }), ":2:1: empty cell"));
+  EXPECT_TRUE(contains(bad_data([&] { any("1\t2\n\t3\n"); }), ":2:1: empty cell"));
+  EXPECT_EQ(std::get<Points>(any("refl x\ty (m)\n1\t2\t\n3\t4\t\n").data),
+            (Points{{1, 2}, {3, 4}}));
+  // Where blanks separate, too, a tab is one.
+  EXPECT_EQ(std::get<Points>(any("1 2\t3\n4\t\t5 6\n\t7 8 9\n").data),
+            (Points{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+}
+
+TEST(ReadTable, ColumnsThatAreNotReadHoldAnything) {
+  for (const std::string city :
+       {"New York", "\"say \"\"hi\"\", now\"", "\"a#1\"", "a;b", "2020-01-01 0:00"}) {
+    const std::string text = "city,x,y\n" + city + ",1,2\nParis,3,4\n";
+    EXPECT_EQ(std::get<Points>(any(text, {.columns = {"x", "y"}}).data), (Points{{1, 2}, {3, 4}}))
+        << city;
+  }
+  EXPECT_EQ(std::get<Points>(any(",x,y\nfoo bar,1,2\nbaz,3,4\n").data), (Points{{1, 2}, {3, 4}}));
+}
+
+TEST(ReadTable, LeavesAnIndexOfLevelsOut) {
+  const ReadResult result = any(",,x,y\n0,1,5.5,6\n0,2,7,8\n");
+  EXPECT_EQ(std::get<Points>(result.data), (Points{{5.5, 6}, {7, 8}}));
+  EXPECT_TRUE(says(result, "the first 2 columns have no name"));
+  // R writes names of rows between quotes, and none for their column.
+  EXPECT_EQ(std::get<Points>(any("\"x\" \"y\"\n\"7\" 2 3\n\"9\" 4 5\n").data),
+            (Points{{2, 3}, {4, 5}}));
+  EXPECT_EQ(std::get<Points>(any("id,a,b\n1.0,5,6\n2.0,7,9\n").data), (Points{{5, 6}, {7, 9}}));
+}
+
+TEST(ReadTable, SaysWhatMayBeAHeaderOfNumbers) {
+  EXPECT_TRUE(says(any("0\n0.5\n1.5\n"), "the first row is a whole number"));
+  EXPECT_FALSE(says(any("0.0\n0.5\n1.5\n"), "the first row"));
+  EXPECT_TRUE(says(any("0,1,2,3,4\n5,7,9,1,0.5\n", {.array = ArrayMeaning::image}),
+                   "the first row counts the columns and is read as values"));
 }
 
 TEST(ReadTable, EmptyCellsAreMissingIfNanIsDropped) {

@@ -119,8 +119,9 @@ class Input {
   const RunContext* context_ = nullptr;
 };
 
-/// The lines of a text input that carry data: comments ('#' to the end of the line) and blank lines
-/// are skipped, a byte order mark and CRLF are accepted.
+/// The lines of a text input that carry data: comments ('#' to the end of the line, but between
+/// quotes and in an error of a spreadsheet, as #N/A) and blank lines are skipped, a byte order mark
+/// and CRLF are accepted.
 class TextLines {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
@@ -130,6 +131,9 @@ class TextLines {
   /// The text that starts at byte `offset`, after `lines_before` lines; not tested for NUL bytes.
   TextLines(const Input& input, std::size_t offset, std::size_t lines_before);
 
+  /// From now on tabs are no blanks: lines keep those at their ends, and a line of tabs has data.
+  void keep_tabs() { tab_ = ' '; }
+  bool keeps_tabs() const { return tab_ == ' '; }
   /// Goes to the next line with data; false at the end.
   /// @throws Error (bad_data) on a line longer than kMaxLine.
   bool next();
@@ -154,11 +158,12 @@ class TextLines {
   std::string_view line_;
   std::size_t number_ = 0;
   std::size_t polled_ = 0;  // offset of the last look at the stop token
+  char tab_ = '\t';         // a blank beside ' '
 };
 
-/// The names in a header line: a line whose cells are all something else than numbers. Cells are
-/// split at commas or semicolons if there are any, else at blanks; quotes are taken off. Nothing if
-/// the line is no header.
+/// The names in a header line: a line whose cells are all something else than numbers, and not all
+/// missing values. Cells are split at commas, semicolons or tabs if there are any, else at blanks;
+/// quotes are taken off. Nothing if the line is no header.
 std::vector<std::string> header_names(std::string_view line);
 
 /// Which numbers a cell may hold besides finite ones.
@@ -166,7 +171,7 @@ enum class Allow {
   finite,
   infinite,
   any,      ///< also NaN
-  missing,  ///< also nothing, before a comma or a semicolon or between quotes: NaN
+  missing,  ///< also nothing, before a separator or between quotes: NaN
 };
 
 /// What the user can do about a cell that is no number and does not say itself why.
@@ -176,13 +181,18 @@ struct CellHints {
 };
 
 /// Splits the current line into cells. The first separator of the first line with two cells
-/// (blanks,
-/// ',' or ';') is the file's separator: another one is an error, so that a decimal comma cannot
-/// pass for two cells. Blanks around ',' and one separator at the end of the line are accepted. A
-/// cell may stand between double quotes; separators between them are part of it.
+/// (blanks, ',' or ';') is the file's separator: another one is an error, so that a decimal comma
+/// cannot pass for two cells. Blanks around ',' and one separator at the end of the line are
+/// accepted. Where lines keep their tabs, each tab is a separator, too. A cell may stand between
+/// double quotes; separators between them are part of it.
 class Cells {
  public:
-  explicit Cells(const TextLines& lines, CellHints hints = {}) : lines_(&lines), hints_(hints) {}
+  /// @param separator of the cells that are skipped: they may hold blanks, unless it is one.
+  explicit Cells(const TextLines& lines, CellHints hints = {}, char separator = ' ')
+      : lines_(&lines),
+        hints_(hints),
+        tab_(lines.keeps_tabs() ? ' ' : '\t'),
+        skipped_to_(separator) {}
 
   /// Starts on the current line.
   void start() { start_in(lines_->line()); }
@@ -211,6 +221,7 @@ class Cells {
  private:
   template <class T>
   T whole(T least, T most, const char* what);
+  bool is_blank(char c) const { return c == ' ' || c == tab_; }
   const char* end_of_cell(const char* begin) const;
   bool is_empty_cell(const char* begin, const char* stop) const;
   void after_cell(const char* end_of_cell);
@@ -221,6 +232,8 @@ class Cells {
   CellHints hints_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
+  char tab_;            // a blank beside ' '
+  char skipped_to_;     // separator of cells that are skipped
   char separator_ = 0;  // 0: not seen yet
 };
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// What a cell of a table holds, and which columns are meant by names and numbers.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include "core/floating.hpp"
+#include "io/points/table.hpp"
+#include "io/readers.hpp"
+
+namespace ph::detail {
+namespace {
+
+constexpr std::size_t kShownNames = 10;
+
+}  // namespace
+
+std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
+                                        const std::vector<std::string>& header, std::size_t width,
+                                        const Input& input) {
+  const auto fail = [&](const std::string& word, std::string_view why) {
+    std::vector<std::string> names;
+    for (const std::string& name : header) {
+      if (names.size() == kShownNames) break;
+      if (!name.empty()) names.push_back(printable(name, 40));
+    }
+    throw Error(ErrorKind::usage,
+                fmt::format("--columns: found '{}'{}, expected columns of {}: {}{}{} from 1 to {}",
+                            printable(word, 40), why, input.name(), fmt::join(names, ", "),
+                            header.size() > names.size() ? ", ..." : "",
+                            names.empty() ? "numbers" : ", or numbers", width));
+  };
+  const auto number = [&](std::string_view text) -> std::size_t {  // 0: none
+    std::size_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc{} && stop == text.data() + text.size();
+    return whole && value <= width ? value : 0;
+  };
+  std::vector<bool> taken(width, false);
+  const auto take = [&](std::size_t column, const std::string& word) {
+    if (taken[column]) fail(word, " again");
+    taken[column] = true;
+  };
+  for (const std::string& word : wanted) {
+    if (const auto named = std::ranges::find(header, word); named != header.end()) {
+      const auto column = static_cast<std::size_t>(named - header.begin());
+      if (std::find(named + 1, header.end(), word) != header.end())
+        fail(word, ", the name of several columns");
+      if (number(word) != 0 && number(word) != column + 1)
+        fail(word, fmt::format(", a name and the number of another column (by number: {0}-{0} "
+                               "or {1}-{1})",
+                               column + 1, number(word)));
+      take(column, word);
+      continue;
+    }
+    const std::size_t dash = word.find('-');
+    const std::size_t first = number(std::string_view(word).substr(0, dash));
+    const std::size_t last =
+        dash == std::string::npos ? first : number(std::string_view(word).substr(dash + 1));
+    if (first == 0 || last < first) fail(word, "");
+    for (std::size_t k = first; k <= last; ++k) take(k - 1, word);
+  }
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 0; k < width; ++k)
+    if (taken[k]) columns.push_back(k);
+  return columns;
+}
+
+std::string_view without_quotes(std::string_view cell) {
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+    return cell.substr(1, cell.size() - 2);
+  return cell;
+}
+
+bool is_missing_value(std::string_view cell) {
+  cell = without_quotes(cell);
+  return cell == "NA" || cell == "#N/A";
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  if (is_missing_value(cell)) return std::numeric_limits<double>::quiet_NaN();
+  cell = without_quotes(cell);
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const auto [stop, error] = floating_from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc::invalid_argument || stop != cell.data() + cell.size())
+    return std::nullopt;
+  return value;
+}
+
+CellHints cell_hints(const ReadOptions& options) {
+  return {"names or an index? --columns takes some columns only",
+          options.nan == NanPolicy::error
+              ? "--nan drop accepts missing values; --columns takes some columns only"
+              : ""};
+}
+
+std::size_t count_cells(const TextLines& lines, char separator) {
+  Cells cells(lines, {}, separator);
+  std::size_t count = 0;
+  for (cells.start(); cells.more(); ++count) cells.skip();
+  return count;
+}
+
+bool ends_empty(std::string_view line) {
+  return line.ends_with(',') || line.ends_with(';') || line.ends_with('\t');
+}
+
+void refuse_columns(const ReadOptions& options, std::string_view found) {
+  if (!options.columns.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("--columns: makes sense for points and matrices as text only, found {}",
+                            found));
+}
+
+std::string_view matrix_option(const ReadOptions& options) {
+  if (options.from_correlation) return "--from-correlation";
+  if (options.diagonal == Diagonal::births) return "--diagonal births";
+  if (options.symmetrise != Symmetrise::none) return "--symmetrise";
+  if (options.array != ArrayMeaning::distances) return "";
+  return options.diagonal == Diagonal::zero ? "distances" : "--diagonal";
+}
+
+}  // namespace ph::detail
