@@ -20,7 +20,8 @@ bool is_whole(std::string_view text) {
 }
 
 // Cells of a line with its first one empty, as tables have it whose rows have names. Numbers are
-// names where they count the columns, or where the next line begins with a name.
+// names where they count the columns, or where the next line begins with a name, or with the first
+// of them.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
   std::vector<std::string> names = header_cells(line, false);
@@ -32,8 +33,9 @@ std::vector<std::string> unnamed_header(std::string_view line, std::string_view 
     are_whole = are_whole && (!number_in(names[k]) || is_whole(names[k]));
     counts = counts && names[k] == std::to_string(names[1] == "0" ? k - 1 : k);
   }
+  const bool has_name = !first_of_next.empty() && !number_in(first_of_next);
   const bool are_names =
-      !has_numbers || counts || (are_whole && !number_in(first_of_next) && !first_of_next.empty());
+      !has_numbers || counts || (are_whole && (has_name || first_of_next == names[1]));
   if (!is_named || !are_names) names.clear();
   return names;
 }
@@ -280,7 +282,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   if (has_next) layout.separator = separator(next);
   layout.header = header_names(lines.line());
   if (layout.header.empty() && has_next) {
-    layout.header = unnamed_header(lines.line(), first_cell(next, layout));
+    layout.header = unnamed_header(lines.line(), without_quotes(first_cell(next, layout)));
     if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
       layout.header.clear();  // a row that begins with an empty cell
   }

@@ -46,7 +46,7 @@ bool may_be_header(PointsView rows) {
 bool begins_with_digits(const Input& input) {
   TextLines lines(input);
   return lines.next() &&
-         lines.line().find_first_not_of("0123456789,; \t") == std::string_view::npos;
+         lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
 }
 
 // Says which numbers may be none: those of an index that was not left out, or of a header.

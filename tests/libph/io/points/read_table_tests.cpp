@@ -84,6 +84,9 @@ TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
   EXPECT_EQ(std::get<Points>(kept.data), (Points{{0.5, 0.25}, {1, 2}}));
   // What counts columns, or has names in its rows, is a header.
   EXPECT_EQ(std::get<Points>(any(",1,2\n1,1.5,2\n2,3.5,4\n").data), (Points{{1.5, 2}, {3.5, 4}}));
+  const ReadResult labelled =
+      any("\"\",\"34\",\"7\"\n\"34\",0,2.5\n\"7\",2.5,0\n", {.array = ArrayMeaning::distances});
+  EXPECT_EQ(std::get<DistanceMatrix>(labelled.data).size(), 2);
   EXPECT_EQ(std::get<Points>(any(",2019,2020\nA,1.5,2\nB,3.5,4\n").data),
             (Points{{1.5, 2}, {3.5, 4}}));
 }
