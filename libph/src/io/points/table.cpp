@@ -15,6 +15,8 @@ namespace {
 
 bool begins_empty(std::string_view line) { return line.find_first_of(",;\t") == 0; }
 
+bool is_number(std::string_view cell) { return number_in(cell).has_value(); }
+
 bool is_whole(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -128,14 +130,16 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Cells of the first row. An empty last one counts if the header has a name for it, or, without a
-// header, if the next row has a cell there: it is a missing value.
+// Cells of the first row. An empty last one counts if the header has a name for it, or if one of the
+// next rows has a cell there: it is a missing value.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
   if (!ends_empty(row.line())) return count;
-  if (!layout.header.empty()) return count + (count + 1 == layout.header.size() ? 1 : 0);
+  std::size_t cells = layout.header.size() == count + 1 ? count + 1 : count;
   TextLines next(row);
-  return count + (next.next() && count_cells(next, layout.separator) == count + 1 ? 1 : 0);
+  for (std::size_t k = 0; k < kMostLookedAt && cells == count && next.next(); ++k)
+    cells = count_cells(next, layout.separator);
+  return count + (cells == count + 1 ? 1 : 0);
 }
 
 // How to read the first column, too; nothing of a square matrix, which it would make none.
@@ -155,26 +159,33 @@ std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
   return cells.more() ? cells.skip() : std::string_view();
 }
 
-// Whether each tab separates two cells: not if blanks stand between numbers, too.
+// Whether blanks separate numbers in a line: in it all, or between two tabs.
+bool has_blanks_between_numbers(std::string_view line) {
+  const bool has_tabs = separator_in(line) == '\t';
+  return std::ranges::any_of(
+      has_tabs ? header_cells(line, false) : std::vector<std::string>{std::string(line)},
+      [&](const std::string& cell) {
+        const std::vector<std::string> words = header_cells(cell, false);
+        return (words.size() > 1 || !has_tabs) && std::ranges::all_of(words, is_number);
+      });
+}
+
+// Whether each tab separates two cells: not if blanks do so, too, unless a header has as many
+// cells.
 bool has_tabs_between_cells(const Input& input) {
-  constexpr std::size_t kLines = 2;  // a header and a row
   TextLines lines(input);
   lines.keep_tabs();
-  bool has_tabs = false;
-  for (std::size_t k = 0; k < kLines && lines.next();) {
-    if (lines.line().find_first_not_of(" \t") == std::string_view::npos) continue;
-    ++k;
-    const char separator = separator_in(lines.line());
-    if (separator == ',' || separator == ';') return false;
-    has_tabs = has_tabs || separator == '\t';
-    if (separator == ' ' && number_in(header_cells(lines.line(), false).front())) return false;
-    for (const std::string& cell : header_cells(lines.line(), false)) {
-      const std::size_t blank = cell.find(' ');
-      if (separator == '\t' && blank != std::string::npos && number_in(cell.substr(0, blank)))
-        return false;
-    }
-  }
-  return has_tabs;
+  std::vector<std::string_view> rows;  // a header and a row
+  while (rows.size() < 2 && lines.next())
+    if (lines.line().find_first_not_of(" \t") != std::string_view::npos)
+      rows.push_back(lines.line());
+  const auto has = [&](char separator) {
+    return std::ranges::count(rows, separator, separator_in);
+  };
+  if (has('\t') == 0 || has(',') + has(';') > 0) return false;
+  const bool fit = has('\t') == 2 && !header_names(rows[0]).empty() &&
+                   header_cells(rows[0], false).size() == header_cells(rows[1], false).size();
+  return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
 // Whether --columns has a name of this line that is no number of a column.
