@@ -84,10 +84,7 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
   add_value(app, "--max-range", "M",
             fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
                         d.max_range),
-            [&o](const std::string& v) {
-              o.max_range = app::parse_number("--max-range", v);
-              if (o.max_range < 0) length("--max-range", v, true);
-            });
+            [&o](const std::string& v) { o.max_range = at_least_zero("--max-range", v); });
   add_value(app, "--crop", "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
             "keep points inside this box, metres; inf and -inf: no limit (default: all)",
             [&o](const std::string& v) { o.crop = parse_box("--crop", v); });

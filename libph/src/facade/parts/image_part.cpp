@@ -114,13 +114,16 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
                             fmt::join(whole.first_layers, ", "), parts, layers));
   whole.loops = wants_loops(shape, whole.wanted());
   const int top = shape.top_dim();
+  const int highest = std::min(whole.max_dim, top - 1);
   if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of {}: {} need all layers at once, found dimensions {} to {} "
-                            "wanted, expected dimension 0 alone{}",
+                fmt::format("parts of {}: {} need all layers at once, found {} wanted, expected "
+                            "dimension 0 alone{}",
                             top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
                             top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
-                            whole.min_dim, std::min(whole.max_dim, top - 1),
+                            whole.min_dim == highest
+                                ? fmt::format("dimension {}", highest)
+                                : fmt::format("dimensions {} to {}", whole.min_dim, highest),
                             shape.any_periodic()
                                 ? " where an axis closes up"
                                 : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
