@@ -61,6 +61,12 @@ Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colou
                      std::optional<double> scale, const Note& note) {
   const Index rows = image.depth.extents[0], columns = image.depth.extents[1];
   const Camera fitting = scaled(camera, calibration, columns, rows, note);
+  // Images of floats are in metres whatever the camera gives.
+  if (!scale && camera.depth_scale > 0 && image.scale != 1) {
+    scale = camera.depth_scale;
+    note(fmt::format("--camera {}: its depth_scale is taken: {:.6g} units a metre",
+                     printable(calibration), *scale));
+  }
   DepthCounts counts;
   Cloud cloud =
       cloud_from_depth(image.depth, colour, fitting, scale.value_or(image.scale), &counts);

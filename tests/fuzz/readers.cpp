@@ -70,7 +70,7 @@ std::vector<double> camera(const Input& input, const ReadOptions&) {
                               static_cast<double>(c.width),
                               static_cast<double>(c.height)};
   numbers.insert(numbers.end(), c.lens.coefficients.begin(), c.lens.coefficients.end());
-  if (const auto ray = c.lens.straightened(0.25, 0.25))
+  if (const auto ray = c.lens.straightened(0.25, 0.25, c.lens.reach()))
     numbers.insert(numbers.end(), ray->begin(), ray->end());
   return numbers;
 }

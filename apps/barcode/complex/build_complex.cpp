@@ -90,7 +90,8 @@ class Builder {
     if (mesh.values.empty()) return of_points(mesh.vertices, "a mesh without values");
     expect("a mesh with values", {ComplexKind::lower_star});
     require_in_scope(kMesh);
-    return stored(lower_star(triangles_of(mesh), mesh.values, {}, context_), "lower-star");
+    const auto namer = [&](std::size_t) { return name_ + ": a face"; };
+    return stored(lower_star(triangles_of(mesh), mesh.values, namer, context_), "lower-star");
   }
 
  private:

@@ -40,6 +40,9 @@ constexpr std::array kMagics{
     Magic{0, "%PDF-"sv, {"a PDF document", kToPng}},
     Magic{0, "LASF"sv, {"a LAS point cloud", "convert it to PLY or PCD"}},
     Magic{0, "ASTM-E57"sv, {"an E57 point cloud", "convert it to PLY or PCD"}},
+    Magic{0,
+          "%%MatrixMarket"sv,
+          {"a Matrix Market file", "write a line i j distance for each pair, counted from 0"}},
     Magic{0, "# vtk DataFile"sv, {"a VTK file", "convert it to PLY, or save the array as .npy"}},
     Magic{0, "\x28\xB5\x2F\xFD"sv, {"data compressed with Zstandard", kUnpack}},
     Magic{0,
@@ -54,8 +57,9 @@ constexpr std::size_t kProbe = 4096;
 constexpr std::size_t kFewLetters = 4;
 
 // Letters and a line with two sizes, behind comments: a column may have these letters for a name.
-bool is_ppm(std::string_view bytes) {
-  if (!bytes.starts_with("P3\n") && !bytes.starts_with("P6\n")) return false;
+bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters) {
+  if (bytes.size() < 3 || bytes[2] != '\n' || std::ranges::count(letters, bytes.substr(0, 2)) == 0)
+    return false;
   do {
     bytes.remove_prefix(bytes.find('\n') + 1);
   } while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos);
@@ -110,7 +114,8 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
     if (bytes.size() > magic.offset && bytes.substr(magic.offset).starts_with(magic.bytes))
       return magic.kind;
   }
-  if (is_ppm(bytes)) return ForeignKind{"a PPM picture", kToPng};
+  if (is_picture(bytes, {"P3", "P6"})) return ForeignKind{"a PPM picture", kToPng};
+  if (is_picture(bytes, {"P1", "P4"})) return ForeignKind{"a PBM picture", kToPng};
   if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};
   if (is_stl(bytes, size)) return ForeignKind{"an STL mesh", kToMesh};
   // A bitmap has its own length behind its two letters.

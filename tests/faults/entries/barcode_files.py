@@ -36,7 +36,7 @@ TEXT = [
     ("a line end alone", "plot", b"\n", "no bars, found nothing"),
     ("no header but words", "distance", b"birth\n", ":1:1: header"),
     ("columns in another order", "vectors", b"birth,death,dim\n0,1,0\n", ":1:1: header"),
-    ("a header in capitals", "compare", b"DIM,BIRTH,DEATH\n0,0,1\n", ":1:1: header"),
+    ("a header in another order", "compare", b"dim,death,birth\n0,1,0\n", ":1:1: header"),
     ("a row that ends early", "wasserstein", HEAD + b"0,0\n", ":2:1: no dimension, found 2 cells"),
     ("a row with a cell too many", "plot", HEAD + b"0,0,1,2\n", ":2:1: "),
     ("a dimension below 0", "distance", HEAD + b"-1,0,1\n", ":2:1: dimension out of range"),

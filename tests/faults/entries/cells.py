@@ -35,6 +35,9 @@ def not_numbers():
     for row, (word, message) in NOT_NUMBERS.items():
         for form, (content, place) in PLACES.items():
             yield refused(row, form, word, content.format(word), f":{place}: .*{message}")
+    for form, (content, place) in PLACES.items():  # as Microsoft's library wrote infinity
+        word = "1.#INF"
+        yield refused(16, form, word, content.format(word), f":{place}: .*write infinity as inf")
     yield refused(13, "points", "hexadecimal integer", "0x10 1\n", "hexadecimal")
     yield refused(16, "points", "two signs", "--1 0\n", ":1:1: not a number")
     yield refused(16, "points", "a sign alone", "0 -\n", ":1:3: not a number")

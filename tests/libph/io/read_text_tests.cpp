@@ -81,6 +81,9 @@ TEST(ReadPoints, NamesWhatIsWrongAndWhere) {
            {"1,2\n3,\"\"\n", ":2:3:", "not a number"},
            {"1,2\n3,,4\n", ":2:3:", "empty cell"},
            {",1,2\n", ":1:1:", "empty cell"},
+           {"0 1\n1 -1.#IND\n", ":2:3:", "not a number, found \"-1.#IND\""},
+           {"0 1\n1 1.#INF00\n", ":2:3:", "write infinity as inf"},
+           {"1 2#3\n", ":1:3:", "not a number, found \"2#3\""},
            {"1 2 3\n4 5\n", ":2:1:", "ragged row, found 2 cells, expected 3, as in line 1"},
            {"1 2 3\n\n4 5 6 7\n", ":3:1:", "found 4 cells"},
            {"x,y\n1,\n2,\n",
@@ -261,14 +264,19 @@ TEST(ReadOff, ReadsMeshes) {
   const Mesh mesh = read_off(Input::view(text, "m.off"));
   EXPECT_EQ(mesh.vertices.rows(), 4);
   EXPECT_EQ(mesh.corners, (std::vector<Index>{0, 1, 2, 0, 1, 3}));
+  for (const std::string word : {"COFF", "NOFF", "STCNOFF"}) {
+    const auto read =
+        read_any(Input::view(word + "\n1 0 0\n1 2 3 0.5 0.5 0.5 1\n", "m"), Format::automatic, {});
+    EXPECT_EQ(std::get<Mesh>(read.data).vertices, (Points{{1, 2, 3}})) << word;
+  }
   check_prefixes(
       text, "m.off", [](const Input& in) { read_off(in); },
       // a face without its colour or with fewer digits of it is a face
       [&](std::size_t length) { return length + 5 >= text.size(); });
   for (const char* bad :
        {"OFF\n1000000000000 0 0\n", "OFF\n-1 0 0\n", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",
-        "OFF\n1 0 0\n0 0 nan\n", "OFF 1 0 0\n0 0 0\n1 2 3\n", "COFF\n1 0 0\n",
-        "OFF\n1 1 0\n0 0 0\n4000000000 0\n", "OFF\n0 0 0\n"}) {
+        "OFF\n1 0 0\n0 0 nan\n", "OFF 1 0 0\n0 0 0\n1 2 3\n", "4OFF\n1 0 0\n0 0 0 1\n",
+        "COFFE\n1 0 0\n0 0 0\n", "OFF\n1 1 0\n0 0 0\n4000000000 0\n", "OFF\n0 0 0\n"}) {
     bad_data([&] { read_off(Input::view(bad, "m.off")); });
   }
 }

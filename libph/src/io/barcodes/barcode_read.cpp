@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
@@ -28,11 +29,30 @@ void require_cell(const TextLines& lines, const Cells& cells, const char* what,
              {fmt::format("{} missing", what), "the end of the line", expected, {}});
 }
 
-/// Whether they are those of a header of ours; p-values may follow the bars.
-bool is_header(std::span<const std::string> names) {
+/// Whether they are those of a header of ours; p-values may follow the bars. R's TDA writes
+/// dimension, Birth, Death.
+bool is_header(std::vector<std::string> names) {
   constexpr std::array<std::string_view, 4> kNames{"dim", "birth", "death", "p"};
+  for (std::string& name : names) {
+    std::ranges::transform(name, name.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    if (name == "dimension") name = "dim";
+  }
   return (names.size() == 3 || names.size() == 4) &&
          std::equal(names.begin(), names.end(), kNames.begin());
+}
+
+/// A dimension, which programs that have floats only write as 1.0 or 1.000e+00.
+int read_dimension(Cells& cells) {
+  Cells ahead = cells;
+  const std::string_view word = cells.more() ? ahead.word() : std::string_view();
+  const double value = detail::number_in(word).value_or(-1);
+  if (word.find_first_of(".eE") != word.npos && value >= 0 && value <= kMostBarDimension &&
+      value == std::floor(value)) {
+    cells = ahead;
+    return static_cast<int>(value);
+  }
+  return static_cast<int>(cells.integer(0, kMostBarDimension, "dimension"));
 }
 
 void check_p(const TextLines& lines, Cells& cells) {
@@ -84,7 +104,7 @@ Barcode read_rows(const Input& input, bool may_be_empty, bool& has_p) {
       require_cell(lines, cells, "dimension", kExpected);
     }
     Bar bar;
-    bar.dim = static_cast<int>(cells.integer(0, kMostBarDimension, "dimension"));
+    bar.dim = read_dimension(cells);
     require_cell(lines, cells, "birth", kExpected);
     bar.birth = cells.number(Allow::infinite);
     require_cell(lines, cells, "death", kExpected);

@@ -84,6 +84,8 @@ std::string hint_for(std::string_view cell) {
   if (cell.find(',') != std::string_view::npos) return "write a decimal point, not a comma";
   if (!cell.empty() && cell[0] == '\'') return "write numbers without quotes";
   if (cell.find('\r') != std::string_view::npos) return "end lines with a line feed";
+  if (cell.find(".#IN") != std::string_view::npos) return "write infinity as inf";
+  if (cell.find(".#QN") != std::string_view::npos) return "write NaN as nan";
   if (cell.find('\0') != std::string_view::npos) return "is this a binary file?";
   return {};
 }
@@ -108,7 +110,8 @@ const char* end_of_quotes(const char* begin, const char* end) {
   }
 }
 
-// Where the comment of a line begins; its end if there is none.
+// Where the comment of a line begins; its end if there is none. Behind a number without a blank or
+// a separator there is none: 1.#INF was written for infinity.
 const char* start_of_comment(const char* begin, const char* end) {
   constexpr std::array<std::string_view, 7> kSpreadsheetErrors{
       "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"};
@@ -121,7 +124,8 @@ const char* start_of_comment(const char* begin, const char* end) {
     const std::string_view rest(hash, static_cast<std::size_t>(end - hash));
     const bool is_error = std::ranges::any_of(
         kSpreadsheetErrors, [&](std::string_view error) { return rest.starts_with(error); });
-    if (!in_quotes && !is_error) return hash;
+    const bool is_in_cell = hash != begin && !ends_cell(hash[-1]);
+    if (!in_quotes && !is_error && !is_in_cell) return hash;
     p = hash;
   }
 }
@@ -209,6 +213,7 @@ char detail::separator_in(std::string_view line) {
 }
 
 std::vector<std::string> detail::header_cells(std::string_view line, bool names_only) {
+  if (line.starts_with("//")) line.remove_prefix(2);  // as CloudCompare writes a line of names
   const char separator = separator_in(line);
   const auto trimmed = [separator](std::string_view text) {
     const auto is_blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ph/barcode.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -57,7 +58,23 @@ std::array<double, 2> Lens::bent(double x, double y) const {
   return {factor * x, factor * y};
 }
 
-std::optional<std::array<double, 2>> Lens::straightened(double u, double v) const {
+double Lens::reach() const {
+  if (model != Model::polynomial) return kInfinity;
+  Lens axial = *this;  // what is not a function of the radius moves the fold by little
+  axial.coefficients[2] = axial.coefficients[3] = 0;
+  constexpr int angles = 4096;
+  double fold = kInfinity;
+  for (int i = 1; i < angles; ++i) {
+    const double radius = std::tan(std::numbers::pi / 2 * i / angles);
+    const bool rises = bent_polynomial(axial.coefficients, radius, 0).ux > 0;
+    if (!rises && fold == kInfinity) fold = radius;
+    // Between the two folds there is no ray.
+    if (rises && fold != kInfinity) return (fold + radius) / 2;
+  }
+  return kInfinity;
+}
+
+std::optional<std::array<double, 2>> Lens::straightened(double u, double v, double reach) const {
   if (model == Model::none) return std::array{u, v};
   if (model == Model::equidistant) {
     const double shown = std::hypot(u, v);
@@ -85,7 +102,9 @@ std::optional<std::array<double, 2>> Lens::straightened(double u, double v) cons
     const double dy = (b.ux * dv - b.vx * du) / determinant;
     x -= dx;
     y -= dy;
-    if (std::abs(dx) + std::abs(dy) <= kExact) return std::array{x, y};
+    if (std::abs(dx) + std::abs(dy) > kExact) continue;
+    if (!(std::hypot(x, y) < reach)) return std::nullopt;
+    return std::array{x, y};
   }
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/floating.hpp"
@@ -117,17 +118,41 @@ class CameraYaml {
     return {k[0], k[4], k[2], k[5]};
   }
 
+  static bool is_known(std::string_view model) {
+    constexpr std::array<std::string_view, 6> kKnown{
+        "plumb_bob", "rational_polynomial", "equidistant", "fisheye", "none", "pinhole"};
+    return std::ranges::find(kKnown, model) != kKnown.end();
+  }
+
+  /// Coefficients under a name that no program documented here gives them.
+  void refuse_other_names() const {
+    for (const std::string_view name :
+         {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
+          "distortion_coeffs", "distortion_coefficient", "distortion_parameters", "dist"}) {
+      const YamlWords::Value* value = find({std::string(name) + ".data", name});
+      if (value == nullptr) continue;
+      fail(*value, {"coefficients of the lens",
+                    '"' + std::string(name) + '"',
+                    "distortion_coefficients",
+                    {}});
+    }
+  }
+
   Lens lens() const {
     const YamlWords::Value* value =
-        find({"distortion_coefficients.data", "distortion_coefficients", "d"});
+        find({"distortion_coefficients.data", "distortion_coefficients", "d.data", "d"});
+    if (value == nullptr) refuse_other_names();
     const std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
-    if (std::ranges::all_of(d, [](double c) { return c == 0; })) return {};
     const YamlWords::Value* named = find({"distortion_model"});
-    // A file of OpenCV has no name; the number of coefficients tells.
-    const std::string_view name = named == nullptr ? d.size() == 8 ? "rational_polynomial"
-                                                     : d.size() == 4 || d.size() == 5 ? "plumb_bob"
-                                                                                      : ""
-                                                   : named->words.front().text;
+    const YamlWords::Value* fisheye = find({"fisheye_model"});
+    // A file of OpenCV has no name; a switch or the number of coefficients tells.
+    const std::string_view name = named != nullptr ? named->words.front().text
+                                  : fisheye != nullptr && number(fisheye->words[0]) != 0 ? "fisheye"
+                                  : d.size() == 8                  ? "rational_polynomial"
+                                  : d.size() == 4 || d.size() == 5 ? "plumb_bob"
+                                                                   : "";
+    const bool is_zero = std::ranges::all_of(d, [](double c) { return c == 0; });
+    if (is_zero && (!d.empty() || named == nullptr || is_known(name))) return {};
     Lens lens;
     std::size_t least = 0, most = 0;
     if (name == "plumb_bob") {
@@ -200,6 +225,15 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
       }
       camera.intrinsics = {k[0], k[4], k[6], k[7]};
       has_matrix = true;
+    } else if (name == "depth_scale") {
+      json.peek();
+      const std::size_t place = json.place();
+      camera.depth_scale = json.number();
+      if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
+        json.fail(place, {"depth_scale",
+                          fmt::format("{}", camera.depth_scale),
+                          "units a metre, at least 1",
+                          {}});
     } else if (name == "intrinsic" && !inside) {
       json.expect('{');
       read_members(json, camera, has_matrix, true);

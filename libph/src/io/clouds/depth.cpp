@@ -87,6 +87,7 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   cloud.data.resize(static_cast<std::size_t>(cloud.size()) * cloud.stride);
   DepthCounts found;
   std::byte* record = cloud.data.data();
+  const double reach = camera.lens.reach();
   for (Index v = 0; v < height; ++v) {
     for (Index u = 0; u < width; ++u, record += cloud.stride) {
       constexpr double hole = std::numeric_limits<double>::quiet_NaN();
@@ -96,7 +97,7 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
       const double right = static_cast<double>(u) - cx, down = static_cast<double>(v) - cy;
       std::array<double, 3> place{right * z / fx, down * z / fy, z};
       if (camera.lens.model != Lens::Model::none && !std::isnan(z)) {
-        const auto ray = camera.lens.straightened(right / fx, down / fy);
+        const auto ray = camera.lens.straightened(right / fx, down / fy, reach);
         if (!ray) ++found.unseen;
         place = ray ? std::array{(*ray)[0] * z, (*ray)[1] * z, z} : std::array{hole, hole, hole};
       }

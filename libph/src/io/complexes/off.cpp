@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "io/readers.hpp"
 #include "ph/io/read.hpp"
 
@@ -8,6 +11,12 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMost = std::int64_t{1} << 40;
+
+/// First words. Behind the coordinates of a vertex may be texture coordinates (ST), colours (C)
+/// and a normal (N), which are not read.
+constexpr std::array<std::string_view, 9> kWords{"OFF",   "COFF",   "NOFF",   "CNOFF",  "NCOFF",
+                                                 "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
+constexpr std::size_t kLongest = 7;
 
 // Goes to the next line of data, which must be there.
 void need_line(TextLines& lines, const char* what, std::size_t have, std::size_t all) {
@@ -31,9 +40,9 @@ void need_cell(const TextLines& lines, const Cells& cells, const char* expected)
 namespace detail {
 
 bool is_off(const Input& input) {
-  const std::string_view text = input.text();
-  return text.starts_with("OFF") && (text.size() == 3 || text[3] == ' ' || text[3] == '\n' ||
-                                     text[3] == '\r' || text[3] == '\t');
+  const std::string_view text = input.text().substr(0, kLongest + 1);
+  const std::size_t end = std::min(text.find_first_of(" \t\r\n"), text.size());
+  return std::ranges::find(kWords, text.substr(0, end)) != kWords.end();
 }
 
 }  // namespace detail
@@ -41,7 +50,7 @@ bool is_off(const Input& input) {
 Mesh read_off(const Input& input, const ReadOptions& options) {
   TextLines lines(input);
   Cells cells(lines);
-  if (!lines.next() || (cells.start(), cells.word() != "OFF")) {
+  if (!lines.next() || (cells.start(), std::ranges::find(kWords, cells.word()) == kWords.end())) {
     input.fail_at(1, 1, {"not an OFF file", "another first word", "OFF", {}});
   }
   if (!cells.more()) {
@@ -70,7 +79,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
       need_cell(lines, cells, "x y z");
       mesh.vertices(static_cast<Index>(i), k) = cells.number();
     }
-    while (cells.more()) cells.number();  // colours
+    while (cells.more()) cells.number();  // colours and the like
   }
   for (std::size_t i = 0; i < faces; ++i) {
     need_line(lines, "faces", i, faces);

@@ -130,8 +130,8 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Cells of the first row. An empty last one counts if the header has a name for it, or if one of the
-// next rows has a cell there: it is a missing value.
+// Cells of the first row. An empty last one counts if the header has a name for it, or if one of
+// the next rows has a cell there: it is a missing value.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
   if (!ends_empty(row.line())) return count;

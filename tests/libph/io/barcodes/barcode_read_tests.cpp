@@ -252,16 +252,34 @@ TEST(ReadBarcode, JsonRefusesDamage) {
 TEST(ReadBarcode, RowsWithAndWithoutTheCharacteristic) {
   for (const char* text :
        {"0 0 1\n1 0.5 inf\n", "2 0 0 1\n2 1 0.5 inf\n", "0,0,1\n1,0.5,inf\n",
-        "dim,birth,death\n0,0,1\n1,0.5,inf\n", "# GUDHI\n2 1 0.5 inf\n2 0 0 1"}) {
+        "dim,birth,death\n0,0,1\n1,0.5,inf\n", "# GUDHI\n2 1 0.5 inf\n2 0 0 1",
+        "\"dimension\",\"Birth\",\"Death\"\n0,0,1\n1,0.5,Inf\n",
+        "0.000e+00 0.000e+00 1.000e+00\n1.000e+00 5.000e-01 inf\n", "1.0 .5 inf\n0.0 0 1\n"}) {
     const Barcode read = back(text, "b.pers");
     ASSERT_EQ(read.size(), 2U) << text;
     EXPECT_EQ(read[0], (Bar{0, 0, 1}));
     EXPECT_EQ(read[1], (Bar{1, 0.5, kInfinity}));
   }
-  for (const char* text :
-       {"0 1\n", "0 0 1 2 3\n", "0 0\n", "-1 0 1\n", "0.5 0 1\n", "0 2 1\n", "0 nan 1\n",
-        "0 0 nan\n", "0 inf inf\n", "0 0 1\n2 0 0 1\n", "1 0 0 1\n", "birth,death\n0,1\n",
-        "death,birth,dim\n1,0,0\n", "0 0 1,5\n", "0 0 1x\n", "99999999999 0 1\n"}) {
+  for (const char* text : {"0 1\n",
+                           "0 0 1 2 3\n",
+                           "0 0\n",
+                           "-1 0 1\n",
+                           "0.5 0 1\n",
+                           "0 2 1\n",
+                           "0 nan 1\n",
+                           "0 0 nan\n",
+                           "0 inf inf\n",
+                           "0 0 1\n2 0 0 1\n",
+                           "1 0 0 1\n",
+                           "birth,death\n0,1\n",
+                           "death,birth,dim\n1,0,0\n",
+                           "0 0 1,5\n",
+                           "0 0 1x\n",
+                           "99999999999 0 1\n",
+                           "0 0 1.#INF\n",
+                           "1e10 0 1\n",
+                           "-1.0 0 1\n",
+                           "1.5e0 0 1\n"}) {
     EXPECT_TRUE(contains(bad_data([&] { back(text, "b.pers"); }), "b.pers")) << text;
   }
 }

@@ -74,10 +74,20 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
       "   data: [ 0.1, 0., 0., 0., 0. ]\r\n");
   expect_usual(opencv);
   EXPECT_EQ(opencv.lens.model, Lens::Model::polynomial);
+  // OpenCV's program of calibration says by a switch that the lens is a fisheye.
+  const std::string four = ros_file("x", "0.05, -0.01, 0.002, -0.0005");
+  const std::string unnamed = replaced(four, "distortion_model: x", "fisheye_model: 1");
+  EXPECT_EQ(camera_of(unnamed).lens.model, Lens::Model::equidistant);
+  EXPECT_EQ(camera_of(replaced(unnamed, "fisheye_model: 1", "fisheye_model: 0")).lens.model,
+            Lens::Model::polynomial);
+  EXPECT_EQ(camera_of(replaced(unnamed, "distortion_coefficients:", "D:")).lens.model,
+            Lens::Model::equidistant);
   const std::string open3d =
       "{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [520.5, 0, 0, 0, 521.5, 0, 318.25, "
       "241.5, 1]}";
   expect_usual(camera_of(open3d));
+  EXPECT_EQ(camera_of(open3d).depth_scale, 0);
+  EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": 4000.0, ")).depth_scale, 4000);
   expect_usual(
       camera_of("{\"class_name\": \"PinholeCameraParameters\", \"extrinsic\": [1, 2],\n"
                 " \"intrinsic\": " +
@@ -113,6 +123,11 @@ TEST(Camera, FaultsNameTheirPlace) {
       {replaced(good, "image_height: 480", "image_width: 640"), "c.yaml:2:1: a key twice"},
       {replaced(good, "plumb_bob", "odd"), "c.yaml:9:1: model of the lens, found \"odd\""},
       {replaced(good, "plumb_bob", "rational_polynomial"), "coefficients of rational_polynomial"},
+      {replaced(good, "distortion_coefficients", "dist_coeffs"),
+       "coefficients of the lens, found \"dist_coeffs\", expected distortion_coefficients"},
+      {"width: 2\nheight: 2\nk: [1, 0, 1, 0, 1, 1, 0, 0, 1]\ndistortion_model: fov\n",
+       "c.yaml:4:1: model of the lens, found \"fov\""},
+      {"{\"width\": 640, \"depth_scale\": 0.001}", "c.yaml:1:31: depth_scale, found 0.001"},
       {replaced(good, "1]  #", "1  #"), "not a number, found \"distortion_model: plumb_bob\""},
       {good + "more: [1, 2", "list without an end"},
       {good + "more: [1,, 2]\n", "empty element of a list"},
@@ -168,7 +183,7 @@ TEST(Lens, IsStraightenedAgain) {
             lens.model == Lens::Model::none ? std::array{x, y} : by_the_book(lens, x, y);
         ASSERT_NEAR(bent[0], expected[0], 1e-12);
         ASSERT_NEAR(bent[1], expected[1], 1e-12);
-        const auto again = lens.straightened(bent[0], bent[1]);
+        const auto again = lens.straightened(bent[0], bent[1], lens.reach());
         ASSERT_TRUE(again) << x << ' ' << y << ' ' << lens.coefficients[0];
         EXPECT_NEAR((*again)[0], x, 1e-9);
         EXPECT_NEAR((*again)[1], y, 1e-9);
@@ -180,12 +195,19 @@ TEST(Lens, IsStraightenedAgain) {
 TEST(Lens, ShowsNothingBeyondItsEdge) {
   // r (1 - 0.3 r^2) is at most 0.7027.
   const Lens barrel{Lens::Model::polynomial, {-0.3}};
-  EXPECT_TRUE(barrel.straightened(0.6, 0));
-  EXPECT_FALSE(barrel.straightened(0.75, 0));
-  EXPECT_FALSE(barrel.straightened(0.6, 0.6));
+  EXPECT_TRUE(barrel.straightened(0.6, 0, barrel.reach()));
+  EXPECT_FALSE(barrel.straightened(0.75, 0, barrel.reach()));
+  EXPECT_FALSE(barrel.straightened(0.6, 0.6, barrel.reach()));
+  // r (1 - 0.3 r^2 + 0.03 r^4) rises up to r = 1.2135, falls, and rises again: rays there are none.
+  const Lens wide{Lens::Model::polynomial, {-0.3, 0.03}};
+  const double edge = wide.bent(1.2135, 0)[0];
+  EXPECT_NEAR((*wide.straightened(edge - 0.01, 0, wide.reach()))[0], 1.2135, 0.2);
+  for (double u = edge + 0.001; u < 8; u *= 1.01)
+    for (const double turn : {0.0, 0.5, 1.1})
+      EXPECT_FALSE(wide.straightened(u * std::cos(turn), u * std::sin(turn), wide.reach())) << u;
   const Lens fisheye{Lens::Model::equidistant, {}};
-  EXPECT_TRUE(fisheye.straightened(1.5, 0));
-  EXPECT_FALSE(fisheye.straightened(1.6, 0)) << "behind the camera";
+  EXPECT_TRUE(fisheye.straightened(1.5, 0, fisheye.reach()));
+  EXPECT_FALSE(fisheye.straightened(1.6, 0, fisheye.reach())) << "behind the camera";
 }
 
 TEST(Camera, ScalesToImagesOfItsShape) {

@@ -136,6 +136,12 @@ TEST(ReadTable, LeavesAnIndexOfLevelsOut) {
   EXPECT_EQ(std::get<Points>(any("id,a,b\n1.0,5,6\n2.0,7,9\n").data), (Points{{5, 6}, {7, 9}}));
 }
 
+TEST(ReadTable, ReadsTheHeaderOfCloudCompare) {
+  const std::string text = "//X Y Z R\n1 2 3 255\n4 5 6 0\n";
+  EXPECT_EQ(std::get<Points>(any(text, {.columns = {"X", "Y", "Z"}}).data),
+            (Points{{1, 2, 3}, {4, 5, 6}}));
+}
+
 TEST(ReadTable, SaysWhatMayBeAHeaderOfNumbers) {
   EXPECT_TRUE(says(any("0\n0.5\n1.5\n"), "the first row is a whole number"));
   EXPECT_FALSE(says(any("0.0\n0.5\n1.5\n"), "the first row"));
@@ -315,6 +321,8 @@ TEST(ReadTable, LettersOfOtherFormatsMayBeNames) {
            {std::string("PAR1\x15\x04\x15\0PAR1", 12), "Parquet"},
            {"P3\n# by hand\n2 1\n255\n1 2 3 4 5 6\n", "PPM"},
            {"P6\n2 1\n255\n123456", "PPM"},
+           {"P1\n# two wide\n2 2\n0 1\n1 0\n", "PBM"},
+           {"%%MatrixMarket matrix coordinate real general\n3 3 1\n1 2 0.5\n", "Matrix Market"},
            {std::string("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28", 15), "BMP"},
            {"solid cube\n facet normal 0 0 1\n", "STL"},
            {std::string("BZh91AY&SY\0\x01\x02", 13), "bzip2"}})

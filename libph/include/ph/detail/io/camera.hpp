@@ -30,9 +30,13 @@ struct Lens {
 
   /// Where the ray (x, y, 1) meets the image, in focal lengths from the principal point.
   std::array<double, 2> bent(double x, double y) const;
+  /// Up to which distance from the axis rays (x, y, 1) meet the image one to one: behind it a
+  /// polynomial that has turned back may rise again. Infinity where it does not.
+  double reach() const;
   /// The inverse of `bent`, by Newton's method: x and y of the ray that meets the image there;
   /// nothing if there is none in the part of the image where the model is one to one.
-  std::optional<std::array<double, 2>> straightened(double x, double y) const;
+  /// @param reach that of this lens.
+  std::optional<std::array<double, 2>> straightened(double x, double y, double reach) const;
 };
 
 /// A camera as a calibration describes it.
@@ -43,6 +47,7 @@ struct Camera {
   /// Whether images of another shape show the same height, and less or more at the sides: the
   /// driver crops them. Of a preset only.
   bool crops_sides = false;
+  double depth_scale = 0;  ///< depth units a metre of its images of whole numbers; 0: not known
 
   /// The same camera with images of another size: of the same shape, scaled.
   /// @throws Error (usage) saying both sizes if the shape is another one.

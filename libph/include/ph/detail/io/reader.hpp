@@ -119,9 +119,9 @@ class Input {
   const RunContext* context_ = nullptr;
 };
 
-/// The lines of a text input that carry data: comments ('#' to the end of the line, but between
-/// quotes and in an error of a spreadsheet, as #N/A) and blank lines are skipped, a byte order mark
-/// and CRLF are accepted.
+/// The lines of a text input that carry data: comments ('#' to the end of the line, but within a
+/// cell or quotes, and in an error of a spreadsheet, as #N/A) and blank lines are skipped, a byte
+/// order mark and CRLF are accepted.
 class TextLines {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
