@@ -193,8 +193,8 @@ bool asks_for_names(const ReadOptions& options, std::string_view line) {
   const std::vector<std::string> names = header_cells(line, false);
   return std::ranges::any_of(options.columns, [&](const std::string& word) {
     const double number = number_in(word).value_or(0);
-    const bool is_number = number >= 1 && number <= static_cast<double>(names.size());
-    return !is_number && std::ranges::find(names, word) != names.end();
+    const bool is_place = number >= 1 && number <= static_cast<double>(names.size());
+    return !is_place && std::ranges::find(names, word) != names.end();
   });
 }
 
