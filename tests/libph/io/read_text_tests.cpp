@@ -81,7 +81,7 @@ TEST(ReadPoints, NamesWhatIsWrongAndWhere) {
            {"1,2\n3,\"\"\n", ":2:3:", "not a number"},
            {"1,2\n3,,4\n", ":2:3:", "empty cell"},
            {",1,2\n", ":1:1:", "empty cell"},
-           {"0 1\n1 -1.#IND\n", ":2:3:", "not a number, found \"-1.#IND\""},
+           {"0 1\n1 -1.#IND\n", ":2:3:", "found \"-1.#IND\", expected a decimal number; write NaN"},
            {"0 1\n1 1.#INF00\n", ":2:3:", "write infinity as inf"},
            {"1 2#3\n", ":1:3:", "not a number, found \"2#3\""},
            {"1 2 3\n4 5\n", ":2:1:", "ragged row, found 2 cells, expected 3, as in line 1"},

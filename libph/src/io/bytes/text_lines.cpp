@@ -84,8 +84,8 @@ std::string hint_for(std::string_view cell) {
   if (cell.find(',') != std::string_view::npos) return "write a decimal point, not a comma";
   if (!cell.empty() && cell[0] == '\'') return "write numbers without quotes";
   if (cell.find('\r') != std::string_view::npos) return "end lines with a line feed";
-  if (cell.find(".#IN") != std::string_view::npos) return "write infinity as inf";
-  if (cell.find(".#QN") != std::string_view::npos) return "write NaN as nan";
+  if (cell.find(".#INF") != std::string_view::npos) return "write infinity as inf";
+  if (cell.find(".#") != std::string_view::npos) return "write NaN as nan";
   if (cell.find('\0') != std::string_view::npos) return "is this a binary file?";
   return {};
 }
