@@ -3,7 +3,7 @@
 # fuzz.sh [--fast] [TARGET [libFuzzer options…]]: looks for bytes that break what tests/fuzz promises.
 # Without a target: each for a minute. What it learns stays in build/fuzz/corpus/TARGET, what it finds
 # in build/fuzz/findings/TARGET. FUZZ_BUILD: another build folder.
-# --fast: two to five times as many executions, without sanitizers; then what was learned runs through
+# --fast: two to six times as many executions, without sanitizers; then what was learned runs through
 # the sanitizers. Only readers and command lines are watched.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -36,7 +36,7 @@ fuzz() {
   for program in "$build" ${fast:+"$fast"}; do ln -sf fuzz "$program/tests/fuzz/fuzz_$target"; done
   [ -z "$fast" ] || "$fast/tests/fuzz/fuzz_$target" "$corpus" "${seeds[@]}" "${options[@]}" "$@"
   "$build/tests/fuzz/fuzz_$target" "$corpus" "${seeds[@]}" "${options[@]}" -malloc_limit_mb=80 \
-    ${fast:+-runs=0} "$@"
+    "$@" ${fast:+-runs=0}
 }
 
 if [ -n "${target:-}" ]; then

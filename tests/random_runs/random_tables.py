@@ -33,7 +33,7 @@ def quoted(text, separator, draw):
     return f'"{text}"' if needs or draw.random() < 0.2 else text
 
 
-def number_as_text(value, separator, draw):
+def number_as_text(value, draw):
     text = draw.choice([repr(value), f"{value:.17g}", f"{value:+.17e}", f"{value:.17g}".upper()])
     return f'"{text}"' if draw.random() < 0.1 else text
 
@@ -85,7 +85,7 @@ class Table:
         columns = len(self.values[0]) + (self.words is not None)
         if self.years:
             return [str(2019 + k) if k != self.words else "town" for k in range(columns)]
-        return self.draw.sample(NAMES, columns) if columns <= len(NAMES) else None
+        return self.draw.sample(NAMES, columns)
 
     def lines(self):
         draw, separator = self.draw, self.separator
@@ -100,7 +100,7 @@ class Table:
             rows.append([f'"{name}"' if separator == " " else name for name in first] + names)
         for i, values in enumerate(self.values):
             cells = [self.missing_as_text() if (i, k) in self.missing
-                     else number_as_text(value, separator, draw) for k, value in enumerate(values)]
+                     else number_as_text(value, draw) for k, value in enumerate(values)]
             if self.words is not None:
                 word = draw.choice([word for word in WORDS if word or i != self.full])
                 cells.insert(self.words, quoted(word, separator, draw))
@@ -120,7 +120,7 @@ class Table:
         return (b"\xef\xbb\xbf" if draw.random() < 0.1 else b"") + text.encode()
 
     def columns(self):
-        """What the option columns is given; None: all that is no index, and how it is named."""
+        """What the option columns is given, by name or by number; None: all that is no index."""
         draw = self.draw
         if self.words is None and not (self.years and self.index == "none") and draw.random() < 0.7:
             return None

@@ -35,18 +35,6 @@ bool starts_with_word(std::string_view cell, std::string_view word) {
                     [](char a, char b) { return a == to_lower(b); });
 }
 
-// Whether somebody meant a number by this: a header never looks like one.
-bool looks_numeric(std::string_view cell) {
-  for (const std::string_view word : {"nan", "inf", "infinity"}) {
-    const std::size_t sign = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
-    if (cell.size() == word.size() + sign && starts_with_word(cell, word)) return true;
-  }
-  while (!cell.empty() && (cell[0] == '-' || cell[0] == '+' || cell[0] == '.')) {
-    cell.remove_prefix(1);
-  }
-  return cell.empty() || is_digit(cell[0]);
-}
-
 // Whether a decimal number that double cannot hold is too small (it rounds to zero) and not too
 // large: the sign of its decimal exponent tells.
 bool rounds_to_zero(std::string_view cell) {
@@ -88,16 +76,6 @@ std::string hint_for(std::string_view cell) {
   if (cell.find(".#") != std::string_view::npos) return "write NaN as nan";
   if (cell.find('\0') != std::string_view::npos) return "is this a binary file?";
   return {};
-}
-
-// Length of the first cell of a header; separators between quotes do not count.
-std::size_t header_cell(std::string_view rest, char separator) {
-  bool in_quotes = false;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (rest[i] == '"') in_quotes = !in_quotes;
-    if (!in_quotes && rest[i] == separator) return i;
-  }
-  return rest.size();
 }
 
 // The end of what stands between quotes, which are written twice within.
@@ -204,39 +182,6 @@ bool TextLines::next() {
 
 void TextLines::fail(const char* place, const Fault& fault) const {
   input_.fail_at(number_, column(place), fault);
-}
-
-char detail::separator_in(std::string_view line) {
-  for (const char separator : {',', ';', '\t'})
-    if (header_cell(line, separator) != line.size()) return separator;
-  return ' ';
-}
-
-std::vector<std::string> detail::header_cells(std::string_view line, bool names_only) {
-  if (line.starts_with("//")) line.remove_prefix(2);  // as CloudCompare writes a line of names
-  const char separator = separator_in(line);
-  const auto trimmed = [separator](std::string_view text) {
-    const auto is_blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };
-    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-    return text;
-  };
-  std::vector<std::string> cells;
-  bool all_missing = true;
-  for (std::string_view rest = trimmed(line); !rest.empty();) {
-    const std::size_t length = header_cell(rest, separator);
-    const std::string_view cell = without_quotes(trimmed(rest.substr(0, length)));
-    if (names_only && looks_numeric(cell)) return {};
-    all_missing = all_missing && is_missing_value(cell);
-    cells.emplace_back(cell);
-    rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
-  }
-  if (names_only && all_missing) return {};
-  return cells;
-}
-
-std::vector<std::string> header_names(std::string_view line) {
-  return detail::header_cells(line, true);
 }
 
 void Cells::start_in(std::string_view part) {

@@ -15,7 +15,7 @@ struct TableLayout {
   std::vector<std::string> header = {};   ///< names of the columns, on the first line; empty: none
   std::size_t width = 0;                  ///< cells of the first row; 0: there is none
   std::vector<std::size_t> columns = {};  ///< those that hold numbers to be read, ascending
-  bool names_rows = false;                ///< the first column is an index and not among them
+  bool names_rows = false;                ///< columns before them are an index of the rows
   std::vector<std::string> notes = {};    ///< what was assumed
   char separator = ' ';                   ///< of the first row: ',', ';', a tab, or blanks
   bool keeps_tabs = false;                ///< each tab separates two cells
@@ -43,7 +43,8 @@ std::optional<double> number_in(std::string_view cell);
 bool is_missing_value(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
-/// Cells of a line of names, without the quotes around them and without an empty last one.
+/// Cells of a line of names, without the quotes around them, without an empty last one, and without
+/// two slashes before the first.
 /// @param names_only nothing if one is a number, or empty.
 std::vector<std::string> header_cells(std::string_view line, bool names_only);
 /// What separates the cells of a line: a comma, a semicolon or a tab outside of quotes, the first

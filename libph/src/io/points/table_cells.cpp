@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a cell of a table holds, and which columns are meant by names and numbers.
+// What a cell of a table holds, which line is a header, and which columns names and numbers mean.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +17,60 @@ namespace {
 
 constexpr std::size_t kShownNames = 10;
 
+char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// Whether somebody meant a number by this: a header never looks like one.
+bool looks_numeric(std::string_view cell) {
+  for (const std::string_view word : {"nan", "inf", "infinity"}) {
+    const std::size_t sign = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
+    if (std::ranges::equal(cell.substr(sign), word, {}, to_lower)) return true;
+  }
+  while (!cell.empty() && (cell[0] == '-' || cell[0] == '+' || cell[0] == '.')) {
+    cell.remove_prefix(1);
+  }
+  return cell.empty() || (cell[0] >= '0' && cell[0] <= '9');
+}
+
+// Length of the first cell of a header; separators between quotes do not count.
+std::size_t header_cell(std::string_view rest, char separator) {
+  bool in_quotes = false;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i] == '"') in_quotes = !in_quotes;
+    if (!in_quotes && rest[i] == separator) return i;
+  }
+  return rest.size();
+}
+
 }  // namespace
+
+char separator_in(std::string_view line) {
+  for (const char separator : {',', ';', '\t'})
+    if (header_cell(line, separator) != line.size()) return separator;
+  return ' ';
+}
+
+std::vector<std::string> header_cells(std::string_view line, bool names_only) {
+  if (line.starts_with("//")) line.remove_prefix(2);  // as CloudCompare writes a line of names
+  const char separator = separator_in(line);
+  const auto trimmed = [separator](std::string_view text) {
+    const auto is_blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+  };
+  std::vector<std::string> cells;
+  bool all_missing = true;
+  for (std::string_view rest = trimmed(line); !rest.empty();) {
+    const std::size_t length = header_cell(rest, separator);
+    const std::string_view cell = without_quotes(trimmed(rest.substr(0, length)));
+    if (names_only && looks_numeric(cell)) return {};
+    all_missing = all_missing && is_missing_value(cell);
+    cells.emplace_back(cell);
+    rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
+  }
+  if (names_only && all_missing) return {};
+  return cells;
+}
 
 std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
                                         const std::vector<std::string>& header, std::size_t width,
@@ -126,3 +179,11 @@ std::string_view matrix_option(const ReadOptions& options) {
 }
 
 }  // namespace ph::detail
+
+namespace ph {
+
+std::vector<std::string> header_names(std::string_view line) {
+  return detail::header_cells(line, true);
+}
+
+}  // namespace ph
