@@ -249,6 +249,37 @@ TEST(ReadBarcode, JsonRefusesDamage) {
   EXPECT_TRUE(contains(bad_data([&] { back(bar("\n  {\"dim\": x}"), "b.json"); }), "b.json:2:11"));
 }
 
+// As pandas, R and other programs of this field order and name columns.
+TEST(ReadBarcode, ColumnsByName) {
+  for (const char* text :
+       {"birth,death,dim\n0,1,0\n0.5,inf,1\n", ",dim,birth,death\n0,0,0,1\n1,1,0.5,inf\n",
+        "Death;Birth;Dimension;Persistence\n1;0;0;1\nInf;0.5;1;Inf\n",
+        "\"dimension\" \"Birth\" \"Death\"\n\"1\" 0 0 1\n\"a b\" 1 0.5 Inf\n",
+        "\"\",\"dimension\",\"birth\",\"death\"\n\"1\",0,0,1\n\"2\",1,0.5,Inf\n",
+        "p\tbirth\tdim\tdeath\n0.5\t0\t0\t1\n1e-3\t0.5\t1\tinf\n",
+        "dim,p,birth,death\n0,,0,1\n1,NA,0.5,inf\n"}) {
+    const Barcode read = back(text, "b.csv");
+    ASSERT_EQ(read.size(), 2U) << text;
+    EXPECT_EQ(read[0], (Bar{0, 0, 1})) << text;
+    EXPECT_EQ(read[1], (Bar{1, 0.5, kInfinity})) << text;
+    EXPECT_TRUE(is_barcode(Input::view(text, "b.csv")));
+  }
+  EXPECT_EQ(read_stored_barcode(Input::view("dim,birth,death,lifetime,p\n", "b.csv")).left_out,
+            (std::vector<std::string>{"lifetime", "p"}));
+  const auto refused = [](const std::string& text, const std::string& place) {
+    EXPECT_TRUE(contains(bad_data([&] { back(text, "b.csv"); }), "b.csv:" + place)) << text;
+  };
+  refused("birth,death\n0,1\n", "1:1: header");
+  refused("dim,birth,death,multiplicity\n0,0,1,2\n", "1:1: header");
+  refused("dim,birth,death,birth\n0,0,1,2\n", "1:1: header");
+  refused("dim,birth,,death\n0,0,0,1\n", "1:1: header");
+  refused("birth,death,dim\n0,1\n", "2:4: dimension missing");
+  refused("dim,death,birth\n0,1\n", "2:4: birth missing");
+  refused("dim,birth,death\n0,0,1\n\"2\",1,0.5,2\n", "3:1: dimension is not an integer");
+  refused("p,dim,birth,death\n2,0,0,1\n", "2:1: p-value, found 2");
+  refused("dim,birth,death\n2,0,0,1\n", "2:7: extra cell");
+}
+
 TEST(ReadBarcode, RowsWithAndWithoutTheCharacteristic) {
   for (const char* text :
        {"0 0 1\n1 0.5 inf\n", "2 0 0 1\n2 1 0.5 inf\n", "0,0,1\n1,0.5,inf\n",
@@ -272,7 +303,7 @@ TEST(ReadBarcode, RowsWithAndWithoutTheCharacteristic) {
                            "0 0 1\n2 0 0 1\n",
                            "1 0 0 1\n",
                            "birth,death\n0,1\n",
-                           "death,birth,dim\n1,0,0\n",
+                           "death,birth,dim\n1,2,0\n",
                            "0 0 1,5\n",
                            "0 0 1x\n",
                            "99999999999 0 1\n",
@@ -339,6 +370,26 @@ TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
   std::string square = row(1, 2, 3);
   square.replace(square.find("(1, 3)"), 6, "(3, 1)");
   EXPECT_TRUE(contains(bad_data([&] { back(square, "b.npy"); }), "shape (3, 1)"));
+}
+
+// CubicalRipser: two places behind each bar, and the largest double for infinity.
+TEST(ReadBarcode, RowsWithVoxels) {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  for (const std::size_t width : {9, 11}) {
+    std::string bytes = text_of(example(), BarcodeFormat::npy).substr(0, 10) +
+                        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, " +
+                        std::to_string(width) + "), }";
+    bytes.append(127 - bytes.size(), ' ') += '\n';
+    for (const Bar& bar : {Bar{1, 1, kLargest}, Bar{0, -kLargest, 7}}) {
+      bytes += le(double(bar.dim)) + le(bar.birth) + le(bar.death);
+      for (std::size_t k = 3; k < width; ++k) bytes += le(double(k));
+    }
+    const StoredBarcode read = read_stored_barcode(Input::view(bytes, "b.npy"));
+    ASSERT_EQ(read.bars.size(), 2U);
+    EXPECT_EQ(read.bars[0], (Bar{0, -kInfinity, 7}));
+    EXPECT_EQ(read.bars[1], (Bar{1, 1, kInfinity}));
+    EXPECT_EQ(read.left_out.size(), 1U);
+  }
 }
 
 TEST(ReadBarcode, BinaryDamage) {
