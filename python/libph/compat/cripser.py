@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
     from .._run import RunOptions
 
-__all__ = ["__version__", "computePH", "computePH_T", "compute_ph", "group_by_dim",
-           "to_gudhi_diagrams", "to_gudhi_persistence"]
+__all__ = ["__version__", "computePH", "computePH_T", "compute_ph", "dual_embedding",
+           "group_by_dim", "to_gudhi_diagrams", "to_gudhi_persistence"]
 
 _NEVER = np.finfo(np.float64).max  # the death of a bar that does not die
 
@@ -76,25 +76,56 @@ def computePH_T(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded
 
 
 def compute_ph(arr: ArrayLike, *, filtration: str = "V", maxdim: int = 3, top_dim: bool = False,
-               embedded: bool = False, location: str = "yes", **run: Unpack[RunOptions]
-               ) -> NDArray[np.float64]:
+               embedded: bool = False, location: str = "yes", inf_cutoff: bool = True,
+               **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """`computePH` for the filtration "V", `computePH_T` for "T".
 
     Other parameters and the result are those of `computePH`.
+
+    Parameters
+    ----------
+    inf_cutoff : bool
+        Whether a bar that never dies has inf for its death, not the largest double.
     """
     name = _options.choice("filtration", str(filtration).upper(), ["V", "T"])
     construction = {"V": "vertices", "T": "cells"}[name]
-    return _rows("compute_ph", arr, construction, maxdim, top_dim, embedded, run)
+    rows = _rows("compute_ph", arr, construction, maxdim, top_dim, embedded, run)
+    if _options.flag("inf_cutoff", inf_cutoff):
+        rows[:, 2] = _without_bounds(rows[:, 2])
+    return rows
+
+
+def dual_embedding(arr: ArrayLike) -> NDArray[np.float64]:
+    """The image of the corners of voxels: each has the least value of the voxels around it.
+
+    The result has one number more along each axis.
+
+    Parameters
+    ----------
+    arr : array_like
+        Numbers of voxels, of one to four axes.
+    """
+    corners = _arrays.as_float64(_image(arr), "arr")
+    for axis in range(corners.ndim):
+        margin = [(int(k == axis),) * 2 for k in range(corners.ndim)]
+        wide = np.pad(corners, margin, constant_values=np.inf)
+        corners = np.minimum(np.delete(wide, -1, axis), np.delete(wide, 0, axis))
+    return corners
+
+
+def _image(arr: ArrayLike) -> NDArray[Any]:
+    image = _arrays.as_image(arr, "arr")
+    if image.ndim > 4:
+        raise UsageError(f"arr: found an array of shape {image.shape}, expected 1 to 4 axes; "
+                         "ph.cubical takes up to 8")
+    return image
 
 
 def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim: bool,
           embedded: bool, run: Any) -> NDArray[np.float64]:
     _run.check_names(function, run, compute_ph)
-    image = _arrays.as_image(arr, "arr")
+    image = _image(arr)
     axes = image.ndim
-    if axes > 4:
-        raise UsageError(f"arr: found an array of shape {image.shape}, expected 1 to 4 axes; "
-                         "ph.cubical takes up to 8")
     highest = min(_options.whole("maxdim", maxdim, 0), axes - 1)
     lowest = axes - 1 if _options.flag("top_dim", top_dim) else 0
     if lowest:

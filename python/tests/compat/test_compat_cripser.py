@@ -96,12 +96,29 @@ def test_dimensions(rng):
     assert np.array_equal(cripser.computePH(image, maxdim=0), full[full[:, 0] == 0])
     assert np.array_equal(cripser.computePH(image, top_dim=True), full[full[:, 0] == 2])
     assert cripser.computePH(rng.random(5), top_dim=True)[:, 0].max() == 0
-    assert np.array_equal(cripser.compute_ph(image, filtration="t"), tcripser.computePH(image))
-    assert np.array_equal(cripser.compute_ph(image), full)
+    cells = tcripser.computePH(image)
+    assert np.array_equal(cripser.compute_ph(image, filtration="t", inf_cutoff=False), cells)
+    assert np.array_equal(cripser.compute_ph(image, inf_cutoff=False), full)
+    full[full[:, 2] == NEVER, 2] = np.inf
+    assert np.array_equal(cripser.compute_ph(image), full) and np.isinf(full[:, 2]).sum() == 1
     four = np.ones((3, 3, 3, 3))
     four[1, 1, 1, 1] = 2
     assert cripser.computePH(four, top_dim=True)[:, :3].tolist() == [[3, 1, 2]]
     assert cripser.compute_ph(four)[:, 0].max() == 3 > cripser.computePH(four)[:, 0].max()
+
+
+def test_corners(rng):
+    for shape in ((4,), (3, 5), (2, 1, 3), (2, 2, 3, 2)):
+        image = rng.random(shape)
+        corners = cripser.dual_embedding(image)
+        assert corners.shape == tuple(n + 1 for n in shape)
+        for place in np.ndindex(corners.shape):
+            around = tuple(slice(max(0, k - 1), k + 1) for k in place)
+            assert corners[place] == image[around].min()
+    assert cripser.dual_embedding([[2, 1]]).tolist() == [[2, 1, 1], [2, 1, 1]]
+    for wrong in (np.zeros((1,) * 5), np.float64(1), ["a"]):
+        with pytest.raises(ph.Error):
+            cripser.dual_embedding(wrong)
 
 
 def test_arrays(rng):
