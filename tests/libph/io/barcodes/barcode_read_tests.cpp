@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "libph/io/read_support.hpp"
+#include "libph/io/barcodes/barcode_support.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::test {
@@ -10,32 +10,6 @@ namespace {
 
 constexpr std::array kFormats{BarcodeFormat::csv,  BarcodeFormat::json,  BarcodeFormat::ripser,
                               BarcodeFormat::pers, BarcodeFormat::dipha, BarcodeFormat::npy};
-
-Barcode example(CellKind kind = CellKind::vertices) {
-  Barcode barcode(kind);
-  const std::array<Index, 2> edge{0, 2};
-  const std::array<Index, 3> triangle{0, 1, 2};
-  barcode.add({0, 0, 0.1}, std::array<Index, 1>{2}, edge);
-  barcode.add({0, 0, kInfinity}, std::array<Index, 1>{0}, {});
-  barcode.add({2, 1.0 / 3, 1e22}, edge, triangle);
-  barcode.add({1, -kInfinity, 5e-324}, edge, triangle);
-  barcode.sort();
-  return barcode;
-}
-
-std::string text_of(const Barcode& barcode, BarcodeFormat format) {
-  const TempDir dir;
-  OutputFile file(dir.file("barcode").string());
-  write_barcode(file, barcode, format);
-  file.commit();
-  return std::string(Input::open(dir.file("barcode")).text());
-}
-Barcode back(const std::string& bytes, const std::string& name = "b") {
-  return read_barcode(Input::view(bytes, name));
-}
-std::vector<Index> numbers(const InputCell& cell) {
-  return {cell.numbers.begin(), cell.numbers.end()};
-}
 
 TEST(ReadBarcode, EveryFormatByContent) {
   for (const BarcodeFormat format : kFormats) {
@@ -77,116 +51,6 @@ TEST(ReadBarcode, EmptyOnesToo) {
   bad_data([] { back("\n# nothing\n"); });
 }
 
-TEST(ReadBarcode, JsonBringsCellsAndRepresentativesBack) {
-  for (const CellKind kind : {CellKind::vertices, CellKind::grid}) {
-    const Barcode barcode = example(kind);
-    const Barcode read = back(text_of(barcode, BarcodeFormat::json));
-    EXPECT_EQ(read.cell_kind(), kind);
-    for (std::size_t i = 0; i < barcode.size(); ++i) {
-      EXPECT_EQ(numbers(read.birth_cell(i)), numbers(barcode.birth_cell(i)));
-      ASSERT_EQ(read.death_cell(i).has_value(), barcode.death_cell(i).has_value());
-      if (const auto death = barcode.death_cell(i)) {
-        EXPECT_EQ(numbers(*read.death_cell(i)), numbers(*death));
-      }
-    }
-  }
-  Barcode rows(CellKind::row);
-  rows.add({0, 1, 2}, std::array<Index, 1>{0}, std::array<Index, 1>{7});
-  rows.set_representative(Representatives::cycles, std::array<Index, 2>{0, 3},
-                          std::array<std::int64_t, 2>{1, -1});
-  const Barcode read = back(text_of(rows, BarcodeFormat::json));
-  EXPECT_EQ(numbers(*read.death_cell(0)), std::vector<Index>{7});
-  EXPECT_EQ(read.representatives(), Representatives::cycles);
-  ASSERT_EQ(read.representative(0).size(), 2U);
-  EXPECT_EQ(numbers(read.representative(0).cell(1)), std::vector<Index>{3});
-  EXPECT_EQ(read.representative(0).coefficient(1), -1);
-}
-
-TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
-  Barcode barcode(CellKind::grid);
-  const std::array<std::uint32_t, 5> places{7, 3, 2, 4, 9};
-  const std::size_t begin = barcode.store_voxels(places);
-  const std::array<Index, 2> birth{0, 4}, death{1, 4};
-  barcode.add({0, 1, 2}, birth, death);
-  barcode.set_representative(Representatives::voxels, {}, {});
-  barcode.set_voxels({begin, begin + 5}, std::array<Index, 2>{0, 2}, std::array<Index, 2>{1, 2});
-  barcode.add({1, 1, kInfinity}, death, {});
-  barcode.set_representative(Representatives::voxels, death, std::array<std::int64_t, 1>{1});
-  barcode.set_voxels({}, std::array<Index, 2>{1, 2}, {});
-  const std::string text = text_of(barcode, BarcodeFormat::json);
-  EXPECT_TRUE(contains(text, R"("representatives": "voxels")"));
-  EXPECT_TRUE(contains(text, R"("birth_voxel": [0, 2], "death_voxel": [1, 2], )"
-                             R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
-  EXPECT_TRUE(
-      contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
-  // Of these only the cells come back.
-  const Barcode read = back(text);
-  EXPECT_EQ(read.representatives(), Representatives::none);
-  EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));
-}
-
-TEST(ReadBarcode, JsonSkipsWhatItDoesNotKnow) {
-  const Barcode read = back(
-      R"({"format": "ph-barcode", "x": {"a": [1, true, null, "\u00e9\ud83d\ude00\n"]}, "version": 1,
- "bars": [{"death": null, "y": [], "birth": 1e0, "dim": 2}]})");
-  ASSERT_EQ(read.size(), 1U);
-  EXPECT_EQ(read[0], (Bar{2, 1, kInfinity}));
-}
-
-TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
-  const auto stored = [](const std::string& text) {
-    return read_stored_barcode(Input::view(text, "b.json"));
-  };
-  const StoredBarcode read = stored(R"({"format": "ph-barcode", "version": 1, "program": "p 1",
- "input": {"path": "a", "description": "d"}, "complex": "rips", "field": 3, "max_dim": 2,
- "threshold": 1.5, "vertex_weights": "dtm 2",
- "subsample": {"points": 4, "of": 9, "covering_radius": 0.5},
- "voxels": {"edge": 2, "first": [0, -1], "value": "density", "x": 1}, "approximation": 0.25,
- "alpha": {"squared": true, "period": [2, 0], "hidden": [3, 5], "x": []}, "superlevel": true,
- "engine": "twist", "shape": "round", "timings": {"read": 0.5, "plan": 1}, "peak_memory": 77,
- "bars": [{"dim": 1, "birth": 0, "death": 1, "loops": []}]})");
-  const BarcodeInfo& info = read.info;
-  EXPECT_EQ(info.program, "p 1");
-  EXPECT_EQ(info.input, "a");
-  EXPECT_EQ(info.input_description, "d");
-  EXPECT_EQ(info.complex, "rips");
-  EXPECT_EQ(info.field, 3);
-  EXPECT_EQ(info.max_dim, 2);
-  EXPECT_EQ(info.threshold, 1.5);
-  EXPECT_EQ(info.vertex_weights, "dtm 2");
-  ASSERT_TRUE(info.subsample && info.voxels);
-  EXPECT_EQ(info.subsample->points, 4);
-  EXPECT_EQ(info.subsample->of, 9);
-  EXPECT_EQ(info.subsample->covering_radius, 0.5);
-  EXPECT_EQ(info.voxels->voxel, 2);
-  EXPECT_EQ(info.voxels->first, (std::vector<double>{0, -1}));
-  EXPECT_EQ(info.voxels->value, "density");
-  ASSERT_TRUE(info.alpha);
-  EXPECT_TRUE(info.alpha->squared);
-  EXPECT_EQ(info.alpha->period, (std::vector<double>{2, 0}));
-  EXPECT_EQ(info.alpha->hidden, (std::vector<Index>{3, 5}));
-  EXPECT_TRUE(info.superlevel);
-  EXPECT_EQ(info.approximation, 0.25);
-  EXPECT_EQ(info.engine, "twist");
-  EXPECT_EQ(info.timings,
-            (std::vector<std::pair<std::string, double>>{{"read", 0.5}, {"plan", 1}}));
-  EXPECT_EQ(info.peak_memory, 77U);
-  EXPECT_EQ(read.left_out, (std::vector<std::string>{"loops", "shape"}));
-  EXPECT_TRUE(contains(
-      bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
-      "expected true or false"));
-  EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
-  // What nobody said is not known, and not written.
-  const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
-  EXPECT_EQ(bare.info.complex, "");
-  EXPECT_EQ(bare.info.threshold, std::nullopt);
-  const std::string text = text_of(bare.bars, BarcodeFormat::json);
-  for (const char* member : {"complex", "field", "max_dim", "threshold", "engine"})
-    EXPECT_FALSE(contains(text, std::string("\"") + member)) << member;
-  EXPECT_EQ(stored(R"({"format": "ph-barcode", "bars": [], "threshold": "-inf"})").info.threshold,
-            -kInfinity);
-}
-
 // Significance writes them beside bars.
 TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
@@ -200,53 +64,6 @@ TEST(ReadBarcode, ValuesOfPMayFollow) {
     EXPECT_TRUE(
         contains(bad_data([&] { stored("dim,birth,death,p\n0,0,1," + std::string(p) + "\n"); }),
                  "b.csv:2:7"));
-}
-
-TEST(ReadBarcode, JsonRefusesDamage) {
-  const std::string whole = text_of(example(), BarcodeFormat::json);
-  check_prefixes(
-      whole, "b.json", [](const Input& in) { read_barcode(in); },
-      [&](std::size_t length) { return length + 1 == whole.size(); });
-  const auto bar = [](const std::string& text) {
-    return R"({"format": "ph-barcode", "bars": [)" + text + "]}";
-  };
-  for (const std::string& text : std::vector<std::string>{
-           "{}",
-           "{\"bars\": []}",
-           R"({"format": "other", "bars": []})",
-           R"({"format": "ph-barcode", "version": 2, "bars": []})",
-           R"({"format": "ph-barcode", "bars": [], "bars": []})",
-           bar("{}"),
-           bar("1"),
-           bar("{,}"),
-           bar(R"({"dim": 0, "birth": 1})"),
-           bar(R"({"dim": -1, "birth": 1, "death": 2})"),
-           bar(R"({"dim": 0.5, "birth": 1, "death": 2})"),
-           bar(R"({"dim": 99999999999, "birth": 1, "death": 2})"),
-           bar(R"({"dim": 0, "birth": 3, "death": 2})"),
-           bar(R"({"dim": 0, "birth": null, "death": 2})"),
-           bar(R"({"dim": 0, "birth": NaN, "death": 2})"),
-           bar(R"({"dim": 0, "birth": "nan", "death": 2})"),
-           bar(R"({"dim": 0, "birth": 1e999, "death": 2})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"vertices": [-1]}})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"corners": [1]}})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"row": 1},
-                   "death_cell": {"vertices": [1]}})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"vertices": []}})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "death_cell": {"row": 1}})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"row": 1}},
-                  {"dim": 0, "birth": 1, "death": 2})"),
-           R"({"format": "ph-barcode", "representatives": "cyclic", "bars": []})",
-           R"({"format": "ph-barcode", "bars": [], "representatives": "cycles"})",
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\q"})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\u12g4"})"),
-           bar(R"({"dim": 0, "birth": 1, "death": 2} {})"),
-           bar("") + "x"}) {
-    EXPECT_TRUE(contains(bad_data([&] { back(text, "b.json"); }), "b.json")) << text;
-  }
-  const std::string deep(100000, '[');
-  EXPECT_TRUE(contains(bad_data([&] { back("{\"x\": " + deep); }), "too deeply"));
-  EXPECT_TRUE(contains(bad_data([&] { back(bar("\n  {\"dim\": x}"), "b.json"); }), "b.json:2:11"));
 }
 
 // As pandas, R and other programs of this field order and name columns.
@@ -329,15 +146,6 @@ TEST(ReadBarcode, TextOfRipser) {
     bad_data([&] { back(text + tail); });
   }
   bad_data([] { read_barcode(Input::view("value range: [1,2]\n", "b"), BarcodeFormat::ripser); });
-}
-
-TEST(ReadBarcode, CellsThatAreNotKnownStayUnknown) {
-  Barcode rows(CellKind::row);  // of a file without cells
-  for (int i = 0; i < 40; ++i) rows.add({0, 1, 2}, {}, {});
-  const Barcode read = back(text_of(rows, BarcodeFormat::json));
-  EXPECT_EQ(read.size(), 40U);
-  EXPECT_TRUE(read.birth_cell(0).numbers.empty());
-  EXPECT_FALSE(read.death_cell(0).has_value());
 }
 
 TEST(ReadBarcode, EqualBarsKeepTheirOrder) {

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""Means of diagrams."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _core, _options, _run
+from .._barcodes import Barcode
+from ._diagrams import all_rows
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+
+class Barycentre(NamedTuple):
+    """A diagram in the middle of others; see `barycentre`.
+
+    Attributes
+    ----------
+    diagram : ndarray
+        Rows birth, death, ascending.
+    root_mean_square : float
+        Of its distances to the diagrams.
+    rounds : int
+        That lowered it.
+    converged : bool
+        Whether it ended before `max_rounds`.
+    """
+
+    diagram: NDArray[np.float64]
+    root_mean_square: float
+    rounds: int
+    converged: bool
+
+
+def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, *,
+               max_rounds: int = 100, tolerance: float = 1e-6, **run: Unpack[RunOptions]
+               ) -> Barycentre:
+    """A barycentre (Fréchet mean) of diagrams [Turner, Mileyko, Mukherjee, Harer 2014].
+
+    A local minimum of the mean square of the Wasserstein distances of order 2 with Euclidean ground
+    norm. It begins at the medoid. Each of its bars is the mean of the bars that it is paired with,
+    so there may be many that are short.
+
+    Parameters
+    ----------
+    diagrams : sequence of Barcode or array_like
+        Barcodes, or arrays of rows birth, death, with as many bars that never die.
+    dim : int, optional
+        Of barcodes: the dimension.
+    max_rounds : int
+        The most rounds; 0: the medoid.
+    tolerance : float
+        It ends after a round that lowers the root mean square by this part of it, or less.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Barycentre
+
+    Examples
+    --------
+    >>> ph.barycentre([[[0, 4]], [[1, 5]], [[2, 3]]]).diagram
+    array([[1., 4.]])
+    """
+    _run.check_names("barycentre", run, barycentre)
+    rounds = _options.whole("max_rounds", max_rounds, 0, 2**31 - 1)
+    least_gain = _options.real("tolerance", tolerance, "a finite number, at least 0", 0)
+    block, root_mean_square, done, converged = _run.run(
+        _core.barycentre, all_rows("diagrams", diagrams, dim), rounds, least_gain,
+        options=dict(run))
+    return Barycentre(np.asarray(block), root_mean_square, done, converged)
