@@ -142,13 +142,13 @@ class CameraYaml {
     const YamlWords::Value* value =
         find({"distortion_coefficients.data", "distortion_coefficients", "d.data", "d"});
     if (value == nullptr) refuse_other_names();
-    const std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
+    std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
     const YamlWords::Value* named = find({"distortion_model"});
     const YamlWords::Value* fisheye = find({"fisheye_model"});
     // A file of OpenCV has no name; a switch or the number of coefficients tells.
     const std::string_view name = named != nullptr ? named->words.front().text
                                   : fisheye != nullptr && number(fisheye->words[0]) != 0 ? "fisheye"
-                                  : d.size() == 8                  ? "rational_polynomial"
+                                  : d.size() >= 8                  ? "rational_polynomial"
                                   : d.size() == 4 || d.size() == 5 ? "plumb_bob"
                                                                    : "";
     const bool is_zero = std::ranges::all_of(d, [](double c) { return c == 0; });
@@ -173,6 +173,8 @@ class CameraYaml {
             "plumb_bob, rational_polynomial or equidistant",
             "rectify the image, and take a camera without distortion"});
     }
+    // OpenCV writes up to 14, of thin prisms and tilted sensors, which most lenses have not.
+    while (d.size() > most && d.back() == 0) d.pop_back();
     if (d.size() < least || d.size() > most) {
       fail(*value, {fmt::format("coefficients of {}", name),
                     fmt::format("{}", d.size()),

@@ -74,6 +74,17 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
       "   data: [ 0.1, 0., 0., 0., 0. ]\r\n");
   expect_usual(opencv);
   EXPECT_EQ(opencv.lens.model, Lens::Model::polynomial);
+  // OpenCV writes places for thin prisms and tilted sensors, too.
+  const auto rational = [](const std::string& more) {
+    return replaced(ros_file("x", "0.3, -0.2, 0.001, 0, 0.1, 0.2, -0.1, 0.05" + more),
+                    "distortion_model: x", "more: x");
+  };
+  for (const char* more : {", 0, 0, 0, 0", ", 0, 0, 0, 0, 0, 0"})
+    EXPECT_EQ(camera_of(rational(more)).lens.coefficients,
+              camera_of(rational("")).lens.coefficients);
+  for (const char* more : {", 0, 0, 0, 1e-4", ", 0, 0, 0, 0, 0.1, 0"})
+    EXPECT_TRUE(contains(bad_data([&] { camera_of(rational(more)); }),
+                         "coefficients of rational_polynomial"));
   // OpenCV's program of calibration says by a switch that the lens is a fisheye.
   const std::string four = ros_file("x", "0.05, -0.01, 0.002, -0.0005");
   const std::string unnamed = replaced(four, "distortion_model: x", "fisheye_model: 1");
