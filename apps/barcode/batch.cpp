@@ -17,6 +17,7 @@
 #include "barcode/parts/run_parts.hpp"
 #include "barcode/run.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/run/program.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -209,11 +210,8 @@ BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
       (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
     return BarcodeFormat::csv;
   if (const auto format = barcode_format_of_path(arguments.output)) return *format;
-  const std::string& path = arguments.output;
-  const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-  // A leading dot hides a file; it starts no extension.
-  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
-    session.note(fmt::format("{}: the extension names no format, writing csv", path));
+  if (app::has_extension(app::require_unpacked(arguments.output)))
+    session.note(app::no_format_in(arguments.output, "csv"));
   return BarcodeFormat::csv;
 }
 

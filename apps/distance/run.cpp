@@ -10,6 +10,7 @@
 
 #include "common/arguments/numbers.hpp"
 #include "common/files/barcode_files.hpp"
+#include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/run/session.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -55,7 +56,13 @@ class Run {
         arguments.distance.kind != app::DistanceKind::sliced)
       session.note("--threads does nothing: the distance of two barcodes is found by one thread");
     require_separate();
-    if (arguments.writes_table()) table_.emplace(arguments.output_path());
+    if (arguments.writes_table()) {
+      const std::string path = app::require_unpacked(arguments.output_path());
+      const bool is_said = arguments.output_format || barcode_format_of_path(path);
+      if (!is_said && app::has_extension(path) && !path.ends_with(".txt"))
+        session.note(app::no_format_in(path, "text"));
+      table_.emplace(path);
+    }
     if (!arguments.matching.empty()) matching_.emplace(arguments.matching);
     if (!arguments.matrix.empty()) matrix_.emplace(arguments.matrix);
   }

@@ -13,6 +13,7 @@
 #include "common/terminal/exit_code.hpp"
 #include "core/system/files.hpp"
 #include "depth_scene.hpp"
+#include "files/cloud_files.hpp"
 #include "notes.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
@@ -198,6 +199,18 @@ std::vector<std::string> notes_on(const Result& result, const Arguments& argumen
   return notes(result.segmentation, arguments.options, cloud, &depth);
 }
 
+/// A cloud that is written as PLY, which has no place for where it was seen from; empty: none is.
+std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
+  if (cloud == nullptr) return {};
+  const auto& [x, y, z, qw, qx, qy, qz] = cloud->viewpoint;
+  if (x == 0 && y == 0 && z == 0) return {};
+  for (const std::string& path : {files.output, files.coloured})
+    if (!path.empty() && cloud_format_of(path) == CloudFormat::ply)
+      return fmt::format("{}: PLY does not hold the viewpoint; with it goes --viewpoint {},{},{}",
+                         printable(path), x, y, z);
+  return {};
+}
+
 /// The view for the next frame; a warning if the camera moved since the last one.
 void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
   if (!s.plane) return;
@@ -219,6 +232,8 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   Segmentation& s = result.segmentation;
   std::vector<std::string> warned = notes_on(result, arguments);
   if (remembered) remember(s, *remembered, warned);
+  std::string lost = about_viewpoint(arguments.files, result.cloud ? &*result.cloud : nullptr);
+  if (!lost.empty()) warned.push_back(std::move(lost));
   for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 

@@ -7,6 +7,7 @@
 
 #include "common/arguments/numbers.hpp"
 #include "common/files/barcode_files.hpp"
+#include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/run/session.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -35,6 +36,9 @@ class Run {
     }
     files_ = files_of(arguments, fit_.kind);
     require_separate();
+    const std::string path = app::require_unpacked(arguments.output);
+    if (!arguments.names_format() && app::has_extension(path))
+      session.note(app::no_format_in(path, "csv"));
     output_.emplace(arguments.output);
     if (!arguments.fit.empty()) fit_output_.emplace(arguments.fit);
   }

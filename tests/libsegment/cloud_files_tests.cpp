@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cloud_files.hpp"
+#include "files/cloud_terms.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -94,6 +94,105 @@ TEST(WriteCloud, ReadsBackFromPcdAndPly) {
   EXPECT_EQ(numbers(ply, "label_in"), numbers(cloud, "label"));
   EXPECT_EQ(ply.rgb(), cloud.rgb());
   EXPECT_THROW(write_cloud(folder / "a.txt", cloud, labels), Error);
+}
+
+/// A cloud of one point: a name, a type and a value for each field.
+struct Column {
+  std::string name;
+  FieldType type;
+  double value;
+};
+Cloud one_point(const std::vector<Column>& columns) {
+  Cloud cloud;
+  cloud.width = 1;
+  for (const auto& [name, type, value] : columns) {
+    const std::size_t at = cloud.data.size();
+    cloud.fields.push_back({name, type, 1, at});
+    cloud.data.resize(at + size_of(type));
+    const auto narrow = static_cast<float>(value);
+    const auto byte = static_cast<std::byte>(value);
+    if (type == FieldType::float64) std::memcpy(&cloud.data[at], &value, 8);
+    if (type == FieldType::float32) std::memcpy(&cloud.data[at], &narrow, 4);
+    if (type == FieldType::uint8) cloud.data[at] = byte;
+  }
+  cloud.stride = cloud.data.size();
+  return cloud;
+}
+std::string names_in(const Cloud& cloud) {
+  std::string names;
+  for (const CloudField& field : cloud.fields)
+    names += field.name + (field.type == FieldType::float64 ? "(double) " : " ");
+  return names;
+}
+constexpr auto kDouble = FieldType::float64;
+constexpr auto kSingle = FieldType::float32;
+constexpr auto kByte = FieldType::uint8;
+
+TEST(CloudTerms, PcdHasSinglePrecisionWhereThatIsFineEnough) {
+  const auto told = [](double x) {
+    return in_terms_of(CloudFormat::pcd, one_point({{"x", kDouble, x},
+                                                    {"y", kDouble, 0.1},
+                                                    {"z", kDouble, test::kHole},
+                                                    {"time", kDouble, 1.7e9}}));
+  };
+  EXPECT_EQ(names_in(told(-1024)), "x y z time(double) ");
+  EXPECT_EQ(told(-1024).xyz()[1], 0.1F);
+  EXPECT_EQ(names_in(told(1025)), "x(double) y(double) z(double) time(double) ");
+  const Cloud ply = in_terms_of(CloudFormat::ply, one_point({{"x", kDouble, 1}}));
+  EXPECT_EQ(names_in(ply), "x(double) ");
+}
+
+TEST(CloudTerms, NormalsHaveTheNamesOfTheFormat) {
+  const std::vector<Column> pcd{{"x", kSingle, 1},
+                                {"normal_x", kSingle, 0.5},
+                                {"normal_y", kSingle, 0.25},
+                                {"normal_z", kSingle, 0}};
+  const Cloud ply = in_terms_of(CloudFormat::ply, one_point(pcd));
+  EXPECT_EQ(names_in(ply), "x nx ny nz ");
+  EXPECT_EQ(ply.data, one_point(pcd).data);
+  EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, ply)), "x normal_x normal_y normal_z ");
+  // Two of three are something else, and names that are there are not given again.
+  EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point({{"nx", kSingle, 1}}))), "nx ");
+  std::vector<Column> both = pcd;
+  for (const char* name : {"nx", "ny", "nz"}) both.push_back({name, kSingle, 1});
+  EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point(both))),
+            "x normal_x normal_y normal_z nx ny nz ");
+}
+
+TEST(CloudTerms, ColoursAreOneNumberInPcd) {
+  const auto rgba_of = [](const std::vector<Column>& columns, const std::string& names) {
+    const Cloud cloud = in_terms_of(CloudFormat::pcd, one_point(columns));
+    EXPECT_EQ(names_in(cloud), names);
+    return numbers(cloud, "rgba").at(0);
+  };
+  EXPECT_EQ(rgba_of({{"red", kByte, 1}, {"green", kByte, 2}, {"blue", kByte, 3}, {"t", kByte, 4}},
+                    "rgba t "),
+            0xFF010203U);
+  EXPECT_EQ(rgba_of({{"alpha", kByte, 9},
+                     {"x", kSingle, 1},
+                     {"blue", kByte, 3},
+                     {"green", kByte, 2},
+                     {"red", kByte, 1}},
+                    "rgba x "),
+            0x09010203U);
+  EXPECT_EQ(rgba_of({{"r", kByte, 1}, {"g", kByte, 2}, {"b", kByte, 3}}, "rgba "), 0xFF010203U);
+  EXPECT_EQ(rgba_of({{"red", kDouble, 1}, {"green", kDouble, 0}, {"blue", kDouble, 0.2}},
+                    "red(double) green(double) blue(double) rgba "),
+            0xFFFF0033U);
+  const std::vector<Column> alone{{"alpha", kByte, 9}, {"x", kSingle, 1}};
+  EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point(alone))), "alpha x ");
+  const Cloud packed = small_cloud(false);
+  EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, packed)), names_in(packed));
+}
+
+TEST(CloudTerms, PaddingIsLeftOut) {
+  const std::vector<Column> padded{
+      {"x", kSingle, 1}, {"_", kByte, 2}, {"y", kSingle, 3}, {"_", kSingle, 4}};
+  for (const CloudFormat format : {CloudFormat::pcd, CloudFormat::ply}) {
+    const Cloud cloud = in_terms_of(format, one_point(padded));
+    EXPECT_EQ(names_in(cloud), "x y ");
+    EXPECT_EQ(cloud.data, one_point({{"x", kSingle, 1}, {"y", kSingle, 3}}).data);
+  }
 }
 
 TEST(CloudFormat, ByExtension) {

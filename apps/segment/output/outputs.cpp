@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cloud_files.hpp"
-#include "label_files.hpp"
+#include "files/cloud_files.hpp"
+#include "files/label_files.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "ph/scene_report.hpp"

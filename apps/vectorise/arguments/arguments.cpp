@@ -197,6 +197,10 @@ bool ends_in(const std::string& path, std::string_view extension) {
 
 }  // namespace
 
+bool Arguments::names_format() const {
+  return output_format || ends_in(output, ".npy") || ends_in(output, ".csv");
+}
+
 OutputFormat Arguments::written_format() const {
   return output_format.value_or(ends_in(output, ".npy") ? OutputFormat::npy : OutputFormat::csv);
 }

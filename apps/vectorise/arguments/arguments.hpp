@@ -46,6 +46,7 @@ struct Arguments {
   // The options that were given of those that do nothing for some kinds of vectors.
   std::vector<const app::OptionScope*> given;
 
+  bool names_format() const;  ///< by an option or an extension; else the format is csv
   OutputFormat written_format() const;
 };
 

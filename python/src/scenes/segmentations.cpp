@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "cloud_files.hpp"
+#include "files/cloud_files.hpp"
 #include "data/arrays.hpp"
-#include "label_files.hpp"
+#include "files/label_files.hpp"
 #include "notes.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/io/cloud.hpp"

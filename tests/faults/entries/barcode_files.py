@@ -211,6 +211,10 @@ def entries():
     for name, old, new, message in FITTED:
         yield Entry(65, name, "ph-vectorise", ("--fitted", "fit.json", "good.csv"), 65, message,
                     "fit.json", {"good.csv": GOOD, "fit.json": with_change(FIT, old, new)})
+    for name, program, inputs in (("distances", "ph-distance", ("good.csv", "good.csv")),
+                                  ("vectors", "ph-vectorise", ("good.csv",))):
+        yield Entry(50, f"{name} to a packed file", program, (*inputs, "-o", "o.csv.GZ"), 64,
+                    "found .gz, expected a name without it", "o.csv.GZ", {"good.csv": GOOD})
     yield Entry(65, "what was fitted, unchanged", "ph-vectorise", ("--fitted", "fit.json", "good.csv"),
                 0, files={"good.csv": GOOD, "fit.json": FIT})
 

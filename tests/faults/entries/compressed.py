@@ -164,7 +164,7 @@ def trailing():
     more = "trailing data|extra|not the end"
     for form, content in (
             ("pcd", sample("pcd", "ascii.pcd") + b"0 0 1\n"),
-            ("pcd", sample("pcd", "binary.pcd") + b"\0"),
+            ("pcd", sample("pcd", "binary.pcd") + b"\0\1"),
             ("pcd", sample("pcd", "compressed.pcd") + b"\1"),
             ("ply", sample("ply", "ascii.ply") + b"3 0 1 2\n"),
             ("ply", sample("ply", "little_endian.ply") + b"\0"),

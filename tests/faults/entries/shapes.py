@@ -176,7 +176,7 @@ def fields():
                     normals + f"0 0 1 {word} {word} {word}\n1 0 1 0 0 1\n".encode(), labels(1, 2),
                     *KEEP_ALL)
     yield kept(96, "kept in PLY", normals + b"0 0 1 0 0 0\n1 0 1 0 0 0\n", "out.ply",
-               b"property float normal_z\n")
+               b"property float nz\n")
 
 
 ENTRIES = [*same(), *collinear(), *cocircular(), *spreads(), *organised(), *fields()]

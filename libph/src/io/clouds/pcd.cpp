@@ -17,24 +17,7 @@ namespace {
 
 using detail::PcdHeader;
 
-void read_binary(const Input& input, PcdHeader& header) {
-  const std::size_t there = input.size() - header.offset;
-  if (there != header.bytes) {
-    const std::size_t complete = there / header.cloud.stride;
-    input.fail_at_byte(
-        there < header.bytes ? input.size() : header.offset + header.bytes,
-        {there < header.bytes ? fmt::format("truncated: {} of {} points", complete, header.points)
-                              : std::string("trailing data"),
-         fmt::format("{} bytes of data", there),
-         fmt::format("{}", header.bytes),
-         {}});
-  }
-  input.require_memory(header.bytes);
-  const auto data = input.bytes().subspan(header.offset);
-  header.cloud.data.assign(data.begin(), data.end());
-}
-
-// PCL pads compressed files with zeros towards a whole page; other trailing data is an error.
+// PCL maps the files that it writes, and leaves zeros up to a whole page behind the data.
 void expect_padding(BinaryCursor& cursor) {
   constexpr std::size_t kLargestPage = std::size_t{1} << 16;
   if (cursor.remaining() >= kLargestPage) cursor.expect_end();
@@ -43,6 +26,23 @@ void expect_padding(BinaryCursor& cursor) {
   if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {
     at_padding.expect_end();
   }
+}
+
+void read_binary(const Input& input, PcdHeader& header) {
+  const std::size_t there = input.size() - header.offset;
+  if (there < header.bytes) {
+    const std::size_t complete = there / header.cloud.stride;
+    input.fail_at_byte(input.size(),
+                       {fmt::format("truncated: {} of {} points", complete, header.points),
+                        fmt::format("{} bytes of data", there),
+                        fmt::format("{}", header.bytes),
+                        {}});
+  }
+  BinaryCursor cursor(input, std::endian::little, header.offset);
+  const auto data = cursor.take(header.bytes, "data");
+  expect_padding(cursor);
+  input.require_memory(header.bytes);
+  header.cloud.data.assign(data.begin(), data.end());
 }
 
 // Takes the data of a compressed file, field after field, and puts them record after record.

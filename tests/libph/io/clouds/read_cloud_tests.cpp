@@ -112,6 +112,17 @@ TEST(Pcd, RefusesBadHeadersBeforeAllocating) {
   EXPECT_EQ(pcd(xyz_header("0", "1", "0", "binary"), {.allow_empty = true}).size(), 0);
 }
 
+// PCL's tools leave zeros up to the end of a page.
+TEST(Pcd, BinaryDataMayBePadded) {
+  std::ostringstream out;
+  write_pcd(out, motley(20, 2), PcdData::binary);
+  const std::string whole = out.str();
+  EXPECT_EQ(pcd(whole + std::string(4000, '\0')).data, pcd(whole).data);
+  for (const std::string& more :
+       {std::string(1, 'x'), std::string(4000, '\0') + "x", std::string(70000, '\0')})
+    EXPECT_TRUE(contains(bad_data([&] { pcd(whole + more); }), "trailing data"));
+}
+
 TEST(Pcd, RefusesLyingCompression) {
   std::ostringstream out;
   write_pcd(out, motley(20, 2), PcdData::binary_compressed);

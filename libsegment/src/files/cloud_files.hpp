@@ -14,8 +14,9 @@ enum class CloudFormat { pcd, ply };
 /// @throws Error (usage) naming the path for another extension.
 CloudFormat cloud_format_of(std::string_view path);
 
-/// The file as bytes: binary_compressed PCD, little-endian PLY.
+/// The file as bytes: binary_compressed PCD, little-endian PLY, with the names and types that other
+/// programs read (see in_terms_of).
 /// @throws Error (bad_data) if the format cannot hold a field.
-std::string cloud_bytes(const Cloud& cloud, CloudFormat format);
+std::string cloud_bytes(Cloud cloud, CloudFormat format);
 
 }  // namespace ph::segment

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "cloud_files.hpp"
+#include "files/cloud_terms.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
@@ -37,13 +38,14 @@ CloudFormat cloud_format_of(std::string_view path) {
               fmt::format("{}: expected a file name that ends in .pcd or .ply", path));
 }
 
-std::string cloud_bytes(const Cloud& cloud, CloudFormat format) {
+std::string cloud_bytes(Cloud cloud, CloudFormat format) {
   std::ostringstream out;
   out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  const Cloud told = in_terms_of(format, std::move(cloud));
   if (format == CloudFormat::pcd) {
-    write_pcd(out, cloud);
+    write_pcd(out, told);
   } else {
-    write_ply(out, cloud);
+    write_ply(out, told);
   }
   return std::move(out).str();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "label_files.hpp"
+#include "files/label_files.hpp"
 
 #include <fmt/format.h>
 
