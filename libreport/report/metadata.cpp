@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "io/barcodes/barcode_formats.hpp"
 #include "io/bytes/json_writer.hpp"
 
 namespace ph::report {
@@ -85,6 +86,7 @@ std::string provenance(const Provenance& p) {
     json::add_members(timings, {{stage, fmt::format("{:.6g}", seconds)}});
   for (const auto& [name, note] : p.notes) json::add_members(notes, {{name, text(note)}});
   const bool has_homology = p.has_homology;
+  const std::string filtration = filtration_members(p.run);
   return object({{"version", text(p.run.program)},
                  {"command", texts(p.command)},
                  {"input", object({{"path", text(p.run.input)},
@@ -96,6 +98,7 @@ std::string provenance(const Provenance& p) {
                  {"threshold", !has_homology     ? ""
                                : p.run.threshold ? number(*p.run.threshold)
                                                  : "null"},
+                 {"filtration", filtration.empty() ? "" : "{" + filtration + "}"},
                  {"engine", text(p.run.engine)},
                  {"timings", timings.empty() ? "" : "{" + timings + "}"},
                  {"peak_memory", p.run.peak_memory > 0 ? integer(p.run.peak_memory) : ""},

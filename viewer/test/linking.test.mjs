@@ -86,6 +86,8 @@ test("linked views", { timeout: 300_000 }, async (t) => {
       const json = JSON.parse((await downloaded(page, "JSON")).toString());
       assert.equal(json.bars.length, 3);
       assert.equal(json.format, "ph-barcode");
+      for (const member of ["program", "input", "timings", "peak_memory"])
+        assert.ok(json[member] !== undefined, member);
       assert.deepEqual(Object.keys(json.bars[1].representative[0]), ["vertices", "coefficient"]);
 
       assert.equal(json.bars[1].representative.length, 44);
@@ -110,6 +112,15 @@ test("linked views", { timeout: 300_000 }, async (t) => {
     assert.equal(await again.page.inputValue(".data select"), "plain");
     assert.equal(await again.page.getAttribute("html", "data-theme"), "dark");
     assert.match(await selection(again.page), /^3 bars selected/);
+    // What another address does not name is as at first.
+    await again.page.evaluate(() => (location.hash = "bars=2-4,7&hide=0"));
+    await again.page.waitForFunction(() => document.documentElement.dataset.theme === "light");
+    assert.match(await selection(again.page), /^4 bars selected/);
+    await again.page.waitForFunction(() => /bars=2-4,7/.test(location.hash));
+    await again.page.evaluate(() => (location.hash = ""));
+    await again.page.waitForFunction(
+      () => document.querySelectorAll('.chip[aria-pressed="false"]').length === 0,
+    );
     await again.close();
   });
 

@@ -7,7 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import test from "node:test";
-import { coloursOf, frame, launch, open, picture, tintedPixels } from "./support/browser.mjs";
+import { coloursOf, downloaded, frame, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 import { npy, spherePoints, tableScene } from "./support/program_inputs.mjs";
 
 const [barcode, segment, scene] = process.argv.slice(2).map((path) => resolve(path));
@@ -73,6 +73,31 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
     writeFileSync(join(folder, "waves.pgm"), `P2\n32 24\n255\n${rows.join("\n")}\n`);
     run(barcode, "waves.pgm", "-o", "waves.csv", "--report", "waves.html");
     await look(browser, "waves.html", [...kCharts, ".stage", ...kTree]);
+  });
+
+  await t.test("ph-barcode: what is exported says of its values what the program's JSON says", async () => {
+    writeFileSync(join(folder, "dots.csv"), "x,y\n0,0\n1,0\n0,1\n1,1\n0.5,3\n");
+    for (const words of [
+      ["waves.pgm", "--superlevel"],
+      ["dots.csv", "--complex", "alpha", "--alpha-values", "squared"],
+      ["dots.csv", "--dtm", "2"],
+    ]) {
+      run(barcode, ...words, "-o", "bars.json", "--report", "bars.html");
+      const { bars, input, timings, peak_memory, ...said } = JSON.parse(written("bars.json"));
+      await look(browser, "bars.html", kCharts, async (page) => {
+        await page.keyboard.press("Escape");
+        await frame(page);
+        const text = (await downloaded(page, "JSON")).toString();
+        const exported = JSON.parse(text);
+        for (const [name, value] of Object.entries(said)) assert.deepEqual(exported[name], value, name);
+        for (const bar of exported.bars) delete bar.barcode;
+        assert.deepEqual(exported.bars, bars);
+        writeFileSync(join(folder, "exported.json"), text);
+      });
+      run(barcode, "plot", "exported.json", "-o", "exported.csv", "--output-format", "csv");
+      run(barcode, "plot", "bars.json", "-o", "bars.csv", "--output-format", "csv");
+      assert.equal(written("exported.csv"), written("bars.csv"));
+    }
   });
 
   await t.test("ph-barcode: sets of voxels are coloured in a picture, surfaces in a volume", async () => {

@@ -3,21 +3,16 @@
 import { Chart } from "./chart";
 import { table } from "../common/dom";
 import { counted, homology, short } from "../common/number_format";
-import { intervalText, shownValue } from "../model/words";
+import { endsOf, intervalText } from "../model/words";
 import type { Session } from "../model/session";
 
 const kMostRows = 500;
-
-export function intervalOf(session: Session, bar: number): string {
-  const { bars, meta } = session.report;
-  return intervalText(meta, bars.birth[bar]!, bars.death[bar]!);
-}
 
 /// "H₁ [0.5, 2.25), persistence 1.75", with its barcode where there are two.
 export function nameOfBar(session: Session, bar: number): string {
   const { bars, meta } = session.report;
   const of = meta.barcodes.length > 1 ? `, ${meta.barcodes[bars.barcodeOf(bar)]!.name}` : "";
-  return `${homology(bars.dim[bar]!)} ${intervalOf(session, bar)}, persistence ${short(bars.persistence(bar))}${of}`;
+  return `${homology(bars.dim[bar]!)} ${intervalText(session.report, bar)}, persistence ${short(bars.persistence(bar))}${of}`;
 }
 
 export abstract class BarChart extends Chart {
@@ -46,8 +41,7 @@ export abstract class BarChart extends Chart {
       Array.from(shown, (bar) => [
         ...(two ? [meta.barcodes[bars.barcodeOf(bar)]!.name] : []),
         bars.dim[bar]!,
-        short(shownValue(meta, bars.birth[bar]!), 6),
-        short(shownValue(meta, bars.death[bar]!), 6),
+        ...endsOf(this.session.report, bar, 6),
         short(bars.persistence(bar), 6),
       ]),
     );

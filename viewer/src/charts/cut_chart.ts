@@ -3,7 +3,7 @@
 // persistences; the widest suggests where to cut.
 import { Chart } from "./chart";
 import { button, el, table, type Size } from "../common/dom";
-import { CutScale, segmentCounts } from "../model/cuts";
+import { CutScale, kSteps, segmentCounts } from "../model/cuts";
 import { counted, exact, grouped, short } from "../common/number_format";
 import { kindOfSegment, listed } from "../model/words";
 import type { Pen } from "./pen";
@@ -39,7 +39,7 @@ export class CutChart extends Chart {
     this.slider = el("input", {
       type: "range",
       min: 0,
-      max: 2000,
+      max: kSteps,
       step: 1,
       "aria-label": `cut at ${name}`,
     });
@@ -51,7 +51,7 @@ export class CutChart extends Chart {
       class: "number",
     });
     this.slider.addEventListener("input", () =>
-      session.setCut(this.scale.at(Number(this.slider.value) / 2000)),
+      session.setCut(this.scale.at(Number(this.slider.value) / kSteps)),
     );
     this.number.addEventListener("change", () => {
       const value = Number(this.number.value);
@@ -172,7 +172,7 @@ export class CutChart extends Chart {
     const { session } = this;
     const count = session.cut!.segments.length,
       what = kindOfSegment(session.report.meta);
-    this.slider.value = String(Math.round(2000 * this.scale.place(session.cutValue)));
+    this.slider.value = String(Math.round(kSteps * this.scale.place(session.cutValue)));
     this.slider.setAttribute(
       "aria-valuetext",
       `${short(session.cutValue)}: ${counted(count, what)}`,

@@ -2,14 +2,14 @@
 // The persistence diagram: birth across, death up, infinity on a line of its own. Where bars are
 // many, their density and the most persistent ones. A lasso selects.
 import { Axis } from "./axis";
-import { BarChart, intervalOf } from "./bar_chart";
+import { BarChart } from "./bar_chart";
 import { drawDensity } from "./diagram_density";
 import { drawNumbers } from "./dot_numbers";
 import { fanOut, type Crowd } from "./fanned_dots";
 import { isInside } from "./lasso";
 import { drawMarker } from "./marker";
 import { drawMatching } from "./matching_lines";
-import { shownValue } from "../model/words";
+import { intervalText, shownValue } from "../model/words";
 import { clipped, grouped, homology, short } from "../common/number_format";
 import type { Pen } from "./pen";
 import type { Size } from "../common/dom";
@@ -149,7 +149,7 @@ export class Diagram extends BarChart {
       const x = this.x[bar]!,
         y = this.y[bar]!;
       this.drawChosen(pen, bar, 6.5, theme.ink, 1.5);
-      this.drawLabel(pen, x, y, `${homology(bars.dim[bar]!)} ${intervalOf(session, bar)}`);
+      this.drawLabel(pen, x, y, `${homology(bars.dim[bar]!)} ${intervalText(session.report, bar)}`);
     }
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
   }

@@ -26,25 +26,40 @@ export function counted(count: number, noun: string): string {
   return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/// To four significant digits; ∞ and −∞ by their signs.
+/// To four significant digits, and to the point where it has more before that; ∞ and −∞ by their
+/// signs.
 export function short(value: number, digits = 4): string {
   if (value === Infinity) return "∞";
   if (value === -Infinity) return "−∞";
   if (value === 0) return "0";
-  const size = Math.abs(value);
+  const size = Math.abs(value),
+    whole = Math.floor(Math.log10(size)) + 1; // digits before the point
   const text =
-    size >= 1e6 || size < 1e-4
+    size < 1e-4 || (size >= 1e6 && whole > digits)
       ? value
           .toExponential(digits - 1)
           .replace(/\.?0+e/, "e")
           .replace("e+", "e")
-      : String(Number(value.toPrecision(digits)));
+      : String(Number(value.toPrecision(Math.max(digits, whole))));
   return text.replace(/-/g, "−");
+}
+
+/// How many significant digits, four at least, tell apart what differs by a part of its size.
+export function digitsFor(size: number, difference: number): number {
+  const digits = Math.ceil(Math.log10(size) - Math.log10(difference)) + 2;
+  return Number.isFinite(digits) ? Math.min(15, Math.max(4, digits)) : 4;
 }
 
 /// The shortest text that reads back to the same double, as the programs write it.
 export function exact(value: number): string {
-  return value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value);
+  if (!Number.isFinite(value)) return value > 0 ? "inf" : "-inf";
+  const [digits, power] = value.toExponential().split("e") as [string, string];
+  const exponent = Number(power);
+  if (value === 0 || (exponent >= -4 && exponent < 16)) {
+    const places = digits.replace(/\D/g, "").length - 1 - exponent;
+    return places > 0 ? value.toFixed(places) : String(value);
+  }
+  return `${digits}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
 }
 
 /// To a thousandth of a range.

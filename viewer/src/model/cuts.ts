@@ -83,12 +83,16 @@ export function suggestedCut(tree: MergeTree, from: number, to: number): number 
   return widest(0, (low, high) => high - low);
 }
 
+/// Steps of the slider.
+export const kSteps = 2000;
+
 /// From a slider's place (0 … 1) to a cut and back: by decades where the levels span some, and
 /// always 0 at its beginning if that is allowed.
 export class CutScale {
   readonly from: number;
   readonly to: number;
   private readonly least: number; // smallest value on the logarithmic part
+  private readonly digits: number; // that tell a step of the slider from the next
 
   constructor(tree: MergeTree, from: number | undefined, to: number | undefined, cut: number) {
     const levels = levelsOf(tree).filter((v) => v > 0 && Number.isFinite(v));
@@ -96,15 +100,19 @@ export class CutScale {
     this.from = from ?? 0;
     this.to = to ?? (largest > 0 ? 1.1 * largest : 1);
     const low = Math.max(this.from, levels[Math.max(0, levels.length - 400)] ?? this.to / 100);
-    this.least = Math.max(Math.min(low, cut > 0 ? cut / 2 : low), this.to * 1e-6);
+    const lower = Math.max(Math.min(low, cut > 0 ? cut / 2 : low), this.to * 1e-6);
+    this.least = Math.min(Math.max(lower, this.from), this.to);
+    const step = Math.log(this.to / this.least) / kSteps;
+    this.digits = step > 0 ? Math.min(15, Math.max(4, Math.ceil(1 - Math.log10(step)))) : 4;
   }
   at(place: number): number {
     if (place <= 0) return this.from;
     if (place >= 1) return this.to;
-    return Number((this.least * (this.to / this.least) ** place).toPrecision(4));
+    const cut = this.least * (this.to / this.least) ** place;
+    return Math.min(this.to, Math.max(this.from, Number(cut.toPrecision(this.digits))));
   }
   place(cut: number): number {
-    if (cut <= this.least) return 0;
+    if (cut <= this.least || this.least === this.to) return 0;
     return Math.min(1, Math.log(cut / this.least) / Math.log(this.to / this.least));
   }
 }

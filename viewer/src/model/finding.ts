@@ -148,10 +148,11 @@ function isWhole({ dim, isEndless, finite }: Lengths, out: number[]): boolean {
   return dim > 1 && isEndless && out.length === 1 && finite.length === 0;
 }
 
-function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Report): string {
+function sentenceOf(found: Lengths, out: number[], gap: Gap, report: Report): string {
+  const { meta, bars } = report;
   const many = out.length;
   const subject = `${inWords(many)} ${holes(found.dim, many)}`;
-  const of = (bar: number) => intervalText(meta, bars.birth[bar]!, bars.death[bar]!);
+  const of = (bar: number) => intervalText(report, bar);
   const above = many - found.endless.length;
   if (above === 0) {
     const which = many <= 2 ? `: ${out.map(of).join(" and ")}` : "";

@@ -18,6 +18,7 @@ export interface Provenance {
   field?: number;
   max_dim?: number;
   threshold?: number | null;
+  filtration?: Record<string, unknown>; // what else is said of the values, as in JSON of the bars
   engine?: string;
   timings?: Record<string, number>;
   peak_memory?: number | null;

@@ -23,6 +23,7 @@ export interface Cloud {
   origin: number[];
   positions: Float32Array; // x, y, z of each from the origin, in the units of the input
   index: Numbers | undefined; // number in the input of each; ascending
+  extent: number; // the farthest from the origin along an axis
 }
 
 export interface Image {
@@ -192,11 +193,15 @@ function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | 
   const origin = [0, 0, 0];
   for (let k = 0; k < dims; ++k) origin[k] = offset[k] ?? least(values, k, dims);
   const positions = new Float32Array(3 * block.shape[0]!);
+  const reach = [0, 0, 0];
   for (let i = 0, p = 0; i < values.length; i += dims, p += 3)
-    for (let k = 0; k < dims; ++k)
-      positions[p + k] =
+    for (let k = 0; k < dims; ++k) {
+      const from =
         scale.length > 0 ? (scale[k] ?? scale[0]!) * values[i + k]! : values[i + k]! - origin[k]!;
-  return { dims, origin, positions, index };
+      positions[p + k] = from;
+      reach[k] = Math.max(reach[k]!, from);
+    }
+  return { dims, origin, positions, index, extent: Math.max(...reach) };
 }
 
 function least(values: Numbers, from: number, step: number): number {

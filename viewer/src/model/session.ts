@@ -48,7 +48,7 @@ export class Session {
   beside = false; // ground truth beside
   scale: number | undefined; // filtration value up to which the complex is shown
   sliceAxis = 0;
-  slice: number;
+  slice = 0;
   readonly finding: Finding;
   private selected: Uint8Array;
   private leafColours: number[] = [];
@@ -60,13 +60,30 @@ export class Session {
   constructor(readonly report: Report) {
     this.selected = new Uint8Array(report.bars.size);
     this.cutValue = report.meta.tree?.cut ?? 0;
-    const isVolume = (report.image?.shape[0] ?? 1) > 1;
-    if (isVolume) this.sliceAxis = firstAxis(report.meta);
-    this.slice = Math.floor((report.image?.shape[this.sliceAxis] ?? 1) / 2);
+    this.showMiddleSlice();
     if (report.tree) this.recut();
     this.colour = this.colourModes()[0]![0];
     this.finding = findingOf(report);
     this.select(this.finding.bars);
+  }
+  /// All but the theme as it was at first.
+  startAgain(): void {
+    const { report } = this;
+    this.focus = kNothing;
+    this.colour = this.colourModes()[0]![0];
+    this.hiddenDims.clear();
+    this.hiddenSurfaces.clear();
+    this.beside = false;
+    this.scale = undefined;
+    this.showMiddleSlice();
+    this.select(this.finding.bars);
+    if (report.tree) this.setCut(report.meta.tree!.cut);
+    this.changed("focus", "colour", "dims", "surfaces", "view", "scale", "slice");
+  }
+  private showMiddleSlice(): void {
+    const { image, meta } = this.report;
+    this.sliceAxis = (image?.shape[0] ?? 1) > 1 ? firstAxis(meta) : 0;
+    this.slice = Math.floor((image?.shape[this.sliceAxis] ?? 1) / 2);
   }
 
   // Changes.
@@ -164,6 +181,7 @@ export class Session {
     this.cutMilliseconds = performance.now() - start;
   }
   private coloursOf(cut: Cut): Rgb[] {
+    if (this.cutValue === this.report.meta.tree!.cut) this.leafColours = []; // as at first
     if (this.isAnswer) {
       const colours = this.report.meta.scene!.segments.map((s) => fromHex(s.colour));
       cut.segments.forEach((s, i) => (this.leafColours[s.oldestLeaf] = numberOfColour(colours[i]!)));
@@ -238,7 +256,8 @@ export class Session {
       const bar = this.report.tree!.barOf[this.report.tree!.branchAt(leaf, this.cutValue)]!;
       return bar === kNone ? -1 : bar;
     }
-    return this.report.tree ? -1 : (this.barsThrough().get(element) ?? -1);
+    if (this.report.tree) return -1;
+    return this.barsThrough().get(this.report.cloud?.index?.[element] ?? element) ?? -1;
   }
   barOfSegment(label: number): number {
     const segment = this.cut?.segments[label - 1];
@@ -316,6 +335,7 @@ export class Session {
   }
 
   private through: Map<number, number> | undefined;
+  /// By vertices as the input numbers them, some of which may not be shown.
   private barsThrough(): Map<number, number> {
     if (this.through) return this.through;
     this.through = new Map();

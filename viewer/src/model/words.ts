@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Holes and intervals in words. Of superlevel sets a report holds minus the values; what a reader
 // sees are the values themselves, which fall from birth to death.
-import { grouped, homology, short } from "../common/number_format";
+import { digitsFor, grouped, homology, short } from "../common/number_format";
 import type { Meta } from "./meta";
+import type { Report } from "./report";
 
 /// "loop", "loops": what a bar of a dimension is.
 export function holes(dim: number, count = 1): string {
@@ -44,8 +45,17 @@ export function shownValue(meta: Meta, value: number): number {
   return meta.value.negated ? 0 - value : value;
 }
 
+/// Birth and death of a bar, in as many digits as tell them apart; those of bars that never end, as
+/// tell values of the report apart.
+export function endsOf({ meta, bars }: Report, bar: number, least = 4): [string, string] {
+  const ends = [bars.birth[bar]!, bars.death[bar]!];
+  const size = Math.max(...ends.map(Math.abs).filter(Number.isFinite));
+  const length = bars.persistence(bar);
+  const digits = digitsFor(size, Number.isFinite(length) ? length : bars.high - bars.low);
+  return ends.map((v) => short(shownValue(meta, v), Math.max(least, digits))) as [string, string];
+}
+
 /// "[0.184, 1.465)"; of superlevel sets from the larger value to the smaller one.
-export function intervalText(meta: Meta, birth: number, death: number): string {
-  const [from, to] = [birth, death].map((v) => short(shownValue(meta, v)));
-  return `[${from}, ${to})`;
+export function intervalText(report: Report, bar: number): string {
+  return `[${endsOf(report, bar).join(", ")})`;
 }

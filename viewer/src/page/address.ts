@@ -6,7 +6,26 @@ import { prefersDark, themeOf } from "../common/palette";
 import type { ColourMode } from "../model/colour_modes";
 import type { Session } from "../model/session";
 
-const kMostBars = 200;
+const kMostRuns = 400; // of selected bars
+
+/// "1-3,7" of 1, 2, 3, 7.
+function inRuns(ascending: number[]): string[] {
+  const runs: string[] = [];
+  for (let i = 0; i < ascending.length; ) {
+    const first = i;
+    while (ascending[++i] === ascending[i - 1]! + 1);
+    runs.push(i - first === 1 ? `${ascending[first]}` : `${ascending[first]}-${ascending[i - 1]}`);
+  }
+  return runs;
+}
+
+function fromRuns(text: string, size: number): number[] {
+  return text.split(",").flatMap((run) => {
+    if (!/^\d+(-\d+)?$/.test(run)) return [];
+    const [first, last = first] = run.split("-").map(Number) as [number, number?];
+    return last! < size ? Array.from({ length: last! - first + 1 }, (_, i) => first + i) : [];
+  });
+}
 
 export function addressOf(session: Session, data: DataView | undefined): string {
   const { report, selection, hiddenDims } = session;
@@ -20,12 +39,17 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   if (report.image) parts.set("slice", `${session.sliceAxis},${session.slice}`);
   if (session.theme.dark !== prefersDark())
     parts.set("theme", session.theme.dark ? "dark" : "light");
-  if (!session.selectsTheFinding && selection.length <= kMostBars) parts.set("bars", selection.join(","));
+  if (!session.selectsTheFinding) {
+    const runs = inRuns(selection);
+    if (runs.length <= kMostRuns) parts.set("bars", runs.join(","));
+  }
+  if (session.hiddenSurfaces.size > 0) parts.set("without", [...session.hiddenSurfaces].join(","));
+  if (session.beside) parts.set("beside", "truth");
   if (data?.stage?.moved) parts.set("view", data.stage.view.join(","));
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }
 
-/// What is not understood is passed over.
+/// What is not named is as at first; what is not understood is passed over.
 export function goTo(address: string, session: Session, data: DataView | undefined): void {
   const { report } = session;
   const parts = new Map(
@@ -39,13 +63,18 @@ export function goTo(address: string, session: Session, data: DataView | undefin
       .split(",")
       .filter((w) => w !== "")
       .map(Number);
+  session.startAgain();
   const cut = Number(parts.get("cut"));
   if (report.tree && parts.has("cut") && cut >= 0 && Number.isFinite(cut)) session.setCut(cut);
   const colour = parts.get("colour") as ColourMode;
   if (report.elements && session.colourModes().some(([mode]) => mode === colour))
     session.set("colour", colour, "colour");
-  for (const dim of numbers("hide"))
-    if (report.bars.dims.includes(dim) && !session.hiddenDims.has(dim)) session.toggleDim(dim);
+  for (const dim of new Set(numbers("hide")))
+    if (report.bars.dims.includes(dim)) session.toggleDim(dim);
+  for (const surface of new Set(numbers("without")))
+    if (report.meta.scene?.surfaces[surface - 1]) session.toggleSurface(surface);
+  if (report.elements?.truth && parts.get("beside") === "truth")
+    session.set("beside", true, "view");
   const scale = Number(parts.get("scale"));
   if (parts.has("scale") && Number.isFinite(scale)) session.set("scale", scale, "scale");
   const [axis, slice] = numbers("slice");
@@ -60,11 +89,10 @@ export function goTo(address: string, session: Session, data: DataView | undefin
     session.set("sliceAxis", axis!, "slice");
     session.set("slice", slice, "slice");
   }
-  if (parts.has("theme")) session.set("theme", themeOf(parts.get("theme") === "dark"), "theme");
-  const bars = numbers("bars").filter(
-    (bar) => Number.isInteger(bar) && bar >= 0 && bar < report.bars.size,
-  );
-  if (parts.has("bars")) session.select(bars);
+  const isDark = parts.has("theme") ? parts.get("theme") === "dark" : prefersDark();
+  session.set("theme", themeOf(isDark), "theme");
+  if (parts.has("bars")) session.select(fromRuns(parts.get("bars")!, report.bars.size));
   data?.face(); // before the view, not after it
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");
+  else data?.stage?.reset();
 }

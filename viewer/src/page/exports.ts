@@ -124,11 +124,13 @@ export function selectionCsv(session: Session): string {
   return [two ? "barcode,dim,birth,death" : "dim,birth,death", ...lines, ""].join("\n");
 }
 
-/// A barcode file as ph-barcode writes it and reads it back, with what the page shows besides.
+/// A barcode file as ph-barcode writes it and reads it back, with what the page shows besides. Sets
+/// of voxels are not in it.
 export function selectionJson(session: Session): string {
   const { report, cut, cutValue } = session;
   const { chains, meta } = report;
-  const { input, complex, field, engine } = meta.provenance;
+  const { input, complex, field, max_dim, threshold, filtration, engine, timings, peak_memory } =
+    meta.provenance;
   const selected = selectedOrShown(session);
   const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));
   return (
@@ -138,9 +140,9 @@ export function selectionJson(session: Session): string {
         version: 1,
         program: meta.program,
         command: commandLine(session),
-        input: { path: input?.path, description: input?.description },
-        complex,
-        field,
+        input: { path: input?.path ?? "", description: input?.description ?? "" },
+        ...(complex && field !== undefined ? { complex, field, max_dim, threshold } : {}),
+        ...filtration,
         engine,
         ...(allHaveChains ? { representatives: meta.barcodes[0]?.representatives } : {}),
         bars: selected.map((bar) => barJson(session, bar)),
@@ -154,6 +156,8 @@ export function selectionJson(session: Session): string {
           })),
           ...(meta.scene && { surfaces: meta.scene.surfaces.map(({ role }, i) => ({ number: i + 1, role })) }),
         }),
+        timings: timings ?? {},
+        peak_memory: peak_memory ?? null,
       },
       null,
       1,

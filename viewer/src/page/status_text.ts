@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { nameOfBar } from "../charts/bar_chart";
-import { counted, exact, grouped, short } from "../common/number_format";
+import { counted, digitsFor, exact, grouped, short } from "../common/number_format";
 import { factsOf, nameOfSurface } from "../model/scene_words";
 import { kindOfSegment } from "../model/words";
 import type { Session } from "../model/session";
@@ -28,9 +28,10 @@ function elementWords(session: Session, element: number): string[] {
   const { cloud, image, elements } = session.report;
   const words: string[] = [];
   if (cloud) {
-    const at = Array.from({ length: cloud.dims }, (_, k) =>
-      short(cloud.positions[3 * element + k]! + cloud.origin[k]!),
-    );
+    const at = Array.from({ length: cloud.dims }, (_, k) => {
+      const value = cloud.positions[3 * element + k]! + cloud.origin[k]!;
+      return short(value, digitsFor(Math.abs(value), cloud.extent / 100));
+    });
     words.push(`point ${grouped(cloud.index?.[element] ?? element)} (${at.join(", ")})`);
   } else if (image) {
     const [planes, rows, columns] = image.shape as [number, number, number];

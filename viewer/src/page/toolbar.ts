@@ -87,16 +87,21 @@ export class Toolbar {
     const name =
       session.report.meta.title.replace(/[^A-Za-z0-9._-]+/g, "_").slice(0, 60) || "report";
     const text = (type: string, content: string) => new Blob([content], { type });
-    const menu = el("details", { class: "menu" }, el("summary", {}, "Export"));
+    const title = el("summary", {}, "Export");
+    const menu = el("details", { class: "menu" }, title);
     const item = (label: string, action: () => void) =>
       button(label, () => {
         menu.open = false;
         action();
       });
-    const copied = el("output", {});
     const copy = async () => {
-      await navigator.clipboard?.writeText(commandLine(session));
-      copied.textContent = "copied";
+      const isDone = await navigator.clipboard?.writeText(commandLine(session)).then(
+        () => true,
+        () => false,
+      );
+      if (!isDone) prompt("The command line of this view", commandLine(session));
+      title.textContent = isDone ? "Copied" : "Export";
+      setTimeout(() => (title.textContent = "Export"), 2000);
     };
     menu.append(
       el(

@@ -51,9 +51,11 @@ export function scrubber(session: Session, reading: HTMLOutputElement): HTMLElem
         ? kSteps
         : Math.round((kSteps * (scale - bars.low)) / (bars.high - bars.low || 1)),
     );
-    slider.setAttribute("aria-valuetext", reading.textContent ?? "");
   };
   session.onChange((changes) => changes.has("scale") && show());
   show();
+  // The reading changes after the slider.
+  const say = () => slider.setAttribute("aria-valuetext", reading.textContent ?? "");
+  new MutationObserver(say).observe(reading, { childList: true, characterData: true, subtree: true });
   return el("div", { class: "row scrubber" }, el("span", {}, label), slider, reading);
 }

@@ -276,7 +276,11 @@ export class DataView {
     const box = this.canvasHost.getBoundingClientRect();
     const x = event.clientX - box.left,
       y = event.clientY - box.top;
-    return this.cloud?.at(this.stage!, x, y) ?? this.slice?.at(this.stage!, x, y) ?? -1;
+    const stage = this.stage!;
+    // What lies behind a surface is not under the pointer.
+    const corner = this.mesh?.at(stage, x, y) ?? -1;
+    if (corner >= 0) return corner;
+    return this.cloud?.at(stage, x, y) ?? this.slice?.at(stage, x, y) ?? -1;
   }
   private hover(event: PointerEvent): void {
     const element = this.elementAt(event);

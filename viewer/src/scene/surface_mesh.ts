@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The triangles of a mesh as a surface, with the colours of its vertices.
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Mesh,
+  Raycaster,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+} from "three";
+import type { Stage } from "./stage";
 
 const kVertex = `
 attribute vec3 tint;
@@ -43,6 +53,19 @@ export class SurfaceMesh {
     this.object.frustumCulled = false;
   }
 
+  /// The corner that is nearest to what is seen of the surface at these pixels; -1: nothing is.
+  at(stage: Stage, x: number, y: number): number {
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2(...stage.normalised(x, y)), stage.camera);
+    const hit = caster.intersectObject(this.object)[0];
+    if (!hit?.face) return -1;
+    const place = this.object.worldToLocal(hit.point),
+      corner = new Vector3();
+    const positions = this.object.geometry.getAttribute("position");
+    const far = (i: number) => corner.fromBufferAttribute(positions, i).distanceToSquared(place);
+    const { a, b, c } = hit.face;
+    return [b, c].reduce((best, i) => (far(i) < far(best) ? i : best), a);
+  }
   /// Only the first of its triangles.
   show(triangles: number): void {
     this.object.geometry.setDrawRange(0, 3 * triangles);

@@ -4,6 +4,10 @@
 
 namespace ph {
 
+/// What JSON says of the values of a filtration, as the members of an object: weights, samples,
+/// squares, superlevel sets. Empty: nothing.
+std::string filtration_members(const BarcodeInfo& info, std::string_view between = ", ");
+
 // One function a format; see BarcodeFormat.
 void write_barcode_csv(OutputFile& file, const Barcode& barcode, std::span<const double> p_values);
 void write_barcode_pers(OutputFile& file, const Barcode& barcode);

@@ -145,13 +145,9 @@ std::string json_timings(const BarcodeInfo& info) {
   return "{" + text + "}";
 }
 
-/// What the file says before the bars: the members of an object.
-std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
-  // Left out where there is nothing.
-  const auto text = [](std::string_view value) { return value.empty() ? "" : json::string(value); };
-  const auto value = [](const std::optional<double>& x) { return x ? json_value(*x) : ""; };
-  const bool has_complex = !info.complex.empty();
-  const bool has_chains = barcode.representatives() != Representatives::none;
+}  // namespace
+
+std::string filtration_members(const BarcodeInfo& info, std::string_view between) {
   std::string subsample, voxels, alpha;
   if (info.subsample)
     subsample = json::object({{"points", json::integer(info.subsample->points)},
@@ -168,6 +164,28 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
                       {"period", period.empty() ? "" : json::array(period, json_value)},
                       {"hidden", hidden.empty() ? "" : json::array(hidden, json::integer<Index>)}});
   }
+  std::string members;
+  json::add_members(
+      members,
+      {{"vertex_weights", info.vertex_weights.empty() ? "" : json::string(info.vertex_weights)},
+       {"subsample", subsample},
+       {"voxels", voxels},
+       {"alpha", alpha},
+       {"superlevel", info.superlevel ? "true" : ""},
+       {"approximation", info.approximation ? json_value(*info.approximation) : ""}},
+      between);
+  return members;
+}
+
+namespace {
+
+/// What the file says before the bars: the members of an object.
+std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
+  // Left out where there is nothing.
+  const auto text = [](std::string_view value) { return value.empty() ? "" : json::string(value); };
+  const bool has_complex = !info.complex.empty();
+  const bool has_chains = barcode.representatives() != Representatives::none;
+  constexpr std::string_view kBetween = ",\n  ";
   std::string heading;
   json::add_members(
       heading,
@@ -180,18 +198,17 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
        {"field", has_complex ? json::integer(info.field) : ""},
        {"max_dim", has_complex ? json::integer(info.max_dim) : ""},
        {"threshold", !has_complex     ? ""
-                     : info.threshold ? value(info.threshold)
-                                      : "null"},
-       {"vertex_weights", text(info.vertex_weights)},
-       {"subsample", subsample},
-       {"voxels", voxels},
-       {"alpha", alpha},
-       {"superlevel", info.superlevel ? "true" : ""},
-       {"approximation", value(info.approximation)},
-       {"engine", text(info.engine)},
+                     : info.threshold ? json_value(*info.threshold)
+                                      : "null"}},
+      kBetween);
+  if (const std::string members = filtration_members(info, kBetween); !members.empty())
+    heading.append(kBetween) += members;
+  json::add_members(
+      heading,
+      {{"engine", text(info.engine)},
        {"representatives",
         has_chains ? json::string(representatives_name(barcode.representatives())) : ""}},
-      ",\n  ");
+      kBetween);
   return heading;
 }
 
