@@ -114,12 +114,13 @@ void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,
 }
 
 void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Arguments& arguments) {
-  std::vector<Bar> changes;  // of all curves, as bars: what is fitted to are their ends
-  for (const StepFunction& curve : curves)
-    if (!curve.at.empty()) changes.push_back({0, curve.at.front(), curve.at.back()});
-  // A curve that begins before all numbers has its range from the next change on.
-  for (const StepFunction& curve : curves)
-    if (curve.at.size() > 1) changes.push_back({0, curve.at[1], curve.at.back()});
+  std::vector<Bar> changes;  // of all curves, as bars that never end: what is fitted to are births
+  for (const StepFunction& curve : curves) {
+    const std::size_t count = curve.at.size();
+    // A curve that begins before all numbers has its range from the next change on.
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, count - 1})
+      if (k < count) changes.push_back({0, curve.at[k], kInfinity});
+  }
   fit.blocks.emplace_back().grid = grid_of({changes}, arguments.grid);
 }
 

@@ -11,6 +11,7 @@
 #include "loops/cover_search.hpp"
 #include "loops/early_graph.hpp"
 #include "loops/edge_cocycles.hpp"
+#include "loops/edge_sum.hpp"
 #include "loops/shortcuts.hpp"
 #include "ph/custom.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
@@ -28,47 +29,6 @@ constexpr double kRounding = 1e-12;
 
 using Key = EarlyGraph::Key;
 using Walk = Shortcuts::Walk;
-
-/// Adds chains of edges.
-class EdgeSum {
- public:
-  explicit EdgeSum(std::int64_t field) : p_(field) {}
-  /// A closed walk of vertices, whose names ascend as they do.
-  void add(const EarlyGraph& graph, const Walk& walk, std::int64_t coefficient) {
-    if (walk.size() < 2) return;  // it came back
-    for (std::size_t i = 0; i < walk.size(); ++i) {
-      const std::uint32_t u = walk[i], v = walk[(i + 1) % walk.size()];
-      terms_.push_back({graph.name(std::min(u, v)), graph.name(std::max(u, v)),
-                        u < v ? coefficient : -coefficient});
-    }
-  }
-  /// Taken apart.
-  std::vector<Loop> loops(const RunContext& context) {
-    std::ranges::sort(terms_, [](const Term& a, const Term& b) {
-      return std::tie(a.u, a.v) < std::tie(b.u, b.v);
-    });
-    std::vector<Index> numbers;
-    std::vector<std::int64_t> coefficients;
-    for (std::size_t i = 0; i < terms_.size();) {
-      const auto [u, v, first] = terms_[i];
-      std::int64_t sum = 0;
-      for (; i < terms_.size() && terms_[i].u == u && terms_[i].v == v; ++i)
-        sum = (sum + terms_[i].coefficient) % p_;
-      if (sum == 0) continue;
-      numbers.insert(numbers.end(), {u, v});
-      coefficients.push_back(sum);
-    }
-    return closed_walks(InputChain(CellKind::vertices, numbers, coefficients), p_, {}, context);
-  }
-
- private:
-  struct Term {
-    Index u, v;
-    std::int64_t coefficient;
-  };
-  std::int64_t p_;
-  std::vector<Term> terms_;
-};
 
 double length_of(const std::vector<Loop>& loops) {
   return std::accumulate(loops.begin(), loops.end(), 0.0,
@@ -290,6 +250,10 @@ class Tightener {
       found.add(graph_, path, coefficient);
       std::vector<Loop> loops = found.loops(context_);
       measure(loops);
+      // Over Z/p what is taken apart edge by edge may be longer than the walk, whose parts are not.
+      std::vector<Loop> parts = parts_of(path, graph_, coefficient, options_.field, context_);
+      measure(parts);
+      if (length_of(parts) < length_of(loops)) loops = std::move(parts);
       if (is_one || length_of(loops) < length_of(out.loops)) out.loops = std::move(loops);
     }
     if (verdict == Verdict::found || (verdict == Verdict::none && is_one))

@@ -151,6 +151,26 @@ TEST(Loops, AreShortestInRandomDistances) {
   EXPECT_TRUE(is_enough(counts.shorter, 50)) << counts.shorter;
 }
 
+// The shortest walk goes twice through three vertices. Its chain, taken apart edge by edge, has
+// longer loops.
+TEST(Loops, AreNoLongerThanTheirWalk) {
+  const std::vector<double> lower{
+      0.369, 0.679, 0.677, 0.695, 0.476, 0.334, 0.151, 0.415, 0.607, 0.956, 0.194,
+      0.546, 0.625, 0.287, 0.804, 0.829, 0.049, 0.22,  0.83,  0.114, 0.41,  0.875,
+      0.953, 0.61,  0.122, 0.989, 0.537, 0.099, 0.983, 0.757, 0.021, 0.195, 0.138,
+      0.598, 0.954, 0.209, 0.826, 0.802, 0.841, 0.67,  0.984, 0.164, 0.025, 0.735,
+      0.04,  0.867, 0.529, 0.015, 0.236, 0.021, 0.445, 0.768, 0.795, 0.399, 0.332,
+      0.57,  0.903, 0.049, 0.738, 0.943, 0.13,  0.918, 0.962, 0.346, 0.733, 0.728};
+  const Rips complex(DistanceMatrix(12, lower));
+  for (const std::int64_t field : {2, 3, 5, 7}) {
+    Counts counts;
+    Options options;
+    options.field = field;
+    check_loops(complex, options, counts);
+    EXPECT_GT(counts.shortest, 0);
+  }
+}
+
 TEST(Loops, AreShortestInRandomPoints) {
   Counts counts;
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
