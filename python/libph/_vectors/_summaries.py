@@ -357,4 +357,7 @@ class Summaries:
     def _settled(self, dim: int, infinity: Any, may_keep: bool) -> Diagram:
         """The bars of a dimension, finite if they are to be."""
         rule = checked_infinity(infinity, may_keep)
-        return settled(as_diagram(self.dgm(dim), "bars"), rule, "bars")
+        rows = self.dgm(dim)
+        if rule == "drop":  # those that are born at -inf, too
+            rows = rows[np.isfinite(rows).all(axis=1)]
+        return settled(as_diagram(rows, "bars"), rule, "bars")

@@ -222,6 +222,17 @@ def test_words_for_infinity(infinity):
         _vectors.checked_infinity(infinity, may_keep=False)
 
 
+def test_drop_leaves_out_what_begins_at_minus_infinity(tmp_path):
+    path = tmp_path / "bars.csv"
+    path.write_text("dim,birth,death\n0,-inf,inf\n0,-inf,3\n0,0,1\n")
+    bars = ph.read_barcode(path)
+    assert bars.statistics(0, infinity="drop")["count"] == 1
+    assert bars.landscape(0, layers=1, range=(0, 1), resolution=3, infinity="drop").tolist() == [
+        [0, 0.5, 0]]
+    with pytest.raises(ph.DataError, match="found birth -inf"):
+        bars.landscape(0, infinity="keep")
+
+
 # ---- diagrams and ranges
 
 

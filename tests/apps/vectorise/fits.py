@@ -62,6 +62,16 @@ class Fits(ProgramTest):
         self.assertEqual((fit["infinite"], fit["blocks"][0]["grid"]),
                          ("keep", {"lo": 0, "hi": 5, "points": 100}))
 
+    def test_one_change_is_a_range(self):
+        self.write("seven.npy", files.array((2, 2), [7, 7, 7, 7], "|u1"))
+        self.write("nine.npy", files.array((2, 2), [9, 9, 9, 9], "|u1"))
+        for names, lo, hi in ((["seven.npy"], 6.5, 7.5), (["seven.npy", "nine.npy"], 7, 9)):
+            self.expect(0, *names, "--kind", "euler", "--grid", "3", "-o", "x.csv", "--fit", "fit.json",
+                        "--force")
+            fit = json.loads(self.read("fit.json"))
+            self.assertEqual(fit["blocks"][0]["grid"], {"lo": lo, "hi": hi, "points": 3})
+        self.assertEqual(self.read("x.csv").splitlines()[1:], ["seven.npy,1,1,1", "nine.npy,0,0,1"])
+
     def test_images_are_taken_alike(self):
         self.write("a.npy", files.array((2, 2), [0, 1, 2, 9], "|u1"))
         self.write("b.npy", files.array((2, 2), [3, 3, 3, 20], "|u1"))
