@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The faults that plant_program_mutants.py plants."""
 from distance_program_mutants import MUTANTS as OF_DISTANCE
+from file_mutants import MUTANTS as OF_FILES
 
 # name, file, text that occurs exactly once, what replaces it, targets to build, what must notice: a test program that is one
 # of the targets, or the name of a test
@@ -390,4 +391,4 @@ MUTANTS = [
      "  end_where_mapped_files_shrink(program.name);\n", "", ["ph-barcode"], "changing_files"),
     ("options: what follows a plot is one", "apps/common/arguments/plot_arguments.cpp",
      "->allow_extra_args(false)", "->allow_extra_args(true)", ["ph-barcode"], "ph_barcode_plots"),
-] + OF_DISTANCE
+] + OF_DISTANCE + OF_FILES
