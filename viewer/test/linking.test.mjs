@@ -3,6 +3,7 @@
 // what is exported is what was selected.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { image } from "./support/image_fixture.mjs";
 import { torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
@@ -32,6 +33,29 @@ const drawnOver = (page, chart) =>
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++drawn;
     return drawn;
   }, chart);
+
+test("a link shows the same view", { timeout: 120_000 }, async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  for (const [name, make] of Object.entries({ image: () => image([60, 150]), scene })) {
+    const report = make();
+    const { page, close } = await open(browser, report);
+    const box = await page.locator(".stage canvas").boundingBox();
+    await page.mouse.move(box.x + 0.6 * box.width, box.y + box.height / 2);
+    await page.mouse.wheel(0, -120);
+    await page.waitForFunction(() => location.hash.includes("view="));
+    await page.mouse.move(0, 0);
+    const hash = await page.evaluate(() => location.hash);
+    const seen = await pixelsOf(page, ".stage");
+    const again = await open(browser, report, { hash });
+    const shown = await pixelsOf(again.page, ".stage");
+    let others = 0;
+    for (let i = 0; i < seen.length; i += 4) if (Math.abs(seen[i] - shown[i]) > 40) ++others;
+    assert.ok(others < 0.02 * (seen.length / 4), `${name}: ${others} of ${seen.length / 4} pixels`);
+    await again.close();
+    await close();
+  }
+});
 
 test("linked views", { timeout: 300_000 }, async (t) => {
   const browser = await launch();

@@ -37,6 +37,12 @@ const cases = {
   extreme: [odd.extreme, [...kCharts, ".stage"]],
 };
 
+/// With axes that have names.
+function volume() {
+  const { meta, arrays } = image([12, 20, 24]);
+  return { meta: { ...meta, image: { ...meta.image, axes: ["x", "y", "z"] } }, arrays };
+}
+
 /// A chart shows something in colour; the data are not all of one colour.
 function assertShows(view, pixels) {
   if (view !== ".stage") return assert.ok(vividPixels(pixels, 25) > 30, `${view} is empty`);
@@ -234,18 +240,46 @@ test(
   async (t) => {
     const browser = await launch({ webgl: false });
     t.after(() => browser.close());
-    for (const [name, make] of [
-      ["torus", torus],
-      ["image", image],
-    ]) {
+    for (const [name, make] of Object.entries({ torus, image, volume })) {
       const { page, problems, close } = await open(browser, make());
       assert.ok((await page.locator("svg.still > *").count()) > 1);
       assert.ok((await coloursOf(page, ".stage")) > 4);
       await picture(page, `${name}_no_webgl`);
-      assert.deepEqual(
-        problems.filter((p) => !/WebGL/.test(p)),
-        [],
-      );
+      assert.deepEqual(problems, []);
+      if (name === "image") {
+        // The loop runs along the middles of pixels, from a quarter to three quarters of each side.
+        const at = await page.$eval("svg.still", (still) => {
+          const boxOf = (elements) => {
+            const boxes = elements.map((e) => e.getBBox()).map((b) => [b.x, b.y, b.x + b.width, b.y + b.height]);
+            return boxes.reduce((a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])]);
+          };
+          const { a, b, c, d, e, f } = still.querySelector("image").transform.baseVal[0].matrix;
+          const loop = boxOf([...still.querySelectorAll('line[stroke-width="3.5"]')]);
+          return { skew: [b, c], loop: loop.map((v, k) => (k % 2 ? (v - f) / d : (v - e) / a)) };
+        });
+        assert.ok(at.skew.every((v) => Math.abs(v) < 1e-6));
+        [40.5, 30.5, 120.5, 90.5].forEach((v, k) => assert.ok(Math.abs(at.loop[k] - v) < 0.1, `${at.loop}`));
+        const style = await page.$eval(".still image", (e) => getComputedStyle(e).imageRendering);
+        assert.equal(style, "pixelated");
+      }
+      if (name === "volume") {
+        // The slice across z: x to the right, y up.
+        const middle = async (selector) => {
+          const box = await page.locator(selector).boundingBox();
+          return [box.x + box.width / 2, box.y + box.height / 2];
+        };
+        const [slice, x, y, z] = await Promise.all(
+          ["image", ...["x", "y", "z"].map((axis) => `text:text-is("${axis}")`)].map((what) =>
+            middle(`.still ${what}`),
+          ),
+        );
+        assert.ok(x[0] > slice[0] && Math.abs(x[0] - z[0]) > Math.abs(x[1] - z[1]), `${x}, ${z}`);
+        assert.ok(y[1] < slice[1] && y[1] < Math.min(x[1], z[1]), `${y}`);
+        const before = await page.getAttribute(".still image", "transform");
+        await page.locator(".row select").selectOption("0");
+        await frame(page);
+        assert.notEqual(await page.getAttribute(".still image", "transform"), before);
+      }
       await close();
     }
   },

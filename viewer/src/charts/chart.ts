@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What all charts have in common: a panel with a title, two canvases (the chart, and what changes
 // with the pointer), a table in place of the chart, and the keyboard.
-import { button, el, type Size } from "../common/dom";
+import { button, el, isOfBrowser, onResize, type Size } from "../common/dom";
 import { CanvasPen, type Pen } from "./pen";
 import type { Change, Session } from "../model/session";
 
@@ -32,7 +32,7 @@ export abstract class Chart {
     this.panel = el("section", { class: `panel ${id}`, "aria-label": title }, this.head, this.body);
     this.over.addEventListener("keydown", (event) => this.onKey(event));
     session.onChange((changes) => this.update(changes));
-    new ResizeObserver(() => this.resize()).observe(this.body);
+    onResize(this.body, () => this.resize());
   }
 
   /// Draws the chart, without what is selected or under the pointer.
@@ -85,9 +85,9 @@ export abstract class Chart {
   private paint(canvas: HTMLCanvasElement, draw: (pen: Pen) => void): void {
     const context = canvas.getContext("2d");
     if (!context) return;
-    const ratio = window.devicePixelRatio || 1;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, this.size.width, this.size.height);
+    const { width, height } = this.size;
+    context.setTransform(canvas.width / width, 0, 0, canvas.height / height, 0, 0);
+    context.clearRect(0, 0, width, height);
     draw(new CanvasPen(context));
   }
   private resize(): void {
@@ -102,6 +102,7 @@ export abstract class Chart {
     this.refresh();
   }
   private onKey(event: KeyboardEvent): void {
+    if (isOfBrowser(event)) return;
     const steps: Record<string, number> = {
       ArrowRight: 1,
       ArrowDown: 1,

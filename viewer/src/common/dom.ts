@@ -78,6 +78,25 @@ export function table(
   );
 }
 
+/// Whether a key is a shortcut of the browser: zoom, the page before this one.
+export function isOfBrowser({ ctrlKey, altKey, metaKey }: KeyboardEvent): boolean {
+  return ctrlKey || altKey || metaKey;
+}
+
+/// Calls when an element has another size, or as many pixels of the page are others of the screen:
+/// another monitor, another zoom.
+export function onResize(element: Element, changed: () => void): void {
+  let last = "";
+  const look = () => {
+    const now = [element.clientWidth, element.clientHeight, window.devicePixelRatio].join();
+    if (now !== last) changed();
+    last = now;
+  };
+  new ResizeObserver(look).observe(element);
+  if ("devicePixelContentBoxSize" in ResizeObserverEntry.prototype) // WebKit has none
+    new ResizeObserver(look).observe(element, { box: "device-pixel-content-box" });
+}
+
 /// Hands a file to the reader of the page.
 export function download(name: string, content: Blob): void {
   const url = URL.createObjectURL(content);

@@ -2,17 +2,17 @@
 // The data: cloud, image or volume, coloured, with what is selected drawn on it.
 import { Colouring } from "./colouring";
 import { scrubber, sliceControls } from "./data_controls";
-import { button, el, select } from "../common/dom";
+import { button, el, isOfBrowser, onResize, select } from "../common/dom";
 import { ImageSlice } from "./image_slice";
 import { Labels } from "./labels";
 import { Legend } from "./legend";
 import { counted, grouped, homology, short } from "../common/number_format";
 import { Overlay, thinLines, veil } from "./overlay";
 import { PointCloud } from "./point_cloud";
-import { firstPose, type Pose } from "./pose";
+import { firstPose } from "./pose";
 import { shapesOf, type Shape } from "./representatives";
 import { bettiAt, ShownComplex, type ShownPart } from "../geometry/shown_complex";
-import { Stage } from "./stage";
+import { rendererOf, Stage } from "./stage";
 import { SurfaceMesh } from "./surface_mesh";
 import { shownValue } from "../model/words";
 import { StaticPicture } from "./static_picture";
@@ -20,15 +20,6 @@ import { Group, type LineSegments, type Mesh } from "three";
 import type { Report } from "../model/report";
 import type { ColourMode } from "../model/colour_modes";
 import type { Change, Session } from "../model/session";
-
-/// Nothing without WebGL.
-function stageOf(pose: Pose, solid: boolean): Stage | undefined {
-  try {
-    return new Stage(pose, solid);
-  } catch {
-    return undefined;
-  }
-}
 
 export class DataView {
   readonly panel: HTMLElement;
@@ -79,9 +70,11 @@ export class DataView {
       el("h2", {}, kindOf(report)),
     );
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
-    this.stage = stageOf(pose, !report.image);
-    if (this.stage) this.setUpStage(this.stage);
-    else {
+    const renderer = rendererOf();
+    if (renderer) {
+      this.stage = new Stage(pose, !report.image, renderer);
+      this.setUpStage(this.stage);
+    } else {
       this.still = new StaticPicture(report, pose, this.slice);
       const note = "WebGL is not available here: a still picture.";
       this.canvasHost.append(this.still.element, el("p", { class: "note" }, note));
@@ -117,12 +110,12 @@ export class DataView {
     this.canvasHost.append(labels.element);
     stage.rendered = () => labels.place();
     if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
-    new ResizeObserver(() => {
+    onResize(this.canvasHost, () => {
       const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
       stage.resize(size);
       this.cloud?.resize(size.height, stage.renderer.getPixelRatio(), stage.largestMark);
       stage.render(); // at once: a resized canvas is empty
-    }).observe(this.canvasHost);
+    });
     addEventListener("beforeprint", () => stage.render()); // what was drawn before is gone
     stage.turned = () => this.session.changed("view");
     canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
@@ -176,8 +169,9 @@ export class DataView {
   /// Sees the slice from the front.
   face(): void {
     const { report, sliceAxis } = this.session;
-    if (this.facing !== sliceAxis) this.stage?.face(firstPose(report, sliceAxis));
+    if (this.facing === sliceAxis) return;
     this.facing = sliceAxis;
+    (this.stage ?? this.still)!.face(firstPose(report, sliceAxis));
   }
 
   private update(changes: Set<Change>): void {
@@ -300,6 +294,7 @@ export class DataView {
     this.session.select(bar < 0 ? [] : [bar], more ? "toggle" : "replace");
   }
   private key(event: KeyboardEvent, stage: Stage): void {
+    if (isOfBrowser(event)) return;
     const moves: Record<string, [number, number, number]> = {
       ArrowLeft: [-1, 0, 1],
       ArrowRight: [1, 0, 1],

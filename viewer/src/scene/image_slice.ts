@@ -54,26 +54,31 @@ export class ImageSlice {
   show(axis: number, index: number): void {
     this.axis = axis;
     this.index = Math.min(this.shape[axis]! - 1, Math.max(0, index));
+    const position = this.object.geometry.getAttribute("position") as BufferAttribute;
+    position.set(this.corners());
+    position.needsUpdate = true;
+    this.object.geometry.computeBoundingSphere();
+    this.recolour();
+  }
+  /// Where its corners are: the first pixel's, that of the last column, the last pixel's, that of
+  /// the last row.
+  corners(): number[] {
     const [v, u] = this.sides();
     const corner = (i: number, j: number) => {
       const at = [0, 0, 0];
-      at[axis] = this.index;
+      at[this.axis] = this.index;
       at[v] = i;
       at[u] = j;
       return placeInImage(at[0]!, at[1]!, at[2]!);
     };
     const rows = this.shape[v]! - 0.5,
       columns = this.shape[u]! - 0.5;
-    const position = this.object.geometry.getAttribute("position") as BufferAttribute;
-    position.set([
+    return [
       ...corner(-0.5, -0.5),
       ...corner(-0.5, columns),
       ...corner(rows, columns),
       ...corner(rows, -0.5),
-    ]);
-    position.needsUpdate = true;
-    this.object.geometry.computeBoundingSphere();
-    this.recolour();
+    ];
   }
   recolour(): void {
     const { pixels, width, height } = this.pixels();

@@ -178,7 +178,7 @@ function middles(session: Session, numbers: Map<number, number>): Map<number, nu
 }
 
 /// The names of the axes of a volume, each at the end of its edge of the box.
-function axesOf({ image, meta }: Report): Label[] {
+export function axesOf({ image, meta }: Report): Label[] {
   const sizes = image!.shape as [number, number, number];
   const least = [-0.5, -0.5, -0.5] as const;
   return axisNames(meta).map((name, axis) => {

@@ -11,7 +11,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Size } from "../common/dom";
+import { el, type Size } from "../common/dom";
 import { EyeDome } from "./eye_dome_lighting";
 import type { Pose } from "./pose";
 
@@ -20,6 +20,13 @@ ColorManagement.enabled = false;
 
 const kFieldOfView = 40,
   kMargin = 1.08;
+
+/// Nothing without WebGL. The renderer would write to the console that there is none.
+export function rendererOf(): WebGLRenderer | undefined {
+  const canvas = el("canvas");
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true });
+  return context ? new WebGLRenderer({ canvas, context }) : undefined;
+}
 
 export class Stage {
   readonly scene = new Scene();
@@ -38,14 +45,12 @@ export class Stage {
   private scheduled = false;
 
   /// @param solid the data have a depth that is worth being brought out: points, a surface.
-  /// @throws Error without WebGL.
   constructor(
     private pose: Pose,
     solid: boolean,
-    readonly renderer = new WebGLRenderer({ antialias: true, alpha: true }),
+    readonly renderer: WebGLRenderer,
   ) {
     renderer.outputColorSpace = LinearSRGBColorSpace;
-    renderer.setPixelRatio(window.devicePixelRatio || 1);
     renderer.autoClear = false;
     this.camera = pose.flat ? new OrthographicCamera() : new PerspectiveCamera(kFieldOfView);
     this.camera.up.copy(pose.up);
@@ -89,20 +94,10 @@ export class Stage {
   }
   /// Everything in view.
   reset(): void {
-    const { centre, radius, towards, half } = this.pose;
-    const tangent = Math.tan((kFieldOfView * Math.PI) / 360);
-    const fitting = kMargin * Math.max(half.height, half.width / this.aspect());
-    const distance =
-      this.pose.distance ?? (this.pose.flat ? 4 * radius : fitting / tangent + half.depth);
-    if (this.pose.distance && this.camera instanceof PerspectiveCamera)
-      this.camera.fov = (360 / Math.PI) * Math.atan(fitting / distance);
-    this.camera.position.copy(centre).addScaledVector(towards, distance);
-    this.camera.near = distance / 200;
-    this.camera.far = distance * 20 + 10 * radius;
+    const { centre, towards } = this.pose;
     this.camera.zoom = 1;
+    this.camera.position.copy(centre).addScaledVector(towards, this.fit());
     this.controls.target.copy(centre);
-    if (this.camera instanceof OrthographicCamera) this.frame(fitting);
-    this.camera.updateProjectionMatrix();
     this.controls.update();
     this.moved = false;
     this.invalidate();
@@ -110,21 +105,33 @@ export class Stage {
   resize(size: Size): void {
     this.size = size;
     if (size.width === 0 || size.height === 0) return;
+    this.renderer.setPixelRatio(window.devicePixelRatio || 1);
     this.renderer.setSize(size.width, size.height);
-    if (this.camera instanceof PerspectiveCamera) this.camera.aspect = this.aspect();
-    else this.frame(this.camera.top);
-    this.camera.updateProjectionMatrix();
-    if (!this.moved) this.reset();
+    if (this.moved) this.fit();
+    else this.reset();
     this.invalidate();
   }
-  private frame(half: number): void {
-    const aspect = this.aspect();
-    Object.assign(this.camera, {
-      left: -half * aspect,
-      right: half * aspect,
-      top: half,
-      bottom: -half,
-    });
+  /// What is seen from where the eye stood at first, in a picture of this shape, whatever the reader
+  /// has done: an address has the place of the eye and the zoom only.
+  /// @return how far the eye stood at first.
+  private fit(): number {
+    const { camera } = this,
+      aspect = this.aspect();
+    const { radius, half, flat } = this.pose;
+    const fitting = kMargin * Math.max(half.height, half.width / aspect);
+    const tangent = Math.tan((kFieldOfView * Math.PI) / 360);
+    const distance = this.pose.distance ?? (flat ? 4 * radius : fitting / tangent + half.depth);
+    if (camera instanceof PerspectiveCamera) {
+      camera.aspect = aspect;
+      if (this.pose.distance) camera.fov = (360 / Math.PI) * Math.atan(fitting / distance);
+    } else {
+      const [right, top] = [fitting * aspect, fitting];
+      Object.assign(camera, { left: -right, right, top, bottom: -top });
+    }
+    camera.near = distance / 200;
+    camera.far = distance * 20 + 10 * radius;
+    camera.updateProjectionMatrix();
+    return distance;
   }
   invalidate(): void {
     if (this.scheduled) return;

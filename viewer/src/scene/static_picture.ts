@@ -2,6 +2,7 @@
 // Without WebGL: a still picture of the cloud or the slice as SVG, coloured like the live one.
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { svg } from "../common/dom";
+import { axesOf } from "./labels";
 import type { ImageSlice } from "./image_slice";
 import type { Report } from "../model/report";
 import type { Shape } from "./representatives";
@@ -10,6 +11,7 @@ import type { Pose } from "./pose";
 const kMostPoints = 6000,
   kMostMarks = 4000, // of one kind
   kSide = 600;
+const kBox = { colour: "#7d8794", width: 1, opacity: 1, surface: false };
 
 type Triple = [Vector3, Vector3, Vector3];
 
@@ -19,18 +21,25 @@ export class StaticPicture {
     { viewBox: `0 0 ${kSide} ${kSide}`, class: "still", role: "img" },
     svg("title", {}, "The data, seen from the front"),
   );
-  private readonly camera: PerspectiveCamera | OrthographicCamera;
+  private camera!: PerspectiveCamera | OrthographicCamera;
+  private readonly isVolume: boolean;
 
   constructor(
     private readonly report: Report,
     pose: Pose,
     private readonly slice: ImageSlice | undefined,
   ) {
-    const { centre, radius, towards, up, flat, half } = pose;
-    const fitting = 1.05 * Math.max(half.width, half.height);
-    const distance = pose.distance ?? (flat ? 4 * radius : 2.7 * fitting + half.depth);
-    this.camera = flat
-      ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, 8 * radius)
+    this.isVolume = (report.image?.shape[0] ?? 1) > 1;
+    this.face(pose);
+  }
+
+  face({ centre, radius, towards, up, flat, half, distance: ofSensor }: Pose): void {
+    const margin = this.isVolume ? 1.2 : 1.05; // the names of its axes lie outside
+    const fitting = margin * Math.max(half.width, half.height);
+    const distance = ofSensor ?? (flat ? 4 * radius : 2.7 * fitting + half.depth);
+    // SVG draws a slice as a parallelogram: there is no perspective.
+    this.camera = flat || this.slice
+      ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, distance + 4 * radius)
       : new PerspectiveCamera(
           (360 / Math.PI) * Math.atan(fitting / distance),
           1,
@@ -45,11 +54,12 @@ export class StaticPicture {
 
   /// @param left points that are left out.
   draw(rgba: Uint8Array, left: Uint8Array | undefined, shapes: Shape[]): void {
-    const marks = this.slice ? [this.pictureOfSlice()] : this.dots(rgba, left);
+    const marks = this.slice ? this.pictureOfSlice(this.slice) : this.dots(rgba, left);
     this.element.replaceChildren(
       this.element.firstChild!,
       ...marks,
       ...shapes.flatMap((shape) => [...this.triangles(shape), ...this.lines(shape)]),
+      this.axes(),
     );
   }
 
@@ -111,22 +121,38 @@ export class StaticPicture {
     }
     return marks;
   }
-  private pictureOfSlice(): SVGElement {
-    const { pixels, width, height } = this.slice!.pixels();
+  /// The box of a volume, and in it the slice.
+  private pictureOfSlice(slice: ImageSlice): SVGElement[] {
+    const { pixels, width, height } = slice.pixels();
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
     canvas
       .getContext("2d")!
       .putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), 0, 0);
-    const scale = kSide / Math.max(width, height);
-    return svg("image", {
-      href: canvas.toDataURL(),
-      width: width * scale,
-      height: height * scale,
-      x: (kSide - width * scale) / 2,
-      y: (kSide - height * scale) / 2,
+    const corners = slice.corners();
+    const [first, right, down] = [0, 3, 9].map((k) => this.project(corners, k)) as Triple;
+    const pixel = [right, down].flatMap((end, k) => {
+      const side = end.sub(first).divideScalar(k === 0 ? width : height);
+      return [side.x, side.y];
     });
+    const image = svg("image", {
+      href: canvas.toDataURL(),
+      width,
+      height,
+      transform: `matrix(${[...pixel, first.x, first.y].join(" ")})`,
+    });
+    const geometry = { points: [], segments: slice.outline(), triangles: [] };
+    return [...this.lines({ geometry, ...kBox }), image];
+  }
+  /// The names of the axes of a volume.
+  private axes(): SVGElement {
+    const names = this.isVolume ? axesOf(this.report) : [];
+    const words = names.map(({ text, places }) => {
+      const { x, y } = this.project(places[0]!, 0);
+      return svg("text", { x: x.toFixed(1), y: (y + 4).toFixed(1) }, text);
+    });
+    return svg("g", { class: "numbers" }, ...words);
   }
   private project(from: ArrayLike<number>, i: number): Vector3 {
     const at = new Vector3(from[i], from[i + 1], from[i + 2]).project(this.camera);

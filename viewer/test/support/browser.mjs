@@ -20,15 +20,17 @@ export function template() {
 }
 
 /// WebGL is drawn by software, and so are pages, which the software that draws WebGL does slowly.
-export async function launch({ webgl = true } = {}) {
-  const args = [
+const optionsOf = (webgl) => ({
+  executablePath: executable,
+  args: [
     "--no-sandbox",
     ...(webgl
       ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
       : ["--disable-gpu", "--disable-3d-apis"]),
-  ];
-  return chromium.launch({ executablePath: executable, args });
-}
+  ],
+});
+
+export const launch = ({ webgl = true } = {}) => chromium.launch(optionsOf(webgl));
 
 const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
@@ -116,6 +118,31 @@ export async function open(
     wall: performance.now() - start,
     close: () => (touch ? page.context().close() : release(browser, page)),
   };
+}
+
+/// Opens a report in a browser of its own, which can zoom it as a reader does: what a page is told of
+/// an emulated screen is less. `zoom` says whether the browser could.
+export async function openZoomable({ meta, arrays }) {
+  const options = { ...optionsOf(true), viewport: null };
+  const context = await chromium.launchPersistentContext(join(folder, "profile"), options);
+  const path = join(folder, `${++written}.html`);
+  writeFileSync(path, reportHtml(template(), meta, arrays));
+  const page = await context.newPage();
+  await page.goto(pathToFileURL(path).href);
+  await page.waitForSelector("#app[data-first-frame]");
+  const zoom = async (factor) => {
+    const settings = await context.newPage();
+    const set = (value) =>
+      new Promise((done) => chrome.settingsPrivate.setDefaultZoom(value, () => done(true)));
+    const isSet = await settings
+      .goto("chrome://settings/appearance")
+      .then(() => settings.evaluate(set, factor))
+      .catch(() => false);
+    await settings.close();
+    await page.bringToFront();
+    return isSet;
+  };
+  return { page, zoom, close: () => context.close() };
 }
 
 /// The pixels of an element, four bytes each, with their `width` and `height`.
