@@ -123,6 +123,60 @@ test("words and controls", { timeout: 200_000 }, async (t) => {
     await close();
   });
 
+  await t.test("shortcuts are the browser's own", async () => {
+    const { page, close } = await open(browser, clusters());
+    const isTaken = (canvas, key, modifiers) =>
+      page.$eval(
+        canvas,
+        (element, options) =>
+          !element.dispatchEvent(new KeyboardEvent("keydown", { ...options, bubbles: true, cancelable: true })),
+        { key, ...modifiers },
+      );
+    for (const [canvas, keys] of [
+      [".stage canvas", ["0", "-", "=", "ArrowLeft"]],
+      [".diagram canvas.over", ["ArrowLeft", "PageDown", "Enter"]],
+    ])
+      for (const key of keys) {
+        assert.ok(await isTaken(canvas, key, {}), `${key} on ${canvas}`);
+        for (const modifier of ["ctrlKey", "altKey", "metaKey"])
+          assert.ok(!(await isTaken(canvas, key, { [modifier]: true })), `${modifier} ${key}`);
+      }
+    await close();
+  });
+
+  await t.test("Escape closes the menu, then it clears the selection", async () => {
+    const { page, close } = await open(browser, torus());
+    const state = async () => [
+      await page.locator(".menu[open]").count(),
+      (await page.textContent(".status .selection")) === "nothing selected",
+    ];
+    await page.click(".menu summary");
+    assert.deepEqual(await state(), [1, false]);
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Escape");
+    await frame(page);
+    assert.deepEqual(await state(), [0, false]);
+    assert.ok(await page.$eval(".menu summary", (e) => e === document.activeElement));
+    await page.keyboard.press("Escape");
+    await frame(page);
+    assert.deepEqual(await state(), [0, true]);
+    await close();
+  });
+
+  await t.test("a table says of which bars it is", async () => {
+    const { page, close } = await open(browser, image(), { hash: "#hide=0" });
+    const caption = () => page.textContent(".barcode caption");
+    await page.click(".barcode button:has-text('table')");
+    assert.equal(await caption(), "1 bar, without H₀");
+    await page.click(".chip >> nth=0");
+    await frame(page);
+    assert.equal(await caption(), "0 bars, without H₀ and H₁");
+    for (const chip of [0, 1]) await page.click(`.chip >> nth=${chip}`);
+    await frame(page);
+    assert.match(await caption(), /^The 500 most persistent of [\d,]+ bars$/);
+    await close();
+  });
+
   await t.test("the tree and the barcode call their axis alike", async () => {
     const { page, close } = await open(browser, clusters());
     await frame(page);

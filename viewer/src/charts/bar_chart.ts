@@ -3,7 +3,7 @@
 import { Chart } from "./chart";
 import { table } from "../common/dom";
 import { counted, homology, short } from "../common/number_format";
-import { endsOf, intervalText } from "../model/words";
+import { endsOf, intervalText, listed } from "../model/words";
 import type { Session } from "../model/session";
 
 const kMostRows = 500;
@@ -31,10 +31,13 @@ export abstract class BarChart extends Chart {
     const { bars, meta } = this.session.report;
     const two = meta.barcodes.length > 1;
     const shown = this.shownBars(kMostRows);
-    const caption =
-      shown.length < bars.size
-        ? `The ${counted(shown.length, "most persistent bar")} of ${counted(bars.size, "bar")}`
-        : counted(bars.size, "bar");
+    const hidden = bars.dims.filter((dim) => this.session.hiddenDims.has(dim));
+    const left = hidden.flatMap((dim) => meta.barcodes.map((_, i) => bars.count(dim, i)));
+    const count = left.reduce((sum, n) => sum - n, bars.size);
+    const caption = [
+      shown.length < count ? `The ${shown.length} most persistent of ${counted(count, "bar")}` : counted(count, "bar"),
+      ...(hidden.length > 0 ? [`without ${listed(hidden.map(homology))}`] : []),
+    ].join(", ");
     return table(
       caption,
       [...(two ? ["barcode"] : []), "dimension", "birth", "death", "persistence"],

@@ -65,7 +65,11 @@ async function start(app: HTMLElement): Promise<void> {
   app.replaceChildren(toolbar, findingLine(session, diagram), page, statusLine(session));
 
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !document.querySelector("dialog[open]")) session.select([]);
+    if (event.key !== "Escape" || document.querySelector("dialog[open]")) return;
+    const menu = document.querySelector<HTMLDetailsElement>(".menu[open]");
+    if (!menu) return session.select([]);
+    menu.open = false;
+    menu.querySelector("summary")!.focus();
   });
   keepAddress(session, data);
   app.removeAttribute("aria-busy");
