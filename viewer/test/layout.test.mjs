@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Where panels, controls and words stand, at any width and on any screen.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { image } from "./support/image_fixture.mjs";
+import { treeOnly } from "./support/odd_fixtures.mjs";
+import { frame, launch, open, openZoomable, picture } from "./support/browser.mjs";
+import { clusters } from "./support/point_fixtures.mjs";
+import { scene } from "./support/scene_fixture.mjs";
+
+const kWidths = [320, 390, 620, 761, 768, 809, 900, 1024, 1153, 1280, 2560];
+
+/// Controls that are outside their panel, or with something else over them.
+const unreachable = (page) =>
+  page.evaluate(() => {
+    const bad = [];
+    for (const panel of document.querySelectorAll(".panel, .top"))
+      for (const control of panel.querySelectorAll("header button, header select, header input, nav > *")) {
+        if (!control.checkVisibility() || control.closest("dialog, .items")) continue;
+        control.scrollIntoView({ block: "center" });
+        const box = control.getBoundingClientRect(),
+          around = panel.getBoundingClientRect();
+        const at = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+        const isIn = box.left >= around.left && box.right <= around.right && box.right <= innerWidth;
+        if (!isIn || !control.contains(at)) bad.push(`${panel.className}: ${control.textContent}`);
+      }
+    return bad;
+  });
+
+test("pictures are as fine as the screen when the page is zoomed", { timeout: 60_000 }, async (t) => {
+  const { page, zoom, close } = await openZoomable(clusters());
+  t.after(close);
+  for (const factor of [1.5, 1]) {
+    if (!(await zoom(factor))) return t.skip("this browser has no page of settings");
+    await page.waitForFunction(
+      (ratio) =>
+        devicePixelRatio === ratio &&
+        [...document.querySelectorAll("canvas")].every(
+          (canvas) => Math.abs(canvas.width / canvas.clientWidth - ratio) < 0.02,
+        ),
+      factor,
+      { timeout: 10_000 },
+    );
+  }
+});
+
+test("layout", { timeout: 200_000 }, async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+
+  await t.test("on a telephone the panels of a report without data are readable", async () => {
+    for (const [width, height] of [[390, 844], [320, 700]]) {
+      const { page, problems, close } = await open(browser, treeOnly(), { width, height });
+      const boxes = [];
+      for (const [panel, least] of [[".cut", 120], [".tree", 300], [".diagram", 300], [".barcode", 300]]) {
+        const box = await page.locator(`.panel${panel}`).boundingBox();
+        assert.ok(box.height >= least, `${panel} has ${box.height} pixels`);
+        boxes.push(box);
+      }
+      boxes.reduce((above, box) => (assert.ok(box.y >= above.y + above.height), box));
+      const chart = await page.locator(".cut .chart").boundingBox();
+      assert.ok(chart.y + chart.height <= boxes[0].y + boxes[0].height, "the cut is in its panel");
+      await picture(page, `layout_tree_${width}`);
+      assert.deepEqual(problems, []);
+      await close();
+    }
+  });
+
+  await t.test("every control can be reached at every width", async () => {
+    for (const [name, make] of Object.entries({ clusters, image, treeOnly, scene })) {
+      const { page, close } = await open(browser, make());
+      for (const width of kWidths) {
+        await page.setViewportSize({ width, height: 800 });
+        await frame(page);
+        assert.deepEqual(await unreachable(page), [], `${name} at ${width}`);
+        const isWide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+        assert.ok(!isWide, `${name} at ${width}`);
+      }
+      await close();
+    }
+  });
+
+  await t.test("a chart that has not heard of another screen is whole", async () => {
+    const { page, close } = await open(browser, clusters(), { width: 1000, height: 700 });
+    const session = await page.context().newCDPSession(page);
+    const screen = { width: 1000, height: 700, mobile: false, deviceScaleFactor: 2 };
+    await session.send("Emulation.setDeviceMetricsOverride", screen);
+    await page.waitForFunction(() => devicePixelRatio === 2);
+    await page.focus(".diagram canvas.over");
+    await page.keyboard.press("ArrowRight");
+    await frame(page);
+    const [drawn, canvas] = await page.$eval(".diagram canvas.over", (over) => [
+      over.getContext("2d").getTransform().a,
+      over.width / over.clientWidth,
+    ]);
+    assert.equal(drawn, canvas);
+    await session.send("Emulation.clearDeviceMetricsOverride");
+    await close();
+  });
+
+  await t.test("a finger on a chart scrolls the page, on the diagram it draws a lasso", async () => {
+    const phone = { width: 390, height: 844, touch: true };
+    const { page, close } = await open(browser, treeOnly(), phone);
+    const session = await page.context().newCDPSession(page);
+    const scrolled = async (chart) => {
+      await page.$eval(chart, (panel) => panel.scrollIntoView({ block: "center" }));
+      const before = await page.evaluate(() => scrollY);
+      const box = await page.locator(`${chart} canvas.over`).boundingBox();
+      const touch = (type, ...places) =>
+        session.send("Input.dispatchTouchEvent", {
+          type,
+          touchPoints: places.map((y) => ({ x: box.x + box.width / 2, y: box.y + box.height / 2 + y })),
+        });
+      await touch("touchStart", 0);
+      for (let y = 0; y <= 150; y += 10) await touch("touchMove", y).then(() => frame(page));
+      await touch("touchEnd");
+      await frame(page);
+      return before - (await page.evaluate(() => scrollY));
+    };
+    for (const chart of [".tree", ".barcode"])
+      assert.ok((await scrolled(chart)) > 50, `${chart} does not scroll`);
+    assert.equal(await scrolled(".diagram"), 0);
+    await close();
+  });
+});
