@@ -2,13 +2,29 @@
 // Where panels, controls and words stand, at any width and on any screen.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { barArrays, byOrder, metaOf } from "./support/fixture_parts.mjs";
 import { image } from "./support/image_fixture.mjs";
+import { illegible, textsOf } from "./support/chart_texts.mjs";
 import { treeOnly } from "./support/odd_fixtures.mjs";
 import { frame, launch, open, openZoomable, picture } from "./support/browser.mjs";
 import { clusters } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 
 const kWidths = [320, 390, 620, 761, 768, 809, 900, 1024, 1153, 1280, 2560];
+
+/// The values of a report of distances as others, and minus these at the axes.
+function elsewhere({ meta, arrays }, valueOf) {
+  const isValue = (name) => /\/(birth|death|leaf_birth|merge_value|merge_level)$/.test(name);
+  const moved = Object.entries(arrays).map(([name, values]) => [
+    name,
+    isValue(name) ? values.map(valueOf) : values,
+  ]);
+  const { tree, ...rest } = meta;
+  return {
+    meta: { ...rest, tree: { ...tree, cut: valueOf(tree.cut) }, value: { ...meta.value, negated: true } },
+    arrays: Object.fromEntries(moved),
+  };
+}
 
 /// Controls that are outside their panel, or with something else over them.
 const unreachable = (page) =>
@@ -78,6 +94,55 @@ test("layout", { timeout: 200_000 }, async (t) => {
       }
       await close();
     }
+  });
+
+  await t.test("long numbers at the axes are not cut off", async () => {
+    for (const [valueOf, label] of [
+      [(v) => 999.99 + 0.001 * v, /^−99\d\.\d{3}/],
+      [(v) => 10_000 + v, /^−1\d{4}/],
+      [(v) => 1 + 1e-7 * v, /^−1\.\d{7}/],
+    ])
+      for (const width of [320, 1280]) {
+        const report = elsewhere(treeOnly(), valueOf);
+        const { page, close } = await open(browser, report, { width, height: 800 });
+        for (const chart of [".diagram", ".tree", ".barcode"]) {
+          const drawn = await textsOf(page, chart);
+          assert.ok(drawn.texts.some(({ text }) => label.test(text)), `${chart}: ${drawn.texts.map(({ text }) => text)}`);
+          assert.deepEqual(illegible(drawn), [], `${chart} at ${width}`);
+        }
+        await close();
+      }
+  });
+
+  await t.test("on a narrow page words do not lie on each other", async () => {
+    const bars = [[0, 0, Infinity]];
+    for (let i = 0; i < 40; ++i)
+      bars.push([0, 0, 1], [0, 0, 1.02], [0, 0.01, 1], [1, 1.9, 2.9], ...(i ? [[1, 1.9, 2.95]] : []));
+    const crowds = { meta: metaOf("crowds.csv"), arrays: barArrays(bars.sort(byOrder)) };
+    const { page, close } = await open(browser, crowds, { width: 320, height: 700 });
+    const drawn = await textsOf(page, ".diagram");
+    assert.deepEqual(illegible(drawn), []);
+    const counts = drawn.texts.filter(({ text }) => /here/.test(text));
+    assert.ok(counts.length >= 2 && counts.every(({ text }) => text === "40 here"), "the largest");
+    await close();
+    for (const factor of [1, 1.2345e-9]) {
+      const report = elsewhere(treeOnly(), (v) => factor * v);
+      const cut = await open(browser, report, { width: 320, height: 700 });
+      const { texts, ...size } = await textsOf(cut.page, ".cut");
+      assert.ok(texts.some(({ text }) => /^segments/.test(text)));
+      assert.deepEqual(illegible({ texts, ...size }), []);
+      await cut.close();
+    }
+  });
+
+  await t.test("a crowd of thousands is counted as a whole", async () => {
+    const bars = [[0, 0, Infinity], [1, 0.5, 3]];
+    for (let i = 0; i < 5000; ++i) bars.push([0, 0, 1]);
+    const report = { meta: metaOf("equal.csv"), arrays: barArrays(bars.sort(byOrder)) };
+    const { page, close } = await open(browser, report);
+    const { texts } = await textsOf(page, ".diagram");
+    assert.deepEqual(texts.filter(({ text }) => /here/.test(text)).map(({ text }) => text), ["5,000 here"]);
+    await close();
   });
 
   await t.test("a chart that has not heard of another screen is whole", async () => {

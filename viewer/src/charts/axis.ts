@@ -2,10 +2,24 @@
 // From values to pixels, with ticks at round numbers. Very large and very small values share one
 // power of ten, which stands beside the name of the axis.
 import { superscript } from "../common/number_format";
+import { textWidth } from "./pen";
 
 export interface Tick {
   at: number; // pixels
   label: string;
+}
+
+export const kLabelSize = 10.5,
+  kLeastLeft = 50;
+const kTitle = 24; // wide, with what is empty beside the labels
+
+/// From the left edge to an upright axis: there is room for its labels and its title.
+export function leftOf(ticks: Tick[]): number {
+  return Math.ceil(Math.max(kLeastLeft, kTitle + widest(ticks)));
+}
+/// The width of the widest label.
+export function widest(ticks: Tick[]): number {
+  return Math.max(...ticks.map(({ label }) => textWidth(label, kLabelSize)));
 }
 
 export class Axis {

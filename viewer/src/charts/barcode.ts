@@ -2,7 +2,7 @@
 // The barcode: a line a bar, one band a dimension, two barcodes side by side. Where there are more
 // bars than rows the most persistent ones have a row and the others are a strip: darker where more
 // of them live.
-import { Axis } from "./axis";
+import { Axis, kLabelSize } from "./axis";
 import { BarChart } from "./bar_chart";
 import {
   asManyAsFit,
@@ -17,7 +17,7 @@ import {
 import { kStrip, layOut, rowsIn, withRows } from "./barcode_rows";
 import { clipped, grouped, homology } from "../common/number_format";
 import { dimColour } from "../common/palette";
-import type { Pen } from "./pen";
+import { textWidth, type Pen } from "./pen";
 import type { Size } from "../common/dom";
 import type { Change, Session } from "../model/session";
 
@@ -71,11 +71,12 @@ export class Barcode extends BarChart {
     const top = kTop + (two ? 16 : 0),
       bottom = size.height - kBottom;
     const unit = clipped([meta.value.unit, this.axes[0]!.unit].filter(Boolean).join(" "), 24);
-    const small = { colour: theme.muted, size: 10.5, anchor: "middle" } as const;
+    const small = { colour: theme.muted, size: kLabelSize, anchor: "middle" } as const;
     this.axes.forEach((axis, i) => {
       for (const tick of axis.ticks(Math.max(2, (axis.to - axis.from) / 75))) {
         pen.line(tick.at, top, tick.at, bottom, theme.grid);
-        pen.text(tick.at, bottom + 14, tick.label, small);
+        const half = textWidth(tick.label, kLabelSize) / 2;
+        pen.text(Math.max(tick.at, half), bottom + 14, tick.label, small);
       }
       pen.line(axis.from, bottom, axis.to, bottom, theme.faint);
       if (two)

@@ -6,13 +6,14 @@ import { button, el, table, type Size } from "../common/dom";
 import { CutScale, kSteps, segmentCounts } from "../model/cuts";
 import { counted, exact, grouped, short } from "../common/number_format";
 import { kindOfSegment, listed } from "../model/words";
-import type { Pen } from "./pen";
+import { textWidth, type Pen } from "./pen";
 import type { Change, Session } from "../model/session";
 
 const kSamples = 200,
   kThumb = 8,
   kTop = 15,
   kBottom = 16;
+const kTitles = ["segments left at each cut (logarithmic)", "segments left at each cut", "segments"];
 
 export class CutChart extends Chart {
   protected redrawsOn: Change[] = ["cut"];
@@ -100,19 +101,21 @@ export class CutChart extends Chart {
     );
     pen.stroke(line, theme.dark ? "#4aa8e0" : "#0072b2", 1.4);
     const small = { colour: theme.muted, size: 10 } as const;
-    pen.text(x(0), size.height - 4, short(this.scale.from, 3), small);
-    pen.text(x(1), size.height - 4, short(this.scale.to, 3), { ...small, anchor: "end" });
+    const ends = [this.scale.from, this.scale.to].map((value) => short(value, 3));
+    pen.text(x(0), size.height - 4, ends[0]!, small);
+    pen.text(x(1), size.height - 4, ends[1]!, { ...small, anchor: "end" });
     pen.text(x(0), kTop - 5, grouped(this.counts[0]!), small);
     pen.text(x(1), kTop - 5, grouped(this.counts.at(-1)!), { ...small, anchor: "end" });
-    pen.text(x(0.5), size.height - 4, "segments left at each cut (logarithmic)", {
-      ...small,
-      anchor: "middle",
-    });
+    const room = x(1) - x(0) - 2 * Math.max(...ends.map((text) => textWidth(text, 10) + 8));
+    const words = kTitles.find((text) => textWidth(text, 10) <= room) ?? "";
+    pen.text(x(0.5), size.height - 4, words, { ...small, anchor: "middle" });
     if (this.suggested !== undefined) {
       const at = x(this.scale.place(this.suggested));
       pen.line(at, kTop - 3, at, kTop + height, theme.dark ? "#25c496" : "#009e73", 1.2, [3, 3]);
       const right = at > size.width / 2;
-      pen.text(at + (right ? -5 : 5), kTop - 5, "widest gap", {
+      const [first, last] = [this.counts[0]!, this.counts.at(-1)!].map((n) => textWidth(grouped(n), 10) + 6);
+      const place = right ? Math.min(at - 5, x(1) - last!) : Math.max(at + 5, x(0) + first!);
+      pen.text(place, kTop - 5, "widest gap", {
         ...small,
         colour: theme.dark ? "#25c496" : "#00795a",
         anchor: right ? "end" : "start",

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The persistence diagram: birth across, death up, infinity on a line of its own. Where bars are
 // many, their density and the most persistent ones. A lasso selects.
-import { Axis } from "./axis";
+import { Axis, kLabelSize, leftOf, type Tick, widest } from "./axis";
 import { BarChart } from "./bar_chart";
 import { drawDensity } from "./diagram_density";
 import { drawNumbers } from "./dot_numbers";
 import { fanOut, type Crowd } from "./fanned_dots";
 import { isInside } from "./lasso";
+import { LabelPlaces } from "../common/label_places";
 import { drawMarker } from "./marker";
 import { drawMatching } from "./matching_lines";
 import { intervalText, shownValue } from "../model/words";
 import { clipped, grouped, homology, short } from "../common/number_format";
-import type { Pen } from "./pen";
+import { textWidth, type Pen } from "./pen";
 import type { Size } from "../common/dom";
 import type { Change, Session } from "../model/session";
 
-const kLeft = 50,
-  kRight = 14,
+const kRight = 14,
   kTop = 10,
   kBottom = 38,
   kInfinityRoom = 20,
@@ -34,6 +34,7 @@ export class Diagram extends BarChart {
   deaths = new Axis(0, 1, 0, 1);
   private readonly hint: string;
   private lasso: number[] = [];
+  private left = 0; // of the axis of deaths
 
   constructor(session: Session) {
     const [first, second] = session.report.meta.barcodes;
@@ -70,7 +71,8 @@ export class Diagram extends BarChart {
     let shown = 0;
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
-    const crowds = this.fan(many ? kLongest : kMostMarkers);
+    const marked = this.shownBars(many ? kLongest : kMostMarkers);
+    const crowds = this.fan(marked);
     const lines = drawMatching(pen, this.session, this);
     const farthest =
       lines.all > lines.drawn
@@ -78,7 +80,6 @@ export class Diagram extends BarChart {
         : "";
     this.head.querySelector(".hint")!.textContent = this.hint + farthest;
     if (many) drawDensity(pen, this.session, this.x, this.y, size);
-    const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {
       const bar = marked[i]!;
       const colour = this.session.colourOfDim(bars.dim[bar]!);
@@ -96,24 +97,44 @@ export class Diagram extends BarChart {
         hollow ? 1.4 : 0.8,
       );
     }
-    for (const { x, y, count } of crowds)
-      pen.text(x + 7, y + 13, `${grouped(count)} here`, { colour: theme.muted, size: 10 });
+    this.drawCounts(pen, crowds);
+  }
+
+  /// The largest first: one that would lie on another is left out.
+  private drawCounts(pen: Pen, crowds: Crowd[]): void {
+    const { theme } = this.session,
+      labelPlaces = new LabelPlaces(10);
+    for (const { x, y, count } of crowds.sort((a, b) => b.count - a.count)) {
+      const text = `${grouped(count)} here`,
+        half = textWidth(text, 10) / 2;
+      const at = Math.min(x + 7, this.size.width - 2 * half - 2);
+      if (!labelPlaces.take(at + half, y + 13, text)) continue;
+      pen.text(at, y + 13, text, { colour: theme.muted, size: 10, halo: theme.panel });
+    }
   }
 
   /// Equal bars side by side, those of segments in the order of their numbers. Near the diagonal,
   /// where nobody looks for one of them, they lie on each other.
-  private fan(most: number): Crowd[] {
+  private fan(marked: Uint32Array): Crowd[] {
     const { session } = this;
     const { bars } = session.report;
     const numbers = session.numbers();
     const place = (bar: number) => numbers.get(bar) ?? Infinity;
     const groups = new Map<string, number[]>();
-    for (const bar of this.shownBars(most)) {
-      if (bars.persistence(bar) < kLeastFanned * (bars.high - bars.low)) continue;
-      const key = [bars.birth[bar], bars.death[bar], bars.barcodeOf(bar)].join();
-      const group = groups.get(key);
+    const keyOf = (bar: number) => [bars.birth[bar], bars.death[bar], bars.barcodeOf(bar)].join();
+    const least = kLeastFanned * (bars.high - bars.low);
+    for (const bar of marked) {
+      if (bars.persistence(bar) < least) continue;
+      const group = groups.get(keyOf(bar));
       if (group) group.push(bar);
-      else groups.set(key, [bar]);
+      else groups.set(keyOf(bar), [bar]);
+    }
+    // Bars without a marker are at most as long as the last one with a marker, or infinite.
+    const isMarked = new Set(marked);
+    const last = Math.max(least, bars.persistence(marked.at(-1) ?? 0));
+    for (const bar of marked.length < bars.size ? this.shownBars(bars.size) : []) {
+      if (bars.persistence(bar) < last) break;
+      if (!isMarked.has(bar)) groups.get(keyOf(bar))?.push(bar);
     }
     const several = [...groups.values()].filter((group) => group.length > 1);
     for (const group of several) group.sort((a, b) => (place(a) < place(b) ? -1 : 1));
@@ -195,36 +216,51 @@ export class Diagram extends BarChart {
     const fits = Number.isFinite(bars.low - margin) && Number.isFinite(bars.high + margin);
     const low = bars.low === 0 || !fits ? bars.low : bars.low - margin,
       high = fits ? bars.high + margin : bars.high;
-    const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0),
-      top = kTop + (toAbove ? kInfinityRoom : 0);
+    const top = kTop + (toAbove ? kInfinityRoom : 0);
     const { negated } = this.session.report.meta.value;
-    this.births = new Axis(low, high, left, size.width - kRight, negated);
     this.deaths = new Axis(low, high, size.height - kBottom, top, negated);
+    this.left = leftOf(this.deathTicks());
+    const left = this.left + (fromBelow ? kMinusInfinityRoom : 0);
+    const births = (right: number) => new Axis(low, high, left, size.width - right, negated);
+    this.births = births(kRight);
+    // Half of the last label may be right of the axis.
+    this.births = births(Math.max(kRight, widest(this.birthTicks()) / 2));
     for (let i = 0; i < bars.size; ++i) {
-      this.x[i] = bars.birth[i] === -Infinity ? kLeft + 6 : this.births.at(bars.birth[i]!);
+      this.x[i] = bars.birth[i] === -Infinity ? this.left + 6 : this.births.at(bars.birth[i]!);
       this.y[i] = bars.isInfinite(i) ? kTop + 4 : this.deaths.at(bars.death[i]!);
     }
   }
 
+  private deathTicks(): Tick[] {
+    const { from, to } = this.deaths;
+    return this.deaths.ticks(Math.max(2, (from - to) / 45));
+  }
+  private birthTicks(): Tick[] {
+    const { from, to } = this.births;
+    return this.births.ticks(Math.max(2, (to - from) / 75));
+  }
   private drawAxes(pen: Pen, size: Size): void {
     const {
-      theme,
-      report: { meta },
-    } = this.session;
+      left,
+      session: {
+        theme,
+        report: { meta },
+      },
+    } = this;
     const bottom = this.deaths.from,
       right = this.births.to;
     const unit = clipped([meta.value.unit, this.births.unit].filter(Boolean).join(" "), 24);
-    const small = { colour: theme.muted, size: 10.5 } as const;
-    for (const tick of this.births.ticks(Math.max(2, (right - kLeft) / 75))) {
+    const small = { colour: theme.muted, size: kLabelSize } as const;
+    for (const tick of this.birthTicks()) {
       pen.line(tick.at, this.deaths.to, tick.at, bottom, theme.grid);
       pen.text(tick.at, bottom + 14, tick.label, { ...small, anchor: "middle" });
     }
-    for (const tick of this.deaths.ticks(Math.max(2, (bottom - this.deaths.to) / 45))) {
+    for (const tick of this.deathTicks()) {
       pen.line(this.births.from, tick.at, right, tick.at, theme.grid);
-      pen.text(kLeft - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
+      pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    pen.line(kLeft, kTop - 4, kLeft, bottom, theme.faint);
-    pen.line(kLeft, bottom, right, bottom, theme.faint);
+    pen.line(left, kTop - 4, left, bottom, theme.faint);
+    pen.line(left, bottom, right, bottom, theme.faint);
     pen.text((this.births.from + right) / 2, size.height - 7, unit ? `birth (${unit})` : "birth", {
       ...small,
       anchor: "middle",
@@ -235,12 +271,12 @@ export class Diagram extends BarChart {
       upwards: true,
     });
     if (this.deaths.to > kTop) {
-      pen.line(kLeft, kTop + 4, right, kTop + 4, theme.faint, 1, [3, 3]);
-      pen.text(kLeft - 6, kTop + 9, short(shownValue(meta, Infinity)), { ...small, size: 14, anchor: "end" });
+      pen.line(left, kTop + 4, right, kTop + 4, theme.faint, 1, [3, 3]);
+      pen.text(left - 6, kTop + 9, short(shownValue(meta, Infinity)), { ...small, size: 14, anchor: "end" });
     }
-    if (this.births.from > kLeft) {
-      pen.line(kLeft + 6, kTop, kLeft + 6, bottom, theme.faint, 1, [3, 3]);
-      pen.text(kLeft + 6, bottom + 14, short(shownValue(meta, -Infinity)), { ...small, anchor: "middle" });
+    if (this.births.from > left) {
+      pen.line(left + 6, kTop, left + 6, bottom, theme.faint, 1, [3, 3]);
+      pen.text(left + 6, bottom + 14, short(shownValue(meta, -Infinity)), { ...small, anchor: "middle" });
     }
   }
 

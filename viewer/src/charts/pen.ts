@@ -44,6 +44,14 @@ export interface Pen {
 const kFont =
   "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
+let measuring: CanvasRenderingContext2D | undefined;
+/// How wide a text will be, pixels.
+export function textWidth(text: string, size: number): number {
+  measuring ??= document.createElement("canvas").getContext("2d")!;
+  measuring.font = `${size}px ${kFont}`;
+  return measuring.measureText(text).width;
+}
+
 export class CanvasPen implements Pen {
   constructor(private readonly context: CanvasRenderingContext2D) {}
 

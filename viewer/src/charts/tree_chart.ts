@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The merge tree: an upright line a branch, from its birth up to the value at which it merges into
 // an elder one. Where branches are many, the most persistent ones.
-import { Axis } from "./axis";
+import { Axis, kLabelSize, kLeastLeft, leftOf, type Tick } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart } from "./chart";
 import { table, type Size } from "../common/dom";
@@ -14,8 +14,7 @@ import { LabelPlaces } from "../common/label_places";
 import { shownValue } from "../model/words";
 import type { Change, Session } from "../model/session";
 
-const kLeft = 50,
-  kRight = 12,
+const kRight = 12,
   kTop = 16,
   kBottom = 16,
   kPitch = 6,
@@ -32,6 +31,7 @@ interface Drawn {
 export class TreeChart extends Chart {
   protected redrawsOn: Change[] = ["cut", "colour"];
   private drawn: Drawn[] = [];
+  private left = 0; // of the axis
   private current = -1;
   private readonly tree: MergeTree;
   private readonly byLevel: Uint32Array;
@@ -71,12 +71,13 @@ export class TreeChart extends Chart {
       cutValue,
     } = this.session;
     const { tree } = this;
-    const axis = this.layOut(size);
+    const { axis, ticks } = this.layOut(size);
+    const { left } = this;
     const unit = clipped([meta.value.unit, axis.unit].filter(Boolean).join(" "), 16);
-    const small = { colour: theme.muted, size: 10.5 } as const;
-    for (const tick of axis.ticks(Math.max(2, (size.height - kTop - kBottom) / 40))) {
-      pen.line(kLeft, tick.at, size.width - kRight, tick.at, theme.grid);
-      pen.text(kLeft - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
+    const small = { colour: theme.muted, size: kLabelSize } as const;
+    for (const tick of ticks) {
+      pen.line(left, tick.at, size.width - kRight, tick.at, theme.grid);
+      pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
     // The word of the barcode's axis, which has the same values.
     const label = clipped(meta.value.label.toLowerCase(), 24);
@@ -91,7 +92,7 @@ export class TreeChart extends Chart {
     }
     if (tree.arrays.rule === "value" && cutValue > 0) {
       const y = axis.at(cutValue);
-      pen.line(kLeft, y, size.width - kRight, y, theme.muted, 1.2, [5, 4]);
+      pen.line(left, y, size.width - kRight, y, theme.muted, 1.2, [5, 4]);
       pen.text(size.width - kRight, y - 4, `cut ${short(cutValue, 3)}`, {
         ...small,
         anchor: "end",
@@ -168,9 +169,9 @@ export class TreeChart extends Chart {
     if (this.session.focus.bar >= 0) this.session.select([this.session.focus.bar], how);
   }
 
-  private layOut(size: Size): Axis {
+  private layOut(size: Size): { axis: Axis; ticks: Tick[] } {
     const { tree } = this;
-    const most = Math.max(1, Math.floor((size.width - kLeft - kRight) / kPitch));
+    const most = Math.max(1, Math.floor((size.width - kLeastLeft - kRight) / kPitch));
     const shown = this.prominent(most).sort((a, b) => tree.rank[a]! - tree.rank[b]!);
     let low = Infinity,
       high = -Infinity,
@@ -189,13 +190,17 @@ export class TreeChart extends Chart {
       kTop + (endless ? 12 : 0),
       this.session.report.meta.value.negated,
     );
+    const ticks = axis.ticks(Math.max(2, (size.height - kTop - kBottom) / 40));
+    this.left = leftOf(ticks);
+    const left = this.left + 10,
+      right = size.width - kRight - 10;
     const x = new Map(
       shown.map((b, i) => [
         b,
-        kLeft + 10 + (i * (size.width - kLeft - kRight - 20)) / Math.max(1, shown.length - 1),
+        left + (i * (right - left)) / Math.max(1, shown.length - 1),
       ]),
     );
-    if (shown.length === 1) x.set(shown[0]!, (kLeft + size.width - kRight) / 2);
+    if (shown.length === 1) x.set(shown[0]!, (left + right) / 2);
     this.drawn = shown.map((branch) => {
       const death = tree.death(branch);
       return {
@@ -206,7 +211,7 @@ export class TreeChart extends Chart {
         parent: x.get(tree.parentOf[branch]!) ?? NaN,
       };
     });
-    return axis;
+    return { axis, ticks };
   }
   /// The largest trees, and their most persistent branches.
   private prominent(most: number): number[] {
