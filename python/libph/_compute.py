@@ -48,8 +48,8 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         The lowest dimension of homology.
     threshold : float, optional
         The largest distance at which two points are joined. Default: the enclosing radius, beyond
-        which one component is left and nothing else; none for sparse distances, and none for
-        engine "beta-skeleton".
+        which one component is left and nothing else; none for sparse distances, for engines
+        "beta-skeleton" and "union-find", and for ``max_dim=0`` of no engine by name.
     metric : str or callable
         "euclidean", "manhattan" ("l1", "cityblock"), "chebyshev", "minkowski", "cosine", "hamming"
         (how many coordinates differ), "precomputed", or a function of two points, which is called

@@ -77,7 +77,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         Values of the cells of a boundary matrix, or of the vertices of a mesh or of simplices.
     nan : {"error", "drop"}
         What a NaN means: an error; or points are left out, pairs never joined, voxels absent.
-        Points of PCD, PLY and XYZ with a NaN coordinate are always left out.
+        Points of PCD, PLY, XYZ and PTS with a NaN coordinate are always left out.
     columns : sequence of str, optional
         Of tables: names, "3", or "2-5".
     array : {"auto", "rips", "image", "points", "distances"}

@@ -83,10 +83,11 @@ void add_complex_options(CLI::App& app, Arguments& a) {
   for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
   add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
             [&a](const std::string& text) { take_complex(a, text); });
-  add_value(app, "--threshold,--max-scale", "T",
-            "largest filtration value, in units of the input (default for rips: the enclosing "
-            "radius; else none)",
-            [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); });
+  add_value(
+      app, "--threshold,--max-scale", "T",
+      "largest filtration value, in units of the input (default for rips: the enclosing "
+      "radius, but none for sparse distances, --max-dim 0 and engine beta-skeleton; else none)",
+      [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); });
   add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
             "distance of points (default euclidean)",
             [&a](const std::string& text) { take_metric(a, text); });

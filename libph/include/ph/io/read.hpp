@@ -282,7 +282,7 @@ const FormatInfo& format_info(Format format);
 /// The format of a name of --format ("lower-distance").
 std::optional<Format> format_from_name(std::string_view name);
 
-/// Decides by content first (magic numbers, shape of the first lines), then by extension. Never
+/// Decides by magic numbers, then by extension, then by the shape of the first lines. Never
 /// returns Format::automatic; text of numbers without more evidence is `points`. Reads no options:
 /// see read_any for text that they tell more about.
 Format detect_format(const Input& input);
