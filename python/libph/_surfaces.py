@@ -95,7 +95,7 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     Parameters
     ----------
     X : array_like
-        Points of R^2 or R^3, one a row.
+        Points of R^1, R^2 or R^3, one a row.
     value : float
         The radius, or its square if `squared`.
     wrap : bool

@@ -147,9 +147,9 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     construction, superlevel, periodic, threshold, nan, slab_layers
         As of `cubical`. All parts need the same.
     max_dim, min_dim : int, optional
-        As of `cubical`. Volumes have ``max_dim=0``, or, if no axis closes up, ``min_dim=2``, unless
-        `loops` is true: loops need all layers at once. Images of more axes have ``max_dim=0`` or
-        ``min_dim=d - 1``, where d is the number of their axes.
+        As of `cubical`. Images of d axes, three or more, have ``max_dim=0`` or, if no axis closes
+        up, ``min_dim=d - 1``: what lies between needs all layers at once. Volumes have all of it if
+        `loops` is true.
     cells : bool
         Whether bars know the cells of their birth and death.
     loops : bool
