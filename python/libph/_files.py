@@ -104,6 +104,13 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     ndarray, coo_array, Simplices, Boundary or Mesh
         Points (n, d); distances (n, n); an image; sparse distances.
     """
+    return _answer(found_by(**locals()))
+
+
+def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array: Any,
+             symmetrise: Any, from_correlation: Any, diagonal: Any, channel: Any, raw_shape: Any,
+             raw_dtype: Any, raw_skip: Any, run: Any) -> dict[str, Any]:
+    """What `_core.read` finds by the arguments of `read`."""
     _run.check_names("read", dict(run), read)
     name = "auto" if format is None else _options.choice("format", format, _core.format_names())
     try:
@@ -149,7 +156,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     _LOG.info("%s: %s", os.fspath(path), found["description"])
     for note in found["notes"]:
         _LOG.info("%s: %s", os.fspath(path), _as_keywords(note))
-    return _answer(found)
+    return found
 
 
 def _is_barcode(path: bytes) -> bool:

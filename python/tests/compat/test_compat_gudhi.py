@@ -35,6 +35,11 @@ def test_a_tree():
     assert tree.persistence_intervals_in_dimension(2).shape == (0, 2)
     assert tree.persistence(min_persistence=0.5) == [(0, (0, INF))] + 3 * [(0, (0, 1))]
     assert len(tree.persistence(min_persistence=-1)) > 5
+    assert tree.compute_persistence() is tree and not tree.is_empty()
+    other = tree.copy()
+    assert not other._is_persistence_defined()
+    assert other.compute_persistence(2).betti_numbers() == [1, 0]
+    assert gudhi.RipsComplex().create_simplex_tree().is_empty()
 
 
 def test_the_dimension_of_the_complex():
@@ -88,9 +93,10 @@ def test_distance_to_measure(rng, q):
         tree = gudhi.DTMRipsComplex(**data, k=4, q=q).create_simplex_tree(2)
         for (dim, bar), (other, its) in zip(tree.persistence(), expected.persistence()):
             assert dim == other and np.allclose(bar, its)
-    plain = gudhi.DTMRipsComplex(points=points).create_simplex_tree(2)
-    unweighted = gudhi.RipsComplex(points=points).create_simplex_tree(2)
-    assert plain.persistence() == unweighted.persistence()
+    unweighted = gudhi.RipsComplex(points=points).create_simplex_tree(2).persistence()
+    for k in (-1, 0, 1):
+        plain = gudhi.DTMRipsComplex(points=points, k=k).create_simplex_tree(2)
+        assert plain.persistence() == unweighted
     assert gudhi.DTMRipsComplex().create_simplex_tree(1).persistence() == []
 
 
@@ -194,12 +200,21 @@ def test_a_sparse_complex_keeps_its_promise(rng):
 def test_what_is_elsewhere():
     tree = gudhi.RipsComplex(points=SQUARE).create_simplex_tree(1)
     rough = gudhi.RipsComplex(points=SQUARE, sparse=0.5).create_simplex_tree(1)
-    for call in (lambda: gudhi.AlphaComplex(points=SQUARE), gudhi.SimplexTree, tree.get_filtration,
+    for call in (lambda: gudhi.AlphaComplex(points=SQUARE), gudhi.SimplexTree,
                  lambda: tree.insert([0, 1]),
                  lambda: wasserstein.wasserstein_distance([], [], enable_autodiff=True),
                  lambda: rough.persistence(persistence_dim_max=True)):
         with pytest.raises(ph.NotBuiltIn, match="GUDHI"):
             call()
+    for name in ("get_filtration", "euler_characteristic", "num_simplices_by_dimension", "clear"):
+        with pytest.raises(ph.NotBuiltIn, match=f"^{name}: "):
+            getattr(tree, name)()
+    for name in ("write_points_to_off_file", "pick_n_random_points", "sparsify_point_set"):
+        with pytest.raises(ph.NotBuiltIn, match=f"^{name}: "):
+            getattr(gudhi, name)(points=SQUARE)
+    with pytest.raises(ph.NotBuiltIn, match="ph.farthest_points tells which points"):
+        gudhi.choose_n_farthest_points(points=SQUARE, nb_points=2)
+    gudhi.random.set_seed(1)
     with pytest.raises(AttributeError):
         gudhi.nothing
     with pytest.raises(AttributeError):
@@ -220,7 +235,7 @@ def test_errors(options, text):
 def test_errors_name_arguments_of_gudhi():
     for call, text in (
             (lambda: gudhi.DTMRipsComplex(SQUARE, k=5), "k: found 5"),
-            (lambda: gudhi.DTMRipsComplex([], k=0), "k: found 0"),
+            (lambda: gudhi.DTMRipsComplex([], k=1.5), "k: found 1.5"),
             (lambda: gudhi.DTMRipsComplex(SQUARE, k=2, q=0), "q: found 0"),
             (lambda: gudhi.bottleneck_distance([], [], -1), "e: found -1"),
             (lambda: wasserstein.wasserstein_distance([], [], order=INF), "order: found inf"),
@@ -257,7 +272,11 @@ def test_images():
                                          periodic_dimensions=[True, True])
     assert [b for b in torus.persistence()] == [
         (2, (8, INF)), (1, (2, INF)), (1, (6, INF)), (0, (0, INF))]
-    assert torus.betti_numbers() == [1, 2, 1]
+    assert torus.betti_numbers() == [1, 2, 1] and torus.compute_persistence() is None
+    for options in ((None, np.arange(9).reshape(3, 3), None, [True, False]),
+                    ([3, 3], np.arange(9).reshape(3, 3).T.ravel(), None, [True, False])):
+        cylinder = gudhi.PeriodicCubicalComplex(*options)
+        assert cylinder.persistence() == [(1, (6, INF)), (0, (0, INF))]
 
 
 def test_places_have_the_values(rng):
@@ -306,8 +325,17 @@ def test_a_file_of_perseus(tmp_path):
     path.write_text("2\n3\n3\n0\n0\n0\n0\n100\n0\n0\n0\n0\n")
     image = gudhi.CubicalComplex(perseus_file=str(path))
     assert image.persistence() == [(1, (0, 100)), (0, (0, INF))]
+    assert gudhi.PeriodicCubicalComplex(perseus_file=path).persistence() == image.persistence()
     with pytest.raises(RuntimeError, match="nowhere"):
         gudhi.CubicalComplex(perseus_file="nowhere")
+    path.write_text("2\n-3\n3\n0\n0\n0\n0\n100\n0\n0\n0\n0\n")
+    image = gudhi.PeriodicCubicalComplex(perseus_file=str(path))
+    assert image.persistence() == [(1, (0, INF)), (1, (0, 100)), (0, (0, INF))]
+    assert image.all_cells().shape == (6, 7)
+    with pytest.raises(ValueError, match="expected a PeriodicCubicalComplex"):
+        gudhi.CubicalComplex(perseus_file=path)
+    with pytest.raises(ValueError, match="periodic_dimensions: found .* beside perseus_file"):
+        gudhi.PeriodicCubicalComplex(perseus_file=path, periodic_dimensions=[True, False])
 
 
 @pytest.mark.parametrize("options", [

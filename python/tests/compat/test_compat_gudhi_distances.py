@@ -38,7 +38,12 @@ def test_wasserstein():
     distance, pairs = wasserstein.wasserstein_distance(a, b, matching=True)
     assert distance == wasserstein.wasserstein_distance(a, b) == ph.wasserstein(a, b)
     assert pairs.tolist() == [[0, 0], [1, 1], [2, -1]]
+    for other, rows in ((b, pairs), ([], [[0, -1], [1, -1], [2, -1]])):
+        distance, found = gudhi.hera.wasserstein_distance(a, other, matching=True)
+        assert distance == gudhi.hera.wasserstein_distance(a, other, 1, INF, 0.1, False)
+        assert found.dtype == np.int32 and np.array_equal(found, rows)
     more = np.vstack([[[1.0, INF]], a])
+    assert gudhi.hera.wasserstein_distance(more, b, matching=True) == (INF, None)
     assert wasserstein.wasserstein_distance(more, b, matching=True) == (INF, None)
     distance, pairs = wasserstein.wasserstein_distance(more, b, matching=True,
                                                        keep_essential_parts=False)

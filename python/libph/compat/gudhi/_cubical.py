@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ... import _arrays, _options
 from ..._compute import cubical
 from ..._errors import MissingInputError, UsageError
-from ..._files import read
+from ..._files import found_by, read
 from .._images import deciding_voxels
 from ._persistence import Persistence, _OrderError
 
@@ -40,10 +40,13 @@ class CubicalComplex(Persistence):
                  vertices: ArrayLike | None = None, dimensions: Sequence[int] | None = None,
                  perseus_file: str | os.PathLike[str] = "") -> None:
         super().__init__()
-        self._read(top_dimensional_cells, vertices, dimensions, perseus_file)
+        if self._read(top_dimensional_cells, vertices, dimensions, perseus_file):
+            raise UsageError("perseus_file: found axes that close up, expected a "
+                             "PeriodicCubicalComplex for them")
         self._periodic: tuple[bool, ...] = (False,) * self._image.ndim
 
-    def _read(self, cells: Any, vertices: Any, dimensions: Any, perseus_file: Any) -> None:
+    def _read(self, cells: Any, vertices: Any, dimensions: Any, perseus_file: Any) -> list[bool]:
+        """Takes the values; which axes close up, if a file says that any does."""
         given = [name for name, value in (("top_dimensional_cells", cells), ("vertices", vertices),
                                           ("perseus_file", perseus_file or None))
                  if value is not None]
@@ -56,10 +59,12 @@ class CubicalComplex(Persistence):
         self._every: NDArray[Any] | None = None
         if perseus_file:
             try:
-                self._image = np.asarray(read(perseus_file, "perseus"))
+                found = found_by(**_options.arguments_of(read, perseus_file,
+                                                         {"format": "perseus"}))
             except MissingInputError as error:
                 raise _FileError(str(error)) from None
-            return
+            self._image = np.asarray(found["image"])
+            return list(found["periodic"])
         array = _arrays.as_image(vertices if self._is_vertices else cells, given[0])
         if dimensions is not None:
             extents = tuple(_options.whole("dimensions", n, 0) for n in dimensions)
@@ -68,6 +73,7 @@ class CubicalComplex(Persistence):
                                  f"{array.shape}, expected extents for a flat array")
             array = array.reshape(extents, order="F")
         self._image = array
+        return []
 
     # ---- values
 
@@ -159,21 +165,30 @@ class PeriodicCubicalComplex(CubicalComplex):
 
     Parameters
     ----------
-    top_dimensional_cells, vertices, dimensions, perseus_file
-        As of `CubicalComplex`; a file of Perseus is taken as it is, its axes do not close up.
+    dimensions, top_dimensional_cells, vertices
+        As of `CubicalComplex`.
     periodic_dimensions : sequence of bool
-        Which axes close up on themselves.
+        Which axes close up on themselves; not with a file.
+    perseus_file : path, optional
+        A file of Perseus, of the values of cubes. Axes whose extents are below 0 close up.
     """
 
-    def __init__(self, *, top_dimensional_cells: ArrayLike | None = None,
-                 vertices: ArrayLike | None = None, dimensions: Sequence[int] | None = None,
+    def __init__(self, dimensions: Sequence[int] | None = None,
+                 top_dimensional_cells: ArrayLike | None = None,
+                 vertices: ArrayLike | None = None,
                  periodic_dimensions: Sequence[bool] | None = None,
                  perseus_file: str | os.PathLike[str] = "") -> None:
         Persistence.__init__(self)
-        self._read(top_dimensional_cells, vertices, dimensions, perseus_file)
-        if periodic_dimensions is None or len(periodic_dimensions) != self._image.ndim:
-            raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected "
-                             f"{self._image.ndim} bools")
+        closed = self._read(top_dimensional_cells, vertices, dimensions, perseus_file)
+        axes = self._image.ndim
+        if perseus_file:
+            if periodic_dimensions is not None:
+                raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected none "
+                                 "beside perseus_file, which says it by extents below 0")
+            periodic_dimensions = closed or [False] * axes
+        if periodic_dimensions is None or len(periodic_dimensions) != axes:
+            raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected {axes} "
+                             "bools")
         self._periodic = tuple(map(bool, periodic_dimensions))
 
 

@@ -15,15 +15,16 @@ from .. import _flag, _weights
 from ._persistence import Persistence
 
 _TREE_METHODS = {
-    "assign_filtration", "assign_key", "collapse_edges", "compute_extended_filtration",
-    "create_from_array", "dimension", "eccentricity", "edge_collapse", "expansion",
-    "expansion_with_blocker", "extended_persistence", "extend_filtration", "filtration", "find",
-    "get_boundaries", "get_cofaces", "get_filtration", "get_simplices", "get_skeleton", "get_star",
-    "initialize_filtration", "insert", "insert_batch", "insert_edges_from_coo_matrix",
-    "lower_star_persistence_generators", "make_filtration_non_decreasing", "num_simplices",
+    "assign_filtration", "assign_key", "clear", "collapse_edges", "compute_extended_filtration",
+    "create_from_array", "dimension", "eccentricity", "edge_collapse", "euler_characteristic",
+    "expansion", "expansion_with_blocker", "extend_filtration", "extended_persistence",
+    "filtration", "find", "get_boundaries", "get_cofaces", "get_filtration", "get_simplices",
+    "get_skeleton", "get_star", "initialize_filtration", "insert", "insert_batch",
+    "insert_edges_from_coo_matrix", "lower_star_persistence_generators",
+    "make_filtration_non_decreasing", "num_simplices", "num_simplices_by_dimension",
     "persistence_pairs", "prune_above_dimension", "prune_above_filtration",
-    "remove_maximal_simplex", "reset_filtration", "set_dimension",
-    "upper_bound_dimension", "write_persistence_diagram"}
+    "remove_maximal_simplex", "reset_filtration", "set_dimension", "upper_bound_dimension",
+    "write_persistence_diagram"}
 
 
 class FlagTree(Persistence):
@@ -57,9 +58,17 @@ class FlagTree(Persistence):
             return len(self._data)
         return int(np.count_nonzero(births <= (np.inf if limit is None else limit)))
 
+    def is_empty(self) -> bool:
+        """Whether no point enters."""
+        return self.num_vertices() == 0
+
+    def copy(self) -> FlagTree:
+        """The same complex, without its bars."""
+        return FlagTree(self._data, self._options, self._dimension)
+
     def compute_persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0,
-                            persistence_dim_max: bool = False) -> None:
-        """Computes bars of the dimensions below that of the complex.
+                            persistence_dim_max: bool = False) -> FlagTree:
+        """Computes bars of the dimensions below that of the complex, and returns itself.
 
         Parameters
         ----------
@@ -86,6 +95,7 @@ class FlagTree(Persistence):
                        min_persistence=min_persistence, **options)
         self._keep(barcode, self._dimension + (above is not None), above)
         self._creators = creators
+        return self
 
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0,
                     persistence_dim_max: bool = False) -> list[tuple[int, tuple[float, float]]]:
@@ -241,7 +251,7 @@ class DTMRipsComplex(WeightedRipsComplex):
     points, distance_matrix : array_like
         As of `RipsComplex`.
     k : int
-        How many neighbours, the point among them.
+        How many neighbours, the point among them; up to 1 there are no weights.
     q : float
         The exponent of the mean of their distances.
     max_filtration : float
@@ -255,7 +265,7 @@ class DTMRipsComplex(WeightedRipsComplex):
                                         "max_filtration", max_filtration)
         q = _options.positive("q", q)
         count = len(self._data)
-        if _options.whole("k", k, 1, count or 2**63 - 1) == 1 or count == 0:
+        if _options.whole("k", k, -2**63, count or 2**63 - 1) <= 1 or count == 0:
             return
         self._rips["weight_exponent"] = 1
         if q == 2:

@@ -2,7 +2,10 @@
 """GUDHI's module hera: its distances of diagrams, exact."""
 from __future__ import annotations
 
+import math
 from typing import Any
+
+import numpy as np
 
 from ... import _arrays, _distances, _options
 from ..._errors import UsageError
@@ -40,7 +43,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
 
 
 def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float = float("inf"),
-                         delta: float = 0.01) -> float:
+                         delta: float = 0.01, matching: bool = False) -> Any:
     """The Wasserstein distance of two diagrams.
 
     Parameters
@@ -53,10 +56,14 @@ def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float =
         The norm in which a pair is apart, at least 1.
     delta : float
         The relative error that is allowed; there is none.
+    matching : bool
+        Whether the matching is returned, too.
 
     Returns
     -------
-    float
+    float or (float, ndarray)
+        Rows of the matching: place in `X`, place in `Y`; -1 is the diagonal. None in its place if
+        the distance is infinite.
 
     Raises
     ------
@@ -65,8 +72,10 @@ def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float =
     """
     _options.real("delta", delta, "a number of at least 0", 0)
     _check_width(X, Y)
-    distance: float = _distances.wasserstein(X, Y, order=order, ground=internal_p)
-    return distance
+    if not _options.flag("matching", matching):
+        return _distances.wasserstein(X, Y, order=order, ground=internal_p)
+    found = _distances.wasserstein_matching(X, Y, order=order, ground=internal_p)
+    return found.distance, (None if math.isinf(found.distance) else found.pairs.astype(np.int32))
 
 
 def _check_width(X: Any, Y: Any) -> None:
