@@ -16,15 +16,24 @@ from .._errors import UsageError
 
 __all__ = ["install"]
 
-# What each brings along.
-_MODULES = {
-    "ripser": (),
-    "gph": ("gph.modules", "gph.modules.gph_ripser", "gph.modules.gph_collapser"),
-    "cripser": ("tcripser",),
-    "gudhi": ("gudhi.hera", "gudhi.wasserstein", "gudhi.sklearn", "gudhi.flag_filtration",
-              "gudhi.flag_filtration.edge_collapse", "gudhi.dtm_rips_complex",
-              "gudhi.weighted_rips_complex"),
-    "persim": (),
+# What each brings along, and in which of our modules it is, if no file of ours has the name.
+_MODULES: dict[str, dict[str, str]] = {
+    "ripser": {"ripser.ripser": "ripser"},
+    "gph": {"gph.modules": "", "gph.modules.gph_collapser": "", "gph.modules.gph_ripser": "",
+            "gph.modules.gph_ripser_coeff": "gph.modules.gph_ripser", "gph.python": "gph",
+            "gph.python.ripser_interface": "gph"},
+    "cripser": {"tcripser": "", "cripser.tcripser": "tcripser", "cripser.utils": "cripser"},
+    "gudhi": {
+        "gudhi.hera": "", "gudhi.random": "", "gudhi.sklearn": "", "gudhi.wasserstein": "",
+        "gudhi.flag_filtration": "", "gudhi.flag_filtration.edge_collapse": "",
+        "gudhi.wasserstein.wasserstein": "gudhi.wasserstein",
+        **dict.fromkeys(["gudhi.sklearn.cubical_persistence", "gudhi.sklearn.rips_persistence"],
+                        "gudhi.sklearn"),
+        **dict.fromkeys(["gudhi.bottleneck", "gudhi.cubical_complex", "gudhi.dtm_rips_complex",
+                         "gudhi.periodic_cubical_complex", "gudhi.rips_complex",
+                         "gudhi.simplex_tree", "gudhi.weighted_rips_complex"], "gudhi")},
+    "persim": dict.fromkeys(["persim.bottleneck", "persim.visuals", "persim.wasserstein"],
+                            "persim"),
 }
 _DROP_INS = sorted([*_MODULES, "tcripser"])
 
@@ -50,16 +59,16 @@ def install(*names: str) -> None:
     >>> ripser.__name__
     'libph.compat.ripser'
     """
-    chosen = []
+    chosen: dict[str, str] = {}
     for name in names:
         _options.choice("install", name, _MODULES)
-        chosen += [name, *_MODULES[name]]
+        chosen |= {name: "", **_MODULES[name]}
     ours = {}
-    for name in chosen:
+    for name, place in chosen.items():
         try:
-            ours[name] = importlib.import_module(f"{__name__}.{name}")
-        except ImportError:  # gudhi.sklearn, without scikit-learn
-            if name != "gudhi.sklearn":
+            ours[name] = importlib.import_module(f"{__name__}.{place or name}")
+        except ImportError:  # without scikit-learn
+            if not name.startswith("gudhi.sklearn"):
                 raise
     for name, module in ours.items():
         there = sys.modules.get(name)
@@ -67,6 +76,10 @@ def install(*names: str) -> None:
             raise UsageError(f"install: {name} is imported already, from "
                              f"{getattr(there, '__file__', 'elsewhere')}; install it before that")
     sys.modules.update(ours)
+    for name, module in ours.items():
+        package, _, own = name.rpartition(".")
+        if package and not hasattr(ours[package], own):  # persim.bottleneck is the function
+            setattr(ours[package], own, module)
 
 
 if not TYPE_CHECKING:  # for a type checker a name that is missing is an error

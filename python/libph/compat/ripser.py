@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from .._run import RunOptions
     from ._ripser_class import Rips
 
-__all__ = ["Rips", "__version__", "correlation_to_distance", "lower_star_img", "plot_dgms",
-           "ripser"]
+__all__ = ["Rips", "__version__", "correlation_to_distance", "get_greedy_perm", "lower_star_img",
+           "plot_dgms", "ripser"]
 
 
 def __getattr__(name: str) -> Any:
@@ -96,8 +96,8 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     covering: Any = 0.0
     distances: Any
     if n_perm and n_perm < X.shape[0]:
-        points, covering, to_all = _farthest_points(X, n_perm, distance_matrix, metric)
-        distances = to_all[:, points]
+        points, radii, to_all = get_greedy_perm(X, n_perm, distance_matrix, metric)
+        covering, distances = radii[-1], to_all[:, points]
     else:
         distances = to_all = X if distance_matrix else _pairwise(X, metric)
     if _arrays.is_sparse(distances):
@@ -149,27 +149,43 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
     return np.asarray(pairwise_distances(X, *others, metric=metric))
 
 
-def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
-                     ) -> tuple[NDArray[np.int64], Any, NDArray[Any]]:
-    """Points, their covering radius, and the distances of each to all."""
-    if is_distances:
+def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = False,
+                    metric: Any = "euclidean"
+                    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[Any]]:
+    """Points of which each is the farthest from those before; the first is point 0.
+
+    Parameters
+    ----------
+    X, distance_matrix, metric
+        As of `ripser`; no sparse matrix.
+    n_perm : int, optional
+        How many. Default: all.
+
+    Returns
+    -------
+    tuple of ndarray
+        The points; of each the radius in which it and those before cover all; its distances to all.
+    """
+    if distance_matrix or not hasattr(X, "shape"):
         X = _arrays.as_array(X, "X")
+    count = _options.whole("n_perm", n_perm or X.shape[0], 0, X.shape[0])
 
     def row(i: int) -> NDArray[Any]:
-        if is_distances:
+        if distance_matrix:
             return np.asarray(X[i])
         distances = _pairwise(X, metric, X[i:i + 1]).ravel()
         distances[i] = 0
         return distances
 
-    points = np.zeros(count, dtype=np.int64)
-    to_all = [row(0)]
-    nearest = to_all[0]
-    for k in range(1, count):
+    points, radii = np.zeros(count, dtype=np.int64), np.zeros(count)
+    to_all = []
+    nearest: Any = np.inf
+    for k in range(count):
         points[k] = np.argmax(nearest)
         to_all.append(row(int(points[k])))
         nearest = np.minimum(nearest, to_all[-1])
-    return points, np.float64(nearest.max()), np.array(to_all)
+        radii[k] = nearest.max()
+    return points, radii, np.array(to_all)
 
 
 def _cocycle(bars: _flag.Bars, place: Any, p: int, points: NDArray[np.int64]) -> NDArray[np.int64]:

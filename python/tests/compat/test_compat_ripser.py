@@ -13,7 +13,7 @@ from scipy.spatial.distance import pdist, squareform
 
 import libph as ph
 from libph.compat import ripser as module
-from libph.compat.ripser import correlation_to_distance, lower_star_img, ripser
+from libph.compat.ripser import correlation_to_distance, get_greedy_perm, lower_star_img, ripser
 from reference import INF, Flag, random_distances, same, single, sorted_rows
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 1.0]])
@@ -134,6 +134,10 @@ def test_n_perm(rng):
         assert np.isclose(found["r_cover"], distances[chosen].min(axis=0).max())
         assert type(found["r_cover"]) is np.float64
         assert found["dperm2all"].shape == (12, 40)
+        every, radii, to_all = get_greedy_perm(data, **options)
+        assert every[:12].tolist() == chosen and len(set(every)) == 40
+        assert radii.shape == (40,) and radii[11] == found["r_cover"] and radii[-1] == 0
+        assert np.array_equal(to_all[:12], found["dperm2all"])
         part = of_matrix(distances[np.ix_(chosen, chosen)])
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)

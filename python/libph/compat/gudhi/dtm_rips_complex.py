@@ -1,5 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""Where GUDHI has its class of this name."""
-from ._trees import DTMRipsComplex
-
-__all__ = ["DTMRipsComplex"]
