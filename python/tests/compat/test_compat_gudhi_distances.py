@@ -105,13 +105,19 @@ def test_classes_for_scikit_learn(rng):
                 assert np.allclose(sorted_rows(dgms[dim]), bars.dgm(dim))
         single = RipsPersistence(1, input_type=kind, num_collapses=1).fit(data).transform(data)
         assert [np.allclose(a, b[1]) for a, b in zip(single, found)] == [True, True]
+    circle = np.exp(2j * np.pi * np.arange(20) / 20)
+    circles = np.concatenate([0.3 * circle, circle + 9]).view(float).reshape(-1, 2)
+    h0, h1 = RipsPersistence([0, 1], threshold=0.9).fit([circles], Y=None).transform(
+        [circles], Y=None)[0]
+    assert np.isinf(h1[:, 1]).tolist() == [True, False] and h1[0, 0] > h1[1, 0]
+    assert (h0[:-1, 1] <= h0[1:, 1]).all()
     short = RipsPersistence(0, threshold=0.1).fit_transform(clouds)[0]
     assert np.isinf(short[:, 1]).sum() > 1
     images = [rng.integers(0, 5, (6, 6)), rng.random((5, 4)).astype(np.float32)]
     for kind, construction in (("vertices", "vertices"), ("top_dimensional_cells", "cells")):
         estimator = CubicalPersistence([0, 1], input_type=kind, min_persistence=0.1)
         found = estimator.fit_transform(images)
-        assert [dgms[0].dtype for dgms in found] == [np.float64, np.float32]
+        assert [dgms[0].dtype for dgms in found] == [np.float64, np.float64]
         for dgms, image in zip(found, images):
             bars = ph.cubical(image, construction=construction, field=11, min_persistence=0.1)
             assert all((d[:-1, 1] <= d[1:, 1]).all() for d in dgms)

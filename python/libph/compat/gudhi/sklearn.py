@@ -15,6 +15,7 @@ from ..._barcodes import Barcode
 from ..._batch import computed
 from ..._compute import cubical, rips
 from ..._errors import UsageError
+from .._flag import ordered
 
 __all__ = ["CubicalPersistence", "RipsPersistence"]
 
@@ -30,20 +31,18 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     n_jobs: int | None
     _function: Callable[..., Barcode]
 
-    def fit(self, X: Any, y: Any = None) -> Any:
-        """Looks at the parameters; there is nothing to learn."""
+    def fit(self, X: Any, y: Any = None, Y: Any = None) -> Any:
+        """Looks at the parameters; there is nothing to learn. `Y` is GUDHI's name for `y`."""
         self._dims()
         return self
 
-    def transform(self, X: Any, y: Any = None) -> list[Any]:
+    def transform(self, X: Any, y: Any = None, Y: Any = None) -> list[Any]:
         """The diagrams of each sample: one, or a list if `homology_dimensions` is a list."""
         dims = self._dims()
-        inputs = [self._input(x) for x in X]
-        bars = computed(self._function, inputs, {
+        bars = computed(self._function, [self._input(x) for x in X], {
             **self._keywords(), "max_dim": max(dims), "field": self.homology_coeff_field,
             "threads": effective_n_jobs(self.n_jobs)}, "sample")
-        found: list[Any] = [[_by_death(b.dgm(dim)).astype(self._type(x), copy=False) for dim in dims]
-                            for b, x in zip(bars, inputs)]
+        found: list[Any] = [[self._in_order(b.dgm(dim), dim) for dim in dims] for b in bars]
         return [dgms[0] for dgms in found] if np.ndim(self.homology_dimensions) == 0 else found
 
     def _dims(self) -> list[int]:
@@ -60,18 +59,13 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     def _keywords(self) -> dict[str, Any]:
         raise NotImplementedError
 
-    def _type(self, x: Any) -> Any:
-        """Of the numbers of its diagrams."""
-        return np.float64
+    def _in_order(self, dgm: NDArray[np.float64], dim: int) -> NDArray[np.float64]:
+        """The bars of a dimension, in Ripser's order."""
+        return np.asarray(dgm[ordered(dgm, dim)])
 
     def get_feature_names_out(self, input_features: Any = None) -> list[str]:
         """Names of columns: H0, H1, ..."""
         return [f"H{dim}" for dim in self._dims()]
-
-
-def _by_death(dgm: NDArray[np.float64]) -> NDArray[np.float64]:
-    ordered: NDArray[np.float64] = dgm[np.lexsort((dgm[:, 0], dgm[:, 1]))]
-    return ordered
 
 
 class RipsPersistence(_DiagramsOfEach):
@@ -171,5 +165,6 @@ class CubicalPersistence(_DiagramsOfEach):
         return {"construction": "vertices" if kind == "vertices" else "cells", "cells": False,
                 "min_persistence": self.min_persistence}
 
-    def _type(self, x: Any) -> Any:
-        return np.float32 if x.dtype == np.float32 else np.float64
+    def _in_order(self, dgm: NDArray[np.float64], dim: int) -> NDArray[np.float64]:
+        """By death."""
+        return super()._in_order(dgm, 0)
