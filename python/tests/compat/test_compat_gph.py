@@ -41,6 +41,20 @@ def test_bars(rng, collapse, p):
         assert same(exact["dgms"], Flag(distances, limit=thresh).bars(2, p))
 
 
+def test_the_threshold_is_of_single_precision_where_distances_are():
+    pair = np.array([[0, 0.1], [0.1, 0]])
+    near = pair * (1 + 1e-12)
+    for matrix, joins in ((pair, True), (near, False), (pair.astype(SINGLE), True),
+                          (sparse.csr_matrix(pair.astype(SINGLE)), True),
+                          (sparse.csr_matrix(near), True), (pair + pair, False)):
+        found = of_matrix(matrix, thresh=0.1)["dgms"][0]
+        assert found[:, 1].tolist() == [SINGLE(0.1) if joins else INF, INF]
+        assert np.array_equal(of_matrix(matrix, thresh=0.1, collapse_edges=True)["dgms"][0],
+                              found) == (joins or matrix is not near)
+    assert np.isfinite(ripser_parallel(pair[:1].T.astype(SINGLE), thresh=0.1)["dgms"][0][0, 1])
+    assert np.isinf(of_matrix(pair.astype(SINGLE), thresh=0.1, dtype=float)["dgms"][0][0, 1])
+
+
 def test_order(rng):
     distances = squareform(pdist(rng.random((70, 3))))
     for thresh in (INF, 0.35):

@@ -50,7 +50,8 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     maxdim : int
         The highest dimension of homology.
     thresh : float
-        The largest distance at which points are joined.
+        The largest distance at which points are joined. Doubles in a dense matrix are compared as
+        they are, other distances in single precision.
     coeff : int
         A prime.
     metric : str or callable
@@ -104,6 +105,8 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     distances = _distances(X, limit, metric, metric_params, nearest_neighbors_params,
                            None if n_threads == -1 else n_threads)
     births = None
+    if collapse_edges or _arrays.is_sparse(distances) or distances.dtype != np.float64:
+        limit = _flag.last_rounded_to(limit, kind)  # giotto-ph compares single precision
     if weights is not None:
         distances, births = weighted(distances, weights, weight_params or {})
     if _arrays.is_sparse(distances):
@@ -130,6 +133,7 @@ def _distances(X: Any, limit: float, metric: Any, metric_params: Mapping[str, An
             raise UsageError(f"X: found an array of shape {matrix.shape}, expected a square matrix")
         return matrix
     try:
+        from scipy.sparse import triu
         from sklearn.metrics import pairwise_distances
         from sklearn.neighbors import NearestNeighbors
     except ImportError:
@@ -140,7 +144,8 @@ def _distances(X: Any, limit: float, metric: Any, metric_params: Mapping[str, An
         return pairwise_distances(X, metric=metric, **metric_params)
     near = NearestNeighbors(radius=limit, metric=metric, metric_params=metric_params, n_jobs=jobs,
                             **neighbors_params).fit(X)
-    return near.radius_neighbors_graph(mode="distance")
+    # Of a pair that is as far apart as the limit, up to rounding, one point may find the other.
+    return triu(near.radius_neighbors_graph(mode="distance"))
 
 
 def _generators(flag: _flag.Flag, bars: _flag.Bars) -> tuple[Any, ...]:
