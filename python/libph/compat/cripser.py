@@ -47,8 +47,8 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
     top_dim : bool
         Whether the highest dimension alone is reported: the number of axes less one.
     embedded : bool
-        Whether the image is negated and surrounded by a layer of -inf. Its barcode is dual to that
-        of the other construction.
+        Whether the image is negated and surrounded by a layer of -inf, but not along a third or
+        fourth axis of extent 1. Its barcode is dual to that of the other construction.
     location : str
         Has no effect, as in cripser: both locations are always reported.
     **run
@@ -130,16 +130,20 @@ def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim
     lowest = axes - 1 if _options.flag("top_dim", top_dim) else 0
     if lowest:
         highest = lowest
+    margin = np.zeros(axes, dtype=int)
     if _options.flag("embedded", embedded):
-        image = np.pad(-_arrays.as_float64(image, "arr"), 1, constant_values=-np.inf)
+        # A third or fourth axis of extent 1 is none.
+        margin[[axis < 2 or n > 1 for axis, n in enumerate(image.shape)]] = 1
+        image = np.pad(-_arrays.as_float64(image, "arr"), np.column_stack([margin, margin]),
+                       constant_values=-np.inf)
     barcode = cubical(image, construction=construction, min_dim=lowest, max_dim=highest, **run)
-    tables = [_table(barcode, dim, image, construction == "vertices", 1 if embedded else 0)
+    tables = [_table(barcode, dim, image, construction == "vertices", margin)
               for dim in range(lowest, highest + 1)]
     return np.concatenate(tables)
 
 
-def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool, margin: int
-           ) -> NDArray[np.float64]:
+def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool,
+           margin: NDArray[np.int64]) -> NDArray[np.float64]:
     """The rows of a dimension."""
     dgm = barcode.dgm(dim)
     order = ordered(dgm, dim)

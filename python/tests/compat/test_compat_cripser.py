@@ -89,6 +89,17 @@ def test_the_layer_around_an_embedded_image():
     assert layer[1, 6:].tolist() == [0, 0, 0]
 
 
+def test_a_third_axis_of_one_voxel_is_no_axis_of_the_layer(rng):
+    for function in (cripser.computePH, tcripser.computePH):
+        for shape in ((3, 4), (1, 4), (4, 1)):
+            image = rng.random(shape)
+            rows = function(image, embedded=True)
+            assert np.array_equal(function(image[..., None], embedded=True), rows)
+            four = function(image[..., None, None], embedded=True)
+            assert np.array_equal(np.delete(four, (6, 10), axis=1), rows)
+        assert dgm_of(function(np.ones((1, 3, 4)), embedded=True), 2).size
+
+
 def test_dimensions(rng):
     image = rng.random((6, 6, 6))
     full = cripser.computePH(image, maxdim=9)
