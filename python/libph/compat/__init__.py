@@ -44,7 +44,8 @@ def install(*names: str) -> None:
     Parameters
     ----------
     *names : str
-        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim".
+        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim"; with the names of modules
+        in them, as ripser.ripser and gudhi.rips_complex.
 
     Raises
     ------
