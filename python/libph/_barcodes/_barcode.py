@@ -57,8 +57,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     Attributes
     ----------
     meta : Mapping
-        Where it comes from: `complex`, `field`, `max_dim`, `engine`, `threshold` where there is one,
-        and what else is known, as the number of `points` or the `shape` of the image.
+        Where it comes from: `complex`, `field`, `max_dim`, `engine`, the `threshold` if there is
+        one, and what else is known, as the number of `points` or the `shape` of the image.
 
     Examples
     --------

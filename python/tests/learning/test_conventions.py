@@ -187,7 +187,7 @@ def gauss_sum(a, b, weights_a, weights_b, bandwidth):
 
 
 def test_scale_space_kernel_of_gudhi(dgm):
-    """Half the sum over each diagram with its mirror image, which counts -1: sigma = bandwidth² / 4,
+    """Half of the sum; each diagram with its mirror image, which counts -1: sigma = bandwidth² / 4,
     and a factor."""
     other = dgm[::2] + [0.03, 0.08]
     bandwidth = 0.7
