@@ -30,16 +30,17 @@ function elsewhere({ meta, arrays }, valueOf) {
 const unreachable = (page) =>
   page.evaluate(() => {
     const bad = [];
-    for (const panel of document.querySelectorAll(".panel, .top"))
+    for (const panel of document.querySelectorAll(".panel, .top")) {
+      panel.scrollIntoView({ block: "start" }); // not the control: that could move it within its panel
       for (const control of panel.querySelectorAll("header button, header select, header input, nav > *")) {
         if (!control.checkVisibility() || control.closest("dialog, .items")) continue;
-        control.scrollIntoView({ block: "center" });
         const box = control.getBoundingClientRect(),
           around = panel.getBoundingClientRect();
         const at = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
         const isIn = box.left >= around.left && box.right <= around.right && box.right <= innerWidth;
         if (!isIn || !control.contains(at)) bad.push(`${panel.className}: ${control.textContent}`);
       }
+    }
     return bad;
   });
 
