@@ -173,7 +173,8 @@ Cloud read_cloud(const std::filesystem::path& path);
 /// `label` that is there already becomes `label_in`.
 /// @param labels one a point. @throws Error (usage) if their number is not that of the points.
 Cloud with_labels(const Cloud& cloud, std::span<const std::uint32_t> labels);
-/// Writes `with_labels` to a .pcd or .ply file.
+/// Writes `with_labels` to a .pcd or .ply file, with the names and types that PCL and Open3D read:
+/// docs/reference/formats.md, "Segmented clouds".
 void write_cloud(const std::filesystem::path& path, const Cloud& cloud,
                  std::span<const std::uint32_t> labels);
 
