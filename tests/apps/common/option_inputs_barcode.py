@@ -198,7 +198,7 @@ def inputs(Input, program):
         return option_inputs.Row
 
     add("points", ["p.csv"], {"p.csv": text(points)}, nan=text(with_nan), empty=b"# none\n")
-    add("points.gz", ["p.txt.gz"], {"p.txt.gz": gzip.compress(text(points))},
+    add("points.gz", ["packed.txt"], {"packed.txt": gzip.compress(text(points))},
         nan=gzip.compress(text(with_nan)))
     add("XYZ", ["p.xyz"], {"p.xyz": text((*p, 0.0) for p in points)},
         rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
