@@ -11,7 +11,7 @@ namespace ph::barcode {
 
 inline constexpr app::Program kProgram{
     "ph-barcode",
-    "lower the threshold, the dimension (--max-dim) or the number of points, or raise "
+    "take fewer points or voxels, a lower threshold or dimension (--max-dim), or raise "
     "--memory-limit"};
 
 /// One input and where its barcode goes.
