@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "files/cloud_files.hpp"
 #include "data/arrays.hpp"
+#include "files/cloud_files.hpp"
 #include "files/label_files.hpp"
 #include "notes.hpp"
 #include "ph/detail/io/output_file.hpp"
