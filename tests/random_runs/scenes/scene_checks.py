@@ -372,6 +372,8 @@ class Check:
             name = "label_in" if name == "label" else name
             if content.startswith(b"# .PCD") and name in ("nx", "ny", "nz"):
                 name = f"normal_{name[1]}"
+            elif content.startswith(b"ply") and name in ("normal_x", "normal_y", "normal_z"):
+                name = f"n{name[7]}"
             require(name in found, f"no field {name}")
             values = oracle.as_floats(values) if single and name in "xyz" else values
             exact = np.array_equal(found[name].astype("f8"), values.astype("f8"), equal_nan=True)
