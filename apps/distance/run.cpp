@@ -57,11 +57,11 @@ class Run {
       session.note("--threads does nothing: the distance of two barcodes is found by one thread");
     require_separate();
     if (arguments.writes_table()) {
-      const std::string path = app::require_unpacked(arguments.output_path());
+      const std::string path = arguments.output_path();
+      table_.emplace(path);
       const bool is_said = arguments.output_format || barcode_format_of_path(path);
       if (!is_said && app::has_extension(path) && !path.ends_with(".txt"))
         session.note(app::no_format_in(path, "text"));
-      table_.emplace(path);
     }
     if (!arguments.matching.empty()) matching_.emplace(arguments.matching);
     if (!arguments.matrix.empty()) matrix_.emplace(arguments.matrix);

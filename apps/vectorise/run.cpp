@@ -36,10 +36,9 @@ class Run {
     }
     files_ = files_of(arguments, fit_.kind);
     require_separate();
-    const std::string path = app::require_unpacked(arguments.output);
-    if (!arguments.names_format() && app::has_extension(path))
-      session.note(app::no_format_in(path, "csv"));
     output_.emplace(arguments.output);
+    if (!arguments.names_format() && app::has_extension(arguments.output))
+      session.note(app::no_format_in(arguments.output, "csv"));
     if (!arguments.fit.empty()) fit_output_.emplace(arguments.fit);
   }
 

@@ -61,6 +61,8 @@ class Terms {
     is_narrowed_ = is_pcd && is_near(cloud);
     if (is_pcd && cloud.find("rgba") == nullptr && cloud.find("rgb") == nullptr)
       colours_ = cloud.rgb();
+    const CloudField* const alpha = cloud.find("alpha");
+    if (colours_ && alpha != nullptr && is_part_of_colour(*alpha)) alpha_ = alpha;
     for (const CloudField& field : cloud.fields) take(field);
     if (colours_ && !has_colours_) add("rgba", FieldType::uint32, 1, nullptr);
   }
@@ -122,10 +124,8 @@ class Terms {
     if (names == kColours.end()) return false;
     const bool are_bytes = std::ranges::all_of(
         *names, [&](std::string_view name) { return cloud_.find(name)->type == FieldType::uint8; });
-    return are_bytes && (place_in(*names, field.name) || is_alpha(field));
+    return are_bytes && (place_in(*names, field.name) || field.name == "alpha");
   }
-
-  static bool is_alpha(const CloudField& field) { return field.name == "alpha"; }
 
   void put(std::size_t point, std::size_t k, std::byte* to) const {
     const CloudField* const source = sources_[k];
@@ -143,15 +143,15 @@ class Terms {
 
   /// Opaque unless the cloud says otherwise.
   std::uint32_t alpha(std::size_t point) const {
-    const CloudField* const field = cloud_.find("alpha");
-    if (field == nullptr || !is_part_of_colour(*field)) return 0xFF;
-    return static_cast<std::uint32_t>(cloud_.data[point * cloud_.stride + field->offset]);
+    if (alpha_ == nullptr) return 0xFF;
+    return static_cast<std::uint32_t>(cloud_.data[point * cloud_.stride + alpha_->offset]);
   }
 
   CloudFormat format_;
   const Cloud& cloud_;
   bool is_narrowed_ = false;                           // doubles become float32
   std::optional<std::vector<std::uint32_t>> colours_;  // to be packed
+  const CloudField* alpha_ = nullptr;                  // goes with them
   bool has_colours_ = false;                           // in fields_
   std::vector<CloudField> fields_;
   std::vector<const CloudField*> sources_;  // of each field; nullptr: colours_

@@ -131,6 +131,7 @@ export function selectionJson(session: Session): string {
   const { chains, meta } = report;
   const { input, complex, field, max_dim, threshold, filtration, engine, timings, peak_memory } =
     meta.provenance;
+  const isComputed = complex !== undefined && field !== undefined; // else the program says neither
   const selected = selectedOrShown(session);
   const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));
   return (
@@ -141,9 +142,9 @@ export function selectionJson(session: Session): string {
         program: meta.program,
         command: commandLine(session),
         input: { path: input?.path ?? "", description: input?.description ?? "" },
-        ...(complex && field !== undefined ? { complex, field, max_dim, threshold } : {}),
+        ...(isComputed ? { complex, field, max_dim, threshold } : {}),
         ...filtration,
-        engine,
+        ...(isComputed ? { engine } : {}),
         ...(allHaveChains ? { representatives: meta.barcodes[0]?.representatives } : {}),
         bars: selected.map((bar) => barJson(session, bar)),
         ...(cut && {
