@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/load.hpp"
 #include "barcode/memory/alternatives.hpp"
 #include "barcode/memory/estimate_text.hpp"
@@ -222,13 +223,15 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.field = arguments.options.field;
   info.max_dim = arguments.options.max_dim.value_or(planned.max_dim);
   info.threshold = built.threshold;
+  info.metric = built.metric;
   info.vertex_weights = built.vertex_weights;
   info.subsample = built.subsample;
   info.voxels = built.voxels;
   info.alpha = built.alpha;
-  if (const auto* cubical = std::get_if<Cubical>(&built.complex))
-    info.superlevel = cubical->cubical_image().superlevel;
+  if (built.cubical) describe(*built.cubical, info);
   info.approximation = arguments.rips.approximation;
+  info.min_persistence = arguments.options.min_persistence;
+  info.min_dim = arguments.options.min_dim;
   info.loops = loops_of_bars;
   info.p_values = p_values;
   info.engine = planned.engine.name();

@@ -15,7 +15,7 @@ from ._files import Boundary, Mesh, Simplices, path_of
 from ._options import arguments_of
 from ._requests import (ALPHA_VALUES, PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
-from ._results import description_of
+from ._results import description_of, origin_of
 
 if TYPE_CHECKING:
     from ._barcodes import Barcode
@@ -174,16 +174,12 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
 
 
 def _page(bars: Barcode, source: _Source | None, title: str) -> Report:
-    meta = {**bars.meta, "program": f"libph {_core.version}"}
-    described = description_of(meta)
-    meta.setdefault("input_description", described)
+    meta = origin_of(bars.meta)
     title = str(title) or " of ".join(filter(None, [str(meta.get("complex") or "barcode"),
-                                                    described]))
+                                                    description_of(meta)]))
     notes = []
-    weights = meta.get("weights")
-    if weights is not None:
-        notes.append(("Vertices enter late", weights if weights != "dtm"
-                      else f"dtm {meta.get('dtm_neighbors', '')}".strip()))
+    if meta["vertex_weights"]:
+        notes.append(("Vertices enter late", meta["vertex_weights"]))
     if meta.get("approximation") is not None:
         notes.append(("Approximation", f"epsilon {meta['approximation']:g}: bars are born and die "
                       "later by a factor of 1 + epsilon at most"))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _arrays, _core, _options, _run
 from ._errors import DataError, MemoryLimitError, NotBuiltIn, UsageError
 from ._simplices import joined_values, simplex_list
-from ._sources import Source, source_of
+from ._sources import Source, metric_name, source_of
 
 _MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
 _EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
@@ -130,6 +130,7 @@ def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
     """What a barcode knows of its origin; what was found out on the way comes later."""
     kind = o["representatives"]
     meta = {"complex": complex_name, "field": o["field"], "threshold": o["threshold"],
+            "min_persistence": float(o["min_persistence"]), "min_dim": int(o["min_dim"]) or None,
             "representatives": None if kind == "none" else kind, **more}
     return {name: value for name, value in meta.items() if value is not None}
 
@@ -170,7 +171,7 @@ def rips_request(o: dict[str, Any]) -> Request:
     for name in ("nan", "diagonal", "symmetrise"):
         others[name] = None if o[name] in ("error", "zero") else o[name]
     meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
-                 metric=o["metric"] if isinstance(o["metric"], str) else "function",
+                 metric="precomputed" if source is o["X"] else metric_name(o["metric"]),
                  minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
                  weights=weights, dtm_neighbors=neighbours, approximation=approximation,
                  weight_exponent=None if weights is None else _NUMBERS[exponent],
@@ -227,11 +228,12 @@ def alpha_request(o: dict[str, Any]) -> Request:
     value = _options.choice("values", o["values"], ALPHA_VALUES)
     source = source_of(o["X"], nan=o["nan"])
     recipe, squared, period = alpha_recipe(o, source, value, _threshold(o))
+    task = _task_of(o, _loops_of(o, "plain"))
     meta = _meta(value, o, points=source.points, coordinates=source.coordinates,
                  squared=squared, weights=None if o["weights"] is None else "given",
                  period=tuple(period) if any(period) else None,
                  nan=None if o["nan"] == "error" else o["nan"])
-    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
+    return Request(recipe, task, o["run"], meta)
 
 
 def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
@@ -306,8 +308,8 @@ def lower_star_request(o: dict[str, Any]) -> Request:
     values = _arrays.as_values(o["values"], "values")
     cells = simplex_list(o["simplices"])
     recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
-    meta = _meta("lower-star", o, points=len(values))
-    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
+    task = _task_of(o, _loops_of(o, "plain"))
+    return Request(recipe, task, o["run"], _meta("lower-star", o, points=len(values)))
 
 
 def filtered_request(o: dict[str, Any]) -> Request:
@@ -316,7 +318,8 @@ def filtered_request(o: dict[str, Any]) -> Request:
     cells = simplex_list(o["simplices"])
     values = joined_values(o["values"], len(cells))
     recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
-    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], _meta("explicit", o))
+    task = _task_of(o, _loops_of(o, "plain"))
+    return Request(recipe, task, o["run"], _meta("explicit", o))
 
 
 def boundary_request(o: dict[str, Any]) -> Request:
@@ -352,4 +355,5 @@ def boundary_request(o: dict[str, Any]) -> Request:
     recipe = _core.boundary_recipe(
         dims.astype(np.int32), columns.indptr.astype(np.int64), columns.indices.astype(np.int64),
         signs.astype(np.int32), values, _threshold(o))
-    return Request(recipe, _task_of(o, "none"), o["run"], _meta("explicit", o))
+    task = _task_of(o, "none")
+    return Request(recipe, task, o["run"], _meta("explicit", o))

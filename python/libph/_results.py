@@ -64,6 +64,24 @@ def description_of(meta: Any) -> str:
     return f"{number} points" + (f" in R^{meta['coordinates']}" if "coordinates" in meta else "")
 
 
+def vertex_weights_of(meta: Any) -> str:
+    """Why vertices enter late, as ph-barcode says it: "dtm 5, exponent 1". Empty: they do not."""
+    weights = meta.get("weights")
+    if weights is None:
+        return ""
+    if "squared" in meta:
+        return "squared radii of balls, given"
+    source = f"dtm {meta['dtm_neighbors']}" if weights == "dtm" else (
+        "diagonal" if meta.get("diagonal") == "births" else "given")
+    return f"{source}, exponent {meta['weight_exponent']}"
+
+
+def origin_of(meta: Any) -> dict[str, Any]:
+    """What files say of where a barcode came from."""
+    known = {"input_description": description_of(meta), "vertex_weights": vertex_weights_of(meta)}
+    return {**known, **meta, "program": f"libph {_core.version}"}
+
+
 def spaced(number: int) -> str:
     """A number as people read it.
 

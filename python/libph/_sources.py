@@ -38,7 +38,7 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
     _options.choice("nan", nan, ["error", "drop"])
     _options.choice("diagonal", diagonal, ["zero", "births", "any"])
     _options.choice("symmetrise", symmetrise, [None, "max", "min", "lower"])
-    name = "function" if callable(metric) else _known(metric)
+    name = metric_name(metric)
     p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
     if p != 2 and name != "minkowski":
         found = "a function as metric" if name == "function" else f"metric='{metric}'"
@@ -66,8 +66,10 @@ def without_nan_option() -> Iterator[None]:
         raise DataError(words) from None
 
 
-def _known(metric: Any) -> str:
-    """The name of a metric, of its aliases the first."""
+def metric_name(metric: Any) -> str:
+    """The name of a metric, of its aliases the first; "function" of the user's own."""
+    if callable(metric):
+        return "function"
     name = None
     if isinstance(metric, str):
         name = metric if metric == "precomputed" else METRICS.get(metric)

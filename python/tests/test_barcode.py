@@ -2,6 +2,7 @@
 """Barcode: a sequence with arrays, cells, chains, summaries and files."""
 import copy
 import html.parser
+import json
 import math
 import pickle
 from collections.abc import Sequence
@@ -364,11 +365,57 @@ def test_save_and_read(bars, extension, tmp_path):
     for name in ("complex", "field", "max_dim", "threshold", "engine", "superlevel",
                  "approximation", "covering_radius"):
         assert other.meta.get(name) == (bars.meta.get(name) or None), name
+    for name in ("metric", "construction", "periodic", "min_persistence", "min_dim"):
+        assert other.meta.get(name) == bars.meta.get(name), name
     if bars._bars.has_cells:
         assert np.array_equal(other.birth_cells(0), bars.birth_cells(0))
     if bars.meta.get("representatives") == "cycles":
         for i in range(len(bars)):
             assert np.array_equal(other.representative(i).cells, bars.representative(i).cells)
+
+
+DISTANCES = [[0.5, 1.0, 2.0], [1.0, 0.25, 1.5], [2.0, 1.5, 0.0]]
+
+
+@pytest.mark.parametrize("make, members, meta", [
+    (lambda: ph.rips(POINTS, metric="cityblock", min_persistence=0.25),
+     {"metric": "manhattan", "min_persistence": 0.25}, {}),
+    (lambda: ph.rips(POINTS, metric="minkowski", minkowski_p=3.5, max_dim=2, min_dim=1),
+     {"metric": "minkowski:3.5", "min_dim": 1}, {"metric": "minkowski", "minkowski_p": 3.5}),
+    (lambda: ph.rips(POINTS, metric="minkowski", minkowski_p=np.inf),
+     {"metric": "minkowski:inf"}, {"metric": "minkowski", "minkowski_p": np.inf}),
+    (lambda: ph.rips(POINTS, metric=lambda x, y: float(abs(x - y).max())), {"metric": "function"},
+     {}),
+    (lambda: ph.rips(DISTANCES, metric="precomputed", diagonal="births"),
+     {"metric": "precomputed", "vertex_weights": "diagonal, exponent inf"}, {}),
+    (lambda: ph.rips(POINTS, weights="dtm", dtm_neighbors=4),
+     {"metric": "euclidean", "vertex_weights": "dtm 4, exponent 1"}, {}),
+    (lambda: ph.rips(POINTS, weights=np.ones(60), weight_exponent=2),
+     {"vertex_weights": "given, exponent 2"}, {}),
+    (lambda: ph.cubical(VOLUME, construction="cells", periodic=[0, 2], superlevel=True),
+     {"construction": "cells", "periodic": [0, 2], "superlevel": True, "min_persistence": 0},
+     {"periodic": (0, 2)}),
+], ids=["alias", "exponent", "infinity", "function", "diagonal", "dtm", "weights", "image"])
+def test_json_says_what_the_bars_are_of(make, members, meta, tmp_path):
+    bars = make()
+    bars.save(tmp_path / "bars.json")
+    text = json.loads((tmp_path / "bars.json").read_text())
+    assert {name: text.get(name) for name in members} == members
+    assert text["input"]["description"]
+    back = ph.read_barcode(tmp_path / "bars.json")
+    expected = {**members, **meta}
+    assert {name: back.meta.get(name) for name in expected} == expected
+    back.save(tmp_path / "again.json")
+    again = json.loads((tmp_path / "again.json").read_text())
+    assert {name: again.get(name) for name in members} == members
+
+
+def test_an_exponent_that_a_file_leaves_out(tmp_path):
+    (tmp_path / "bars.json").write_text('{"format": "ph-barcode", "version": 1, "complex": "rips", '
+                                        '"metric": "minkowski", "bars": []}')
+    bars = ph.read_barcode(tmp_path / "bars.json")
+    bars.save(tmp_path / "again.json")
+    assert json.loads((tmp_path / "again.json").read_text())["metric"] == "minkowski"
 
 
 def test_files_that_fail(tmp_path):

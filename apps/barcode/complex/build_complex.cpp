@@ -150,6 +150,7 @@ class Builder {
     const CubicalOptions options = cubical_options(arguments_, image, periodic_);
     BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
                        image.values.empty(), std::nullopt};
+    built.cubical = options;
     if (arguments_.check)
       built.by_definition = [image, options](const RunContext& context) {
         return listed_cubes(image, options, context);
@@ -225,6 +226,9 @@ class Builder {
           return Rips(data, all, context);
         };
       }
+    built.metric = std::same_as<Data, Points>
+                       ? metric_name(arguments_.rips.distance, arguments_.rips.minkowski_p)
+                       : "precomputed";
     if (sample)
       built.subsample = {static_cast<Index>(vertices.size()), size_of(data),
                          sample->covering_radius};

@@ -15,7 +15,10 @@ struct BuiltComplex {
   bool empty = false;               ///< there are no points or cells at all
   /// A threshold that has to be applied to the bars, because the complex holds larger values too.
   std::optional<double> cut;
-  std::string vertex_weights = {};  ///< as in BarcodeInfo
+  // As in BarcodeInfo.
+  std::string vertex_weights = {};
+  std::string metric = {};
+  std::optional<CubicalOptions> cubical = std::nullopt;  ///< of an image
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line

@@ -22,4 +22,12 @@ CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
   return options;
 }
 
+void describe(const CubicalOptions& options, BarcodeInfo& info) {
+  info.construction =
+      options.construction == CubicalOptions::Construction::vertices ? "vertices" : "cells";
+  for (std::size_t axis = 0; axis < options.periodic.size(); ++axis)
+    if (options.periodic[axis]) info.periodic.push_back(static_cast<int>(axis));
+  info.superlevel = options.superlevel;
+}
+
 }  // namespace ph::barcode

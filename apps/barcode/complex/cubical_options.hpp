@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::barcode {
 
@@ -10,5 +11,8 @@ namespace ph::barcode {
 /// @throws Error (usage) if there are not so many axes.
 CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
                                const std::vector<bool>& periodic);
+
+/// What a barcode's origin says of them.
+void describe(const CubicalOptions& options, BarcodeInfo& info);
 
 }  // namespace ph::barcode

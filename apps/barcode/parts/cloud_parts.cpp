@@ -25,6 +25,7 @@ BarcodeInfo info_of(const CloudPart& part, const std::string& description,
   info.input = input;
   info.input_description = description;
   info.complex = "rips";
+  info.metric = metric_name(PointDistance::euclidean);
   info.threshold = part.threshold();
   info.engine = Engine(Engine::union_find).name();
   info.peak_memory = app::peak_memory();

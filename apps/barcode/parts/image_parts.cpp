@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/complex/cubical_options.hpp"
 #include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "barcode/parts/part_input.hpp"
@@ -63,7 +64,8 @@ BarcodeInfo info_of(const ImagePart& part, const std::string& description, const
   info.max_dim =
       std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()));
   info.threshold = part.options().cubical.threshold;
-  info.superlevel = part.options().cubical.superlevel;
+  describe(part.options().cubical, info);
+  info.min_dim = part.options().min_dim;
   info.engine = Engine(Engine::gradient).name();
   info.peak_memory = app::peak_memory();
   return info;

@@ -68,8 +68,9 @@ std::string write_part_file(app::Output& output, std::span<const std::byte> byte
   return format_size(static_cast<double>(bytes.size()));
 }
 
-Outcome write_bars(Barcode bars, const BarcodeInfo& info, Outputs& outputs,
-                   const Arguments& arguments, app::Session& session) {
+Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
+                   app::Session& session) {
+  info.min_persistence = arguments.options.min_persistence;
   if (arguments.options.min_persistence > 0)
     bars = longer_than(arguments.options.min_persistence, bars);
   note_absent_dims(bars, arguments.look, session);

@@ -61,7 +61,7 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
 /// Writes bars that are whole again, without those that the user does not want to see.
-Outcome write_bars(Barcode bars, const BarcodeInfo& info, Outputs& outputs,
-                   const Arguments& arguments, app::Session& session);
+Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
+                   app::Session& session);
 
 }  // namespace ph::barcode

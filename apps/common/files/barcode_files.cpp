@@ -2,6 +2,7 @@
 #include "common/files/barcode_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <optional>
@@ -16,11 +17,20 @@ constexpr std::array<std::string_view, 7> kBarcodes{".csv",   ".json",    ".rips
                                                     ".dipha", ".diagram", ".npy"};
 
 /// What changes the bars of one input, but for the threshold, which differs from input to input.
+/// Empty where a file does not say it.
 std::vector<std::pair<std::string_view, std::string>> ways_of(const BarcodeInfo& info) {
   const auto flag = [](bool is_set) { return std::string(is_set ? "true" : "false"); };
+  const auto numbers = [](const std::vector<int>& all) {
+    return all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", "));
+  };
   return {{"complex", info.complex},
+          {"metric", info.metric},
+          {"construction", info.construction},
+          {"periodic axes", info.construction.empty() ? "" : numbers(info.periodic)},
           {"field", std::to_string(info.field)},
           {"max_dim", std::to_string(info.max_dim)},
+          {"min_persistence", info.min_persistence ? shortest(*info.min_persistence) : ""},
+          {"min_dim", std::to_string(info.min_dim)},
           {"superlevel", flag(info.superlevel)},
           {"squared", flag(info.alpha && info.alpha->squared)},
           {"approximation", info.approximation ? shortest(*info.approximation) : "none"}};
@@ -37,10 +47,12 @@ void SameOrigin::add(const std::string& name, const BarcodeInfo& info) {
     return;
   }
   std::vector<std::string> differences;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    if (ways[i].second != first_[i].second)
-      differences.push_back(
-          fmt::format("{} {}, not {}", ways[i].first, ways[i].second, first_[i].second));
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const auto& [what, way] = ways[i];
+    const std::string& first = first_[i].second;
+    if (!way.empty() && !first.empty() && way != first)
+      differences.push_back(fmt::format("{} {}, not {}", what, way, first));
+  }
   if (differences.empty()) return;
   is_told_ = true;
   session_.note(fmt::format("{} was not computed as {} was: {}", printable(name),

@@ -61,6 +61,24 @@ class Direction {
 
 }  // namespace
 
+std::string metric_name(PointDistance distance, double p) {
+  switch (distance) {
+    case PointDistance::euclidean:
+      return "euclidean";
+    case PointDistance::manhattan:
+      return "manhattan";
+    case PointDistance::chebyshev:
+      return "chebyshev";
+    case PointDistance::minkowski:
+      return fmt::format("minkowski:{}", p);
+    case PointDistance::cosine:
+      return "cosine";
+    case PointDistance::hamming:
+      return "hamming";
+  }
+  return "";
+}
+
 PointMetric::PointMetric(PointsView points, PointDistance distance, double p, double largest)
     : points_(points), distance_(distance), p_(p) {
   points = points_.view();

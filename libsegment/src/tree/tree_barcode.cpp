@@ -28,7 +28,10 @@ BarcodeInfo info_of_barcode(const Segmentation& s) {
   info.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
   const bool paper = s.method == Method::paper;
   info.complex = paper ? "rips" : "lower-star";
-  if (paper) info.threshold = s.distance;
+  if (paper) {
+    info.threshold = s.distance;
+    info.metric = metric_name(PointDistance::euclidean);
+  }
   info.engine = "union-find";
   for (const Stage& stage : s.stages) info.timings.emplace_back(stage.name, stage.seconds);
   return info;

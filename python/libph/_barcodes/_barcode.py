@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .. import _core, _options, _run
 from .._errors import UsageError
-from .._results import Meta, require_version, with_arrays
+from .._results import Meta, origin_of, require_version, with_arrays
 from .._vectors import Summaries
 from . import _output
 from ._cells import Cells
@@ -299,9 +299,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             "csv", "json", "ripser", "pers", "dipha" or "npy".
         """
         from .._files import path_of
-        meta = {**self.meta, "program": f"libph {_core.version}"}
         _run.run(_core.save, self._bars, path_of(path),
-                 None if format is None else str(format), meta, options={})
+                 None if format is None else str(format), origin_of(self.meta), options={})
 
     def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
              dim: int | Iterable[int] | None = None, noise: float | None = None,

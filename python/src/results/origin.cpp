@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "results/origin.hpp"
 
-#include <cmath>
-#include <limits>
+#include <cstdlib>
+#include <optional>
 #include <string>
 
+#include "ph/rips.hpp"
+
 namespace ph::python {
+namespace {
+
+constexpr const char* kMinkowski = "minkowski";
+
+}  // namespace
 
 BarcodeInfo info_of(const py::dict& meta) {
   const auto take = [&]<class T>(const char* name, T& value) {
@@ -18,15 +25,21 @@ BarcodeInfo info_of(const py::dict& meta) {
   take("complex", info.complex);
   take("field", info.field);
   take("max_dim", info.max_dim);
+  take("metric", info.metric);
+  if (info.metric == kMinkowski && meta.contains("minkowski_p"))
+    info.metric = metric_name(PointDistance::minkowski, meta["minkowski_p"].cast<double>());
+  take("construction", info.construction);
+  take("periodic", info.periodic);
   take("vertex_weights", info.vertex_weights);
   take("superlevel", info.superlevel);
+  take("min_dim", info.min_dim);
   take("engine", info.engine);
-  double number = std::numeric_limits<double>::quiet_NaN();
-  take("threshold", number);
-  if (!std::isnan(number)) info.threshold = number;
-  number = std::numeric_limits<double>::quiet_NaN();
-  take("approximation", number);
-  if (!std::isnan(number)) info.approximation = number;
+  const auto take_if_known = [&](const char* name, std::optional<double>& value) {
+    if (meta.contains(name) && !meta[name].is_none()) value = meta[name].cast<double>();
+  };
+  take_if_known("threshold", info.threshold);
+  take_if_known("approximation", info.approximation);
+  take_if_known("min_persistence", info.min_persistence);
   if (meta.contains("covering_radius") && !meta["covering_radius"].is_none()) {
     info.subsample.emplace();
     take("vertices", info.subsample->points);
@@ -49,9 +62,19 @@ py::dict meta_of(const BarcodeInfo& info) {
   put("field", info.field);
   put("max_dim", info.max_dim);
   put("threshold", info.threshold);
+  if (const std::string start = std::string(kMinkowski) + ":"; info.metric.starts_with(start)) {
+    put("metric", kMinkowski);
+    put("minkowski_p", std::strtod(info.metric.c_str() + start.size(), nullptr));
+  } else {
+    put("metric", info.metric);
+  }
+  put("construction", info.construction);
+  if (!info.construction.empty()) put("periodic", py::tuple(py::cast(info.periodic)));
   put("vertex_weights", info.vertex_weights);
   put("superlevel", info.superlevel);
   put("approximation", info.approximation);
+  put("min_persistence", info.min_persistence);
+  if (info.min_dim > 0) put("min_dim", info.min_dim);
   put("engine", info.engine);
   put("input_description", info.input_description);
   if (info.subsample) {

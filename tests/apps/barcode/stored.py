@@ -204,6 +204,20 @@ class Stored(ProgramTest):
                       self.expect(0, "--compare", "a.json", "b.json").stderr)
         for other in ("same.json", "c.csv"):
             self.assertNotIn("was not computed", self.expect(0, "--compare", "a.json", other).stderr)
+        for options, words in ((["--metric", "chebyshev", "--min-persistence", "0.5"],
+                                "metric chebyshev, not euclidean; min_persistence 0.5, not 0"),
+                               (["--complex", "cubical", "--voxel", "1"],
+                                "complex cubical, not rips; max_dim 2, not 1")):
+            self.expect(0, "p.txt", *options, "-o", "o.json", "--quiet")
+            self.assertIn(f"o.json was not computed as a.json was: {words}\n",
+                          self.expect(0, "--compare", "a.json", "o.json").stderr)
+        self.write("m.npy", files.array((2, 3), [5, 1, 4, 1, 3, 2]))
+        self.expect(0, "m.npy", "-o", "v.json", "--quiet")
+        self.expect(0, "m.npy", "--construction", "cells", "--periodic", "0,1", "-o", "t.json",
+                    "--quiet")
+        self.assertIn("t.json was not computed as v.json was: construction cells, not vertices; "
+                      "periodic axes 0, 1, not none\n",
+                      self.expect(0, "--compare", "v.json", "t.json").stderr)
 
     def test_the_report_of_a_comparison_is_a_file(self):
         self.require_page()
@@ -275,6 +289,49 @@ class Stored(ProgramTest):
                                      (kind, options))
         self.expect(0, "row.npy", "-o", "a.json")
         self.assertNotIn("superlevel", json.loads(self.read("a.json")))
+
+    def test_json_says_what_the_bars_are_of(self):
+        self.write("p.csv", "0,0\n1,0\n0,1\n3,1\n")
+        self.write("d.csv", "0,1,2\n1,0,1\n2,1,0\n")
+        self.write("m.npy", files.array((3, 4), [5, 1, 4, 1, 3, 2, 9, 0, 1, 1, 7, 2]))
+        names = ("metric", "construction", "periodic", "superlevel", "min_persistence", "min_dim")
+        for arguments, expected in (
+                (["p.csv"], {"metric": "euclidean", "min_persistence": 0}),
+                (["p.csv", "--metric", "minkowski:3.5", "--min-persistence", "0.25"],
+                 {"metric": "minkowski:3.5", "min_persistence": 0.25}),
+                (["p.csv", "--metric", "minkowski:inf", "--min-persistence=-1"],
+                 {"metric": "minkowski:inf", "min_persistence": -1}),
+                (["p.csv", "--metric", "hamming", "--max-dim", "2", "--min-dim", "1"],
+                 {"metric": "hamming", "min_persistence": 0, "min_dim": 1}),
+                (["d.csv", "--format", "distance"], {"metric": "precomputed", "min_persistence": 0}),
+                (["p.csv", "--complex", "cubical", "--voxel", "0.5"],
+                 {"construction": "vertices", "min_persistence": 0}),
+                (["m.npy"], {"construction": "vertices", "min_persistence": 0}),
+                (["m.npy", "--construction", "cells", "--periodic", "1", "--superlevel"],
+                 {"construction": "cells", "periodic": [1], "superlevel": True,
+                  "min_persistence": 0}),
+                (["m.npy", "--periodic", "all", "--engine", "standard"],
+                 {"construction": "vertices", "periodic": [0, 1], "min_persistence": 0})):
+            self.expect(0, *arguments, "-o", "a.json")
+            self.expect(0, "a.json", "-o", "b.json")
+            for name in ("a.json", "b.json"):
+                found = json.loads(self.read(name))
+                self.assertEqual({n: found[n] for n in names if n in found}, expected, arguments)
+
+    def test_json_of_parts_says_what_that_of_the_whole_says(self):
+        self.write("p.csv", "0,0\n1,0\n0,1\n3,1\n")
+        self.write("m.npy", files.array((4, 3), [5, 1, 4, 1, 3, 2, 9, 0, 1, 1, 7, 2]))
+        for options in (["p.csv", "--complex", "rips", "--max-dim", "0"],
+                        ["m.npy", "--construction", "cells", "--periodic", "1", "--superlevel"]):
+            self.expect(0, *options, "-o", "whole.json")
+            keep = ["--keep-cells"] if options[0] == "m.npy" else []
+            for k in (1, 2):
+                self.expect(0, *options, *keep, "--part", f"{k}/2", "-o", f"{k}.ph")
+            self.expect(0, "--join", "1.ph", "2.ph", "-o", "joined.json")
+            whole, joined = (json.loads(self.read(n)) for n in ("whole.json", "joined.json"))
+            for name in ("input", "engine", "timings", "peak_memory"):
+                del whole[name], joined[name]
+            self.assertEqual(joined, whole, options)
 
     def test_the_axis_of_superlevel_sets_is_of_the_image(self):
         self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))

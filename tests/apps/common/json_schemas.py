@@ -83,12 +83,13 @@ def test_barcodes(t):
     t.check_bars(circles, "--representatives", "cycles")
     t.check_bars(circles, "--representatives", "cycles", "--loops", "plain", "--field", "3")
     t.check_bars(circles, "--representatives", "cocycles", "--max-dim", "2", "--threshold", "1")
-    t.check_bars(circles, "--dtm", "3")
+    t.check_bars(circles, "--dtm", "3", "--metric", "minkowski:3", "--min-dim", "1")
     t.check_bars(circles, "--subsample", "20")
     t.check_bars(circles, "--approximate", "1")
     t.check_bars(circles, "--complex", "cubical", "--voxel", "0.3", "--voxel-value", "density")
     t.check_bars(blobs, "--superlevel", "--representatives", "voxels")
-    t.check_bars(blobs, "--representatives", "cycles", "--construction", "cells")
+    t.check_bars(blobs, "--representatives", "cycles", "--construction", "cells", "--periodic", "0",
+                 "--min-persistence", "2")
     t.check_bars("mesh.simplices", "--representatives", "cycles")
     t.check_bars("matrix.phat")
     if "alpha complexes need it" not in t.run(t.barcode, "--version", "--verbose").stdout:

@@ -61,6 +61,12 @@ struct BarcodeInfo {
   std::int64_t field = 2;
   int max_dim = 0;
   std::optional<double> threshold;
+  /// Of a Rips complex, what distances are: "euclidean", "minkowski:3", see metric_name;
+  /// "precomputed" (they were given), "function" (of the user's own).
+  std::string metric;
+  /// Of an image: "vertices" or "cells", as CubicalOptions::Construction.
+  std::string construction;
+  std::vector<int> periodic;  ///< axes of an image that close up
   /// Where vertices enter late: why and how, "dtm 5, exponent 1".
   std::string vertex_weights;
   /// Of a greedy permutation of the points; see ph/greedy_permutation.hpp.
@@ -79,6 +85,8 @@ struct BarcodeInfo {
   std::span<const BarLoops> loops;
   /// By bar, in CSV and JSON; NaN: it has none. Empty: there are none.
   std::span<const double> p_values;
+  std::optional<double> min_persistence;  ///< bars of this length and less were left out
+  int min_dim = 0;                        ///< bars of lower dimensions were left out
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown

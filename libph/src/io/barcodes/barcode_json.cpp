@@ -167,12 +167,17 @@ std::string filtration_members(const BarcodeInfo& info, std::string_view between
   std::string members;
   json::add_members(
       members,
-      {{"vertex_weights", info.vertex_weights.empty() ? "" : json::string(info.vertex_weights)},
+      {{"metric", info.metric.empty() ? "" : json::string(info.metric)},
+       {"construction", info.construction.empty() ? "" : json::string(info.construction)},
+       {"periodic", info.periodic.empty() ? "" : json::array(info.periodic, json::integer<int>)},
+       {"vertex_weights", info.vertex_weights.empty() ? "" : json::string(info.vertex_weights)},
        {"subsample", subsample},
        {"voxels", voxels},
        {"alpha", alpha},
        {"superlevel", info.superlevel ? "true" : ""},
-       {"approximation", info.approximation ? json_value(*info.approximation) : ""}},
+       {"approximation", info.approximation ? json_value(*info.approximation) : ""},
+       {"min_persistence", info.min_persistence ? json_value(*info.min_persistence) : ""},
+       {"min_dim", info.min_dim > 0 ? json::integer(info.min_dim) : ""}},
       between);
   return members;
 }

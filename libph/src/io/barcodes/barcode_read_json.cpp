@@ -55,6 +55,14 @@ class InfoReader {
       info_.max_dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
     } else if (name == "threshold") {
       info_.threshold = number();
+    } else if (name == "metric") {
+      info_.metric = text();
+    } else if (name == "construction") {
+      info_.construction = text();
+    } else if (name == "periodic") {
+      json_.expect('[');
+      for (bool first = true; json_.next_element(first);)
+        info_.periodic.push_back(static_cast<int>(json_.integer(0, kMost, "axis")));
     } else if (name == "vertex_weights") {
       info_.vertex_weights = text();
     } else if (name == "subsample") {
@@ -67,6 +75,10 @@ class InfoReader {
       info_.superlevel = json_.boolean();
     } else if (name == "approximation") {
       info_.approximation = number();
+    } else if (name == "min_persistence") {
+      info_.min_persistence = number();
+    } else if (name == "min_dim") {
+      info_.min_dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
     } else if (name == "engine") {
       info_.engine = text();
     } else if (name == "timings") {

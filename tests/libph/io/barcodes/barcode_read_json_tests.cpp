@@ -73,7 +73,8 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   };
   const StoredBarcode read = stored(R"({"format": "ph-barcode", "version": 1, "program": "p 1",
  "input": {"path": "a", "description": "d"}, "complex": "rips", "field": 3, "max_dim": 2,
- "threshold": 1.5, "vertex_weights": "dtm 2",
+ "threshold": 1.5, "vertex_weights": "dtm 2", "metric": "cosine", "construction": "cells",
+ "periodic": [0, 2], "min_persistence": 0.125, "min_dim": 1,
  "subsample": {"points": 4, "of": 9, "covering_radius": 0.5},
  "voxels": {"edge": 2, "first": [0, -1], "value": "density", "x": 1}, "approximation": 0.25,
  "alpha": {"squared": true, "period": [2, 0], "hidden": [3, 5], "x": []}, "superlevel": true,
@@ -88,6 +89,11 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   EXPECT_EQ(info.max_dim, 2);
   EXPECT_EQ(info.threshold, 1.5);
   EXPECT_EQ(info.vertex_weights, "dtm 2");
+  EXPECT_EQ(info.metric, "cosine");
+  EXPECT_EQ(info.construction, "cells");
+  EXPECT_EQ(info.periodic, (std::vector<int>{0, 2}));
+  EXPECT_EQ(info.min_persistence, 0.125);
+  EXPECT_EQ(info.min_dim, 1);
   ASSERT_TRUE(info.subsample && info.voxels);
   EXPECT_EQ(info.subsample->points, 4);
   EXPECT_EQ(info.subsample->of, 9);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <concepts>
+#include <string>
 
 #include "ph/filtration.hpp"
 #include "ph/points.hpp"
@@ -52,6 +53,10 @@ enum class PointDistance {
   cosine,     ///< 1 - cos(angle); a zero row is refused
   hamming,    ///< the number of coordinates that differ
 };
+
+/// The name of a distance, as JSON of bars has it: "euclidean", "minkowski:3".
+/// @param p exponent of PointDistance::minkowski.
+std::string metric_name(PointDistance distance, double p = 2);
 
 /// What computes.
 enum class Device {
