@@ -46,7 +46,7 @@ class Stream {
       : arguments_(arguments),
         one_(arguments),
         session_(session),
-        source_(arguments),
+        source_(arguments, session.context()),
         known_(inputs_of(arguments)) {
     if (!arguments.files.any()) {
       throw Error(ErrorKind::usage,

@@ -7,10 +7,10 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/report/shown_tree.hpp"
-#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph::python {
 namespace {

@@ -87,6 +87,10 @@ struct News {
   std::uint64_t done = 0, total = 0;
 };
 
+News news_of(const Progress& progress) {
+  return {std::string(progress.stage), progress.done, progress.total};
+}
+
 /// A computation on a thread of its own, and what the caller's thread is told of it.
 class Computation {
  public:
@@ -99,27 +103,25 @@ class Computation {
 
   std::stop_source& stop() { return stop_; }
 
-  /// Until it is done. Where the system gives no thread, nobody looks after it.
+  /// Until it is done.
   void run() {
     if (!options_.memory_limit) context_->memory.set_limit(memory_left());
     look(std::nullopt);  // it may have been stopped before it began, and be short
     context_->poll();
     std::jthread worker;
-    std::exception_ptr of_caller;
     try {
       worker = std::jthread([this] { compute(); });
+      unless_it_throws([this] { watch(); });
     } catch (const std::system_error&) {
+      // The system gives no thread: it looks after itself, where it says how far it is.
+      context_->on_progress = [this](const Progress& progress) {
+        unless_it_throws([&] { look_in_between(progress); });
+      };
       compute();
-    }
-    try {
-      watch();
-    } catch (...) {
-      of_caller = std::current_exception();
-      stop_.request_stop();
     }
     if (worker.joinable()) worker.join();
     context_->on_progress = nullptr;  // it may live on
-    if (of_caller) std::rethrow_exception(of_caller);
+    if (of_caller_) std::rethrow_exception(of_caller_);
     if (error_) rethrow_error();
   }
 
@@ -137,11 +139,29 @@ class Computation {
   }
   void tell(const Progress& progress) {
     const std::lock_guard lock(mutex_);
-    news_ = {std::string(progress.stage), progress.done, progress.total};
+    news_ = news_of(progress);
     changed_.notify_one();
   }
 
   // On the caller's thread.
+  /// What a signal handler or a callback throws stops the computation.
+  void unless_it_throws(const std::function<void()>& look) {
+    try {
+      if (!of_caller_) look();
+    } catch (...) {
+      of_caller_ = std::current_exception();
+      stop_.request_stop();
+    }
+  }
+  void look_in_between(const Progress& progress) {
+    const bool wants_news = !options_.progress.is_none();
+    look(wants_news ? std::optional(news_of(progress)) : std::nullopt);
+    if (time_left() <= Seconds(0)) end_late();
+  }
+  void end_late() {
+    is_late_ = true;
+    stop_.request_stop();
+  }
   void watch() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -153,9 +173,7 @@ class Computation {
       look(news);
       lock.lock();
       if (time_left() > Seconds(0)) continue;
-      is_late_ = true;
-      stop_.request_stop();
-      return;
+      return end_late();
     }
   }
   Seconds time_left() const {
@@ -188,7 +206,7 @@ class Computation {
   std::condition_variable changed_;
   bool is_done_ = false;
   std::optional<News> news_;
-  std::exception_ptr error_;
+  std::exception_ptr error_, of_caller_;
 };
 
 }  // namespace

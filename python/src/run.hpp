@@ -43,8 +43,8 @@ using SharedContext = std::shared_ptr<const RunContext>;
 /// It runs on a thread of its own, which is gone when this returns, while the caller's thread looks
 /// every 20 ms for signals (Ctrl-C; Python takes them on its main thread only), progress, a stop
 /// and the end of the time. What a signal handler or a callback throws stops the computation and is
-/// thrown on. What is certainly short runs on the caller's thread, as does all where the system
-/// gives no thread.
+/// thrown on. What is certainly short runs on the caller's thread. So does all where the system
+/// gives no thread; it then looks where it says how far it is.
 /// @param is_short whether it takes milliseconds at most.
 /// @throws what `task` throws; Timeout; Error (cancelled); py::error_already_set.
 void run_task(const RunOptions& options, bool is_short,

@@ -71,6 +71,9 @@ def scenes(programs):
     yield Scene("a scene to labels, objects, a picture", {"s.pcd": cloud()}, [], 1,
                 ["s.pcd", "--labels", "l.npy", "-o", "o.pcd", "--plot", "p.svg", "--no-check"],
                 ["l.npy", "o.pcd", "p.svg"])
+    yield Scene("frames of a list", {"s.pcd": cloud(), "frames.txt": "s.pcd\ns.pcd\n"}, [], 1,
+                ["--frames-from", "frames.txt", "--labels", "out/", "--no-check", "--quiet"],
+                ["out/s.npy", "out/s-2.npy"])
 
 
 def contents_of(folder):

@@ -204,7 +204,7 @@ def rips(rng):
         engines += ["beta-skeleton"]
     has_parts = kind == "rips of points" and metric == "euclidean" and plain and max_dim == 0 and \
         threshold == INF and len(files) == 1
-    place = {point: i for i, point in enumerate(read or chosen)}
+    place = {read[point] if read else point: i for i, point in enumerate(chosen)}
     return Job(kind, files, options + more + of_field, filtration, prime, max_dim, tolerance, tuple(engines),
                has_parts, name_of=lambda points: tuple(sorted(place[i] for i in points)))
 

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iostream>
 
 #include "common/files/batch_names.hpp"
-#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
@@ -31,7 +28,7 @@ std::vector<std::string> frames_in(const std::string& folder, bool depth_images)
 
 }  // namespace
 
-FrameSource::FrameSource(const Arguments& a)
+FrameSource::FrameSource(const Arguments& a, const RunContext& context)
     : patterns_(a.files), has_files_(!a.files.of_each_frame().empty()) {
   for (const auto& [option, path] : patterns_.of_each_frame()) app::prepare_outputs(option, path);
   for (const std::string& input : a.inputs) {
@@ -43,16 +40,8 @@ FrameSource::FrameSource(const Arguments& a)
       inputs_.push_back(std::move(frame));
   }
   if (has_files_) take_names();
-  if (a.frames_from == "-") list_ = &std::cin;
-  if (list_ || a.frames_from.empty()) return;
-  file_ = std::make_unique<std::ifstream>(files::path_of(a.frames_from));
-  list_ = file_.get();
-  if (!*list_ || app::is_folder(a.frames_from))
-    throw Error(ErrorKind::no_input,
-                fmt::format("{}: cannot read the list of frames", printable(a.frames_from)));
+  if (!a.frames_from.empty()) list_.emplace(a.frames_from, context);
 }
-
-FrameSource::~FrameSource() = default;
 
 /// Those of the inputs.
 void FrameSource::take_names() {
@@ -80,26 +69,10 @@ void FrameSource::take_files(const OutputPaths& files) {
   for (const auto& [option, path] : outputs) taken_files_.insert(path);
 }
 
-bool FrameSource::next_line(std::string& line) {
-  while (list_ && std::getline(*list_, line)) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (const std::size_t nul = line.find('\0'); nul != std::string::npos)
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("--frames-from: found a NUL behind '{}', expected names, one a line",
-                              printable(line.substr(0, nul))));
-    if (!line.empty()) return true;
-  }
-  return false;
-}
-
 void FrameSource::add_known(app::InputFiles& known) {
   for (const std::string& input : inputs_) known.add(input);
   if (!list_) return;
-  const std::streampos start = list_->tellg();
-  if (start == std::streampos(-1)) return;
-  for (std::string line; next_line(line);) known.add(line);
-  list_->clear();
-  list_->seekg(start);
+  for (const std::string& input : list_->known()) known.add(input);
 }
 
 std::optional<Frame> FrameSource::next() {
@@ -107,12 +80,12 @@ std::optional<Frame> FrameSource::next() {
     const std::size_t i = given_++;
     return Frame{inputs_[i], has_files_ ? patterns_.filled(names_[i]) : OutputPaths{}};
   }
-  std::string line;
-  if (!next_line(line)) return std::nullopt;
-  if (!has_files_) return Frame{line, {}};
-  OutputPaths files = patterns_.filled(name_of(line));
+  std::optional<std::string> input = list_ ? list_->next() : std::nullopt;
+  if (!input) return std::nullopt;
+  if (!has_files_) return Frame{*std::move(input), {}};
+  OutputPaths files = patterns_.filled(name_of(*input));
   take_files(files);
-  return Frame{line, std::move(files)};
+  return Frame{*std::move(input), std::move(files)};
 }
 
 /// The frames to come are not known: the name without extension, or one with a number behind it.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstddef>
-#include <iosfwd>
-#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "segment/arguments/arguments.hpp"
+#include "segment/input/frame_list.hpp"
 
 namespace ph::segment {
 
@@ -25,13 +24,12 @@ class FrameSource {
  public:
   /// Creates the folders of the outputs. @throws Error (usage) if the files of two frames would be
   /// the same or an output is no folder and has no `*`; Error (no_input); Error (cannot_create).
-  explicit FrameSource(const Arguments& arguments);
-  ~FrameSource();
+  FrameSource(const Arguments& arguments, const RunContext& context);
 
   /// Adds the frames that are known before the first one is asked for: all but those of a list that
   /// can be read once only, a pipe, which may have no end.
   void add_known(app::InputFiles& known);
-  /// @return none: that was all.
+  /// @return none: that was all. @throws Error as FrameList::next.
   std::optional<Frame> next();
 
  private:
@@ -39,15 +37,12 @@ class FrameSource {
   /// @throws Error (usage) if a file is one of a frame before it.
   void take_files(const OutputPaths& files);
   std::string name_of(const std::string& input);
-  /// That of the next frame of the list. @return whether there is one.
-  bool next_line(std::string& line);
 
   const OutputPaths& patterns_;
   bool has_files_;  // each frame has files: names matter
   std::vector<std::string> inputs_, names_;
   std::size_t given_ = 0;
-  std::unique_ptr<std::istream> file_;  // of the list
-  std::istream* list_ = nullptr;        // null: none
+  std::optional<FrameList> list_;
   // Names that are taken, each with the number behind the last one that was made of it. Without
   // files none is: a stream may go on for ever.
   std::unordered_map<std::string, std::size_t> taken_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The umbrella: complexes, engines, barcodes; and, where ph::io is linked, files.
+// The umbrella: complexes, engines, barcodes. Files: ph/io/read.hpp, ph/io/write.hpp.
 #include "ph/cubical.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/estimate.hpp"

@@ -21,8 +21,9 @@ class SparseDistances {
   /// distances >= 0. @throws Error (bad_data) naming the edge that breaks this.
   SparseDistances(Index size, std::vector<WeightedEdge> edges);
 
-  /// All pairs of points at Euclidean distance <= radius: O(n log n + edges). See pairs_within.hpp.
+  /// All pairs of points at Euclidean distance <= radius: O(n log n + edges).
   /// @param points one point a row. @param radius in units of the coordinates, >= 0.
+  /// @throws Error (usage) on another radius; Error (bad_data) on a coordinate that is not finite.
   static SparseDistances within(PointsView points, double radius);
 
   Index size() const { return size_; }

@@ -15,12 +15,13 @@ bool is_field_characteristic(std::int64_t p) {
   return true;
 }
 
-Zp::Zp(std::int64_t p) : p_(p) {
-  if (!is_field_characteristic(p)) {
+void require_field(std::int64_t p) {
+  if (!is_field_characteristic(p))
     throw Error(ErrorKind::usage,
                 "field: found " + std::to_string(p) + ", expected a prime below 2^31");
-  }
 }
+
+Zp::Zp(std::int64_t p) : p_(p) { require_field(p); }
 
 Zp::Element Zp::inverse(Element a) const {
   // Extended Euclid: keeps r = s * a (mod p).

@@ -33,6 +33,18 @@ void check(const Options& options) {
   at_least_0("lowest dimension", options.min_dim);
   if (std::isnan(options.min_persistence))
     throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
+  require_field(options.field);
+}
+
+void check_as_it_is(const Options& options, bool has_incidences) {
+  check(options);
+  if (options.collapse == Collapse::on)
+    throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
+  if (!has_incidences && options.field != 2)
+    throw Error(ErrorKind::usage,
+                fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
+                            "field 2 only",
+                            options.field));
 }
 
 void refuse(Engine asked, const Task& task) {

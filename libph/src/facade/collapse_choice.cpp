@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph::detail {
 namespace {

@@ -8,8 +8,8 @@
 #include "cubical/pair_voxels.hpp"
 #include "facade/memory_forecast.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
-#include "ph/detail/rips/edge_collapse.hpp"
 #include "rips/clique_count.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph {
 namespace {

@@ -56,7 +56,7 @@ std::vector<Index> MergeTree::components(double value) const {
   for (std::size_t v = 0; v < births.size(); ++v)
     parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
   for (const Merge& m : merges) {
-    if (m.value > value) break;
+    if (!(m.value <= value)) break;  // of NaN all
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
   // A parent was born before its child: follow to the root, halving the path for those to come.

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
+#include "facade/alpha_engines.hpp"
 #include "facade/collapse_choice.hpp"
-#include "ph/detail/facade/alpha_engines.hpp"
-#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph {
 namespace {
@@ -41,12 +42,6 @@ Barcode persistence(const Cubical& cubical, const Options& options, const RunCon
 
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
                     const RunContext& context) {
-  if (!complex.has_incidences() && options.field != 2) {
-    throw Error(ErrorKind::usage,
-                fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
-                            "field 2 only",
-                            options.field));
-  }
   return detail::compute(complex, options, context);
 }
 
@@ -66,9 +61,15 @@ std::string first_difference(const Barcode& a, const Barcode& b) {
   const auto before = [](const Bar& x, const Bar& y) {
     return std::tie(x.dim, x.birth, x.death) < std::tie(y.dim, y.birth, y.death);
   };
-  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  if (x == a.end() && y == b.end()) return "";
-  if (y == b.end() || (x != a.end() && before(*x, *y)))
+  const auto sorted = [&](const Barcode& barcode) {  // one to which bars were added may not be
+    std::vector<Bar> bars(barcode.begin(), barcode.end());
+    std::ranges::sort(bars, before);
+    return bars;
+  };
+  const std::vector<Bar> first = sorted(a), second = sorted(b);
+  const auto [x, y] = std::ranges::mismatch(first, second);
+  if (x == first.end() && y == second.end()) return "";
+  if (y == second.end() || (x != first.end() && before(*x, *y)))
     return describe(*x) + " is in the first barcode only";
   return describe(*y) + " is in the second barcode only";
 }

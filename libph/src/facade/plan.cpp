@@ -23,6 +23,7 @@ RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& con
   Options rips_options = options;
   rips_options.max_dim = detail::rips_max_dim(rips, options);
   const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
+  rips_options.collapse = Collapse::off;  // done before or not at all
   RunPlan result;
   if (choice.collapses) {
     result.engine = choice.engine;

@@ -2,7 +2,7 @@
 """Numbers and roles of objects that stay the same from frame to frame."""
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +61,10 @@ class LabelTracker:
     def __init__(self, *, patience: int = 5, cell: float = 0.01) -> None:
         frames = _options.whole("patience", patience, 0, 2**31 - 2)
         self._tracker = _core.LabelTracker(frames, _options.positive("cell", cell))
+
+    def __reduce__(self) -> NoReturn:
+        # Else protocols 0 and 1 of pickle ask a base class of pybind11, which ends the process.
+        raise TypeError("cannot pickle a LabelTracker: it is what was seen of one stream so far")
 
     def update(self, frame: Any) -> Any:
         """The next frame.

@@ -154,7 +154,7 @@ def _values_of(bars: Any, X: Any, weights: Any) -> CellValues:
     if weights is not None and meta.get("weights") != "given":
         raise UsageError("weights: do nothing, the barcode was computed without an array of them")
     values: CellValues
-    if kind == "rips" and "metric" in meta:
+    if kind == "rips" and "points" in meta:
         values = RipsValues(X, meta, weights)
     elif kind == "cubical" and "shape" in meta:
         values = VoxelValues(X, meta)

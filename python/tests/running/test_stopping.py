@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+import textwrap
 import threading
 import time
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import libph as ph
-from workloads import VOLUME, normal, symmetric
+from workloads import VOLUME, normal, run_python, symmetric
 
 SOON = 1.0  # seconds; 0.02 to 0.1 as a rule, but machines that run tests are busy
 
@@ -209,3 +210,44 @@ def test_progress_true_is_a_bar_of_tqdm(monkeypatch):
     ph.rips(normal(5000, 5), progress=True, threads=1)
     stages = [entry for entry in log if entry != "closed"]
     assert stages and log.count("closed") == len(stages)
+
+
+def test_where_the_system_gives_no_thread():
+    """It looks after itself: at the time, for a stop and signals, and tells its progress."""
+    code = textwrap.dedent("""
+        import os, resource, signal, threading, time
+        import numpy as np
+        import libph as ph
+        points = np.random.default_rng(0).normal(size=(4000, 5))
+        resource.setrlimit(resource.RLIMIT_NPROC, (1, 1))
+        if os.geteuid() == 0:
+            os.setuid(65534)  # root has as many as it likes
+        try:
+            threading.Thread(target=time.sleep, args=(0,)).start()
+            print("threads are there")
+        except RuntimeError:
+            start = time.monotonic()
+            def late():
+                return time.monotonic() - start > 0.2
+            class Stop:
+                is_set = staticmethod(late)
+            def fire(*_):
+                raise KeyboardInterrupt
+            signal.signal(signal.SIGALRM, fire)
+            told = []
+            for kind, options in ((ph.Timeout, {"timeout": 0.2}), (ph.Cancelled, {"stop": Stop}),
+                                  (KeyboardInterrupt, {"progress": lambda *at: told.append(at)})):
+                start = time.monotonic()
+                if kind is KeyboardInterrupt:
+                    signal.setitimer(signal.ITIMER_REAL, 0.4)
+                try:
+                    ph.rips(points, max_dim=2, **options)
+                    print("it went on")
+                except kind as error:
+                    print(type(error).__name__, time.monotonic() - start < SOON + 0.4)
+            print(len(told) > 0, ph.rips([[0], [1]]) == ph.rips([[0], [1]], timeout=9))
+    """).replace("SOON", str(SOON))
+    printed = run_python(code).stdout
+    if printed == "threads are there\n":
+        pytest.skip("the number of threads has no limit here")
+    assert printed == "Timeout True\nCancelled True\nKeyboardInterrupt True\nTrue True\n"

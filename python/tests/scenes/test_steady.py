@@ -2,6 +2,7 @@
 """Labels, roles and the plane of ten frames of one scene."""
 import json
 import os
+import pickle
 import subprocess
 from collections import Counter
 from pathlib import Path
@@ -164,3 +165,9 @@ def test_bounds_of_a_tracker():
     assert forgetful.update(one).tolist() == [[1, 1]]
     forgetful.update(none)
     assert forgetful.update(one).tolist() == [[2, 2]]
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_a_tracker_is_of_one_stream(protocol):
+    with pytest.raises(TypeError, match="cannot pickle a LabelTracker"):
+        pickle.dumps(ph.LabelTracker(), protocol)

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // ph-segment on streams of frames.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <thread>
 
 #include "program_fixture.hpp"
 
@@ -69,6 +74,35 @@ TEST_F(Stream, InputsListsAndPatterns) {
   EXPECT_NE(json[0].find("in/3.pcd"), std::string::npos);
   ASSERT_EQ(run("--frames-from list.txt --labels out/"), 0) << err();
   EXPECT_TRUE(fs::exists(at("out/3.npy")));
+}
+
+TEST_F(Stream, AListThatCannotBeReadIsNoEmptyOne) {
+  EXPECT_EQ(run("--frames-from - --json all.json <in"), 66) << "a folder";
+  EXPECT_NE(err().find("cannot read the list of frames"), std::string::npos) << err();
+  EXPECT_EQ(run("--frames-from - --json all.json <&-"), 74) << "closed";
+  EXPECT_NE(err().find("standard input: cannot read the list of frames"), std::string::npos);
+  EXPECT_EQ(run("--frames-from missing.txt --json all.json"), 66);
+  EXPECT_FALSE(fs::exists(at("all.json")));
+  EXPECT_EQ(run("--frames-from - --json all.json </dev/null"), 0) << err();
+  EXPECT_EQ(contents(at("all.json")), "");
+}
+
+TEST_F(Stream, APipeThatDoesNotWaitHasNoEndYet) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  fcntl(ends[1], F_SETFD, FD_CLOEXEC);  // else the program would be a writer, too
+  std::thread writer([&] {
+    for (const std::string_view some : {"in/0.p", "cd\nin/", "1.pcd\nin/2.pcd"}) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      EXPECT_EQ(write(ends[1], some.data(), some.size()), static_cast<ssize_t>(some.size()));
+    }
+    close(ends[1]);
+  });
+  EXPECT_EQ(run("--frames-from - --json - <&" + std::to_string(ends[0])), 0) << err();
+  writer.join();
+  close(ends[0]);
+  EXPECT_EQ(lines(out()).size(), 3U) << err();
 }
 
 TEST_F(Stream, NoFileIsThatOfTwoFrames) {

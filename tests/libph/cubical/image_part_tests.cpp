@@ -102,6 +102,11 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
         refused([&] { ImagePart::forecast(image, 3, options); });
       }
     }
+  for (const ImagePartOptions& options :
+       {ImagePartOptions{.min_dim = -5}, ImagePartOptions{.max_dim = -1}}) {
+    EXPECT_THROW(ImagePart(image, 0, 1, options), Error);
+    EXPECT_THROW(ImagePart::forecast(image, 1, options), Error);
+  }
   const ImagePart with_loops(image, 1, 3, {.loops = true});
   EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));

@@ -256,6 +256,11 @@ TEST(MergeTrees, OfNothing) {
   EXPECT_TRUE(MergeTree{}.components(0).empty());
 }
 
+TEST(MergeTrees, AtAValueThatIsNoneNothingHasEntered) {
+  const MergeTree line = merge_tree(Rips(Points{{0}, {1}, {3}, {7}, {15}}));
+  EXPECT_EQ(line.components(std::numeric_limits<double>::quiet_NaN()), std::vector<Index>(5, -1));
+}
+
 // A chain of merges as long as there are vertices must not take quadratic time.
 TEST(MergeTrees, LongChains) {
   constexpr Index n = 300000;

@@ -2,7 +2,7 @@
 // The facade: options, engines, estimates, a filtration of the user's own.
 #include "ph/estimate.hpp"
 
-#include "ph/detail/rips/edge_collapse.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
@@ -18,8 +18,11 @@ TEST(Options, MakeSenseOrAreRefused) {
   const Cubical cubical(Image{{3}, {0, 2, 1}});
   const ExplicitComplex complex = all_at_once(torus_of_seven_vertices());
   const auto refuse = [&](const std::string& what, const Options& options) {
-    for (const AnyComplex& any : {AnyComplex(rips), AnyComplex(cubical), AnyComplex(complex)})
+    for (const AnyComplex& any : {AnyComplex(rips), AnyComplex(cubical), AnyComplex(complex)}) {
       expect_error(ErrorKind::usage, what, [&] { persistence(any, options); });
+      expect_error(ErrorKind::usage, what, [&] { plan(any, options); });
+      expect_error(ErrorKind::usage, what, [&] { estimate(any, options); });
+    }
   };
   refuse("found -1", {.max_dim = -1});
   refuse("found 4", {.field = 4});
@@ -28,6 +31,33 @@ TEST(Options, MakeSenseOrAreRefused) {
   refuse("found 2147483648", {.field = std::int64_t{1} << 31});
   refuse("union-find cannot compute homology up to dimension 1",
          {.max_dim = 1, .engine = Engine::union_find});
+
+  const ExplicitComplex unsigned_edge =
+      ExplicitComplex::from_boundary({{0, 0, 1}, {0, 0, 0, 2}, {0, 1}, {}, {}});
+  const auto refuse_of = [](const AnyComplex& any, const std::string& what,
+                            const Options& options) {
+    expect_error(ErrorKind::usage, what, [&] { persistence(any, options); });
+    expect_error(ErrorKind::usage, what, [&] { plan(any, options); });
+    expect_error(ErrorKind::usage, what, [&] { estimate(any, options); });
+  };
+  refuse_of(unsigned_edge, "field 3: this boundary matrix has no incidence numbers", {.field = 3});
+  for (const AnyComplex& any : {AnyComplex(cubical), AnyComplex(complex)})
+    refuse_of(any, "edge collapse is for Rips complexes only", {.collapse = Collapse::on});
+}
+
+TEST(FirstDifference, DoesNotDependOnTheOrder) {
+  const auto bars = [](const std::vector<Bar>& all) {
+    Barcode barcode;
+    for (const Bar& bar : all) barcode.add(bar, {}, {});
+    return barcode;
+  };
+  const Barcode some = bars({{1, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+  EXPECT_EQ(first_difference(some, bars({{0, 0, 1}, {1, 0, 1}, {0, 0, 1}})), "");
+  EXPECT_EQ(first_difference(some, bars({{0, 0, 1}, {1, 0, 1}})),
+            "H0 [0, 1) is in the first barcode only");
+  EXPECT_EQ(first_difference(bars({{0, 0, 1}}), some), "H0 [0, 1) is in the second barcode only");
+  EXPECT_EQ(first_difference(bars({{1, 0, 1}}), bars({{1, 0, 2}})),
+            "H1 [0, 1) is in the first barcode only");
 }
 
 TEST(Options, DefaultDimensions) {

@@ -15,17 +15,26 @@ TEST(WriteSurface, RefusesWhatIsNone) {
   const PointsView points(numbers.data(), 3, 3);
   const auto path = std::filesystem::path(::testing::TempDir()) / "surface.ply";
   std::filesystem::remove(path);
-  const auto refused = [&](const SurfaceMesh& mesh, const char* why) {
+  const auto refused = [&](const SurfaceMesh& mesh, const char* why,
+                           const std::vector<Index>& ids = {}) {
     for (const SurfaceFormat format : {SurfaceFormat::ply, SurfaceFormat::off})
       expect_error(ErrorKind::usage, why, [&] {
         OutputFile file(path.string());
-        write_surface(file, points, mesh, format);
+        write_surface(file, points, mesh, format, ids);
       });
     EXPECT_FALSE(std::filesystem::exists(path)) << why;
   };
   refused({{{0, 1, 3}}, 1}, "found a corner at point 3, expected 0 to 2");
   refused({{{0, 1, 2}, {-1, 1, 2}}, 2}, "found a corner at point -1, expected 0 to 2");
   refused({{{0, 1, 2}}, 2}, "found 2 regular triangles of 1");
+  refused({{{0, 1, 2}}, 1}, "found numbers of 2 points, expected 3", {5, 6});
+  refused({{{0, 1, 2}}, 1}, "found the number -1 of a point", {5, -1, 6});
+  refused({{{0, 1, 2}}, 1}, "found the number 4294967303 of a point, expected 0 to 4294967295",
+          {5, 6, (Index{1} << 32) + 7});
+  expect_error(ErrorKind::usage, "found points of R^1", [&] {
+    OutputFile file(path.string());
+    write_surface(file, PointsView(numbers.data(), 3, 1), {}, SurfaceFormat::off);
+  });
   OutputFile file(path.string());
   write_surface(file, points, {{{0, 1, 2}}, 1}, SurfaceFormat::off);
   file.commit();

@@ -71,8 +71,8 @@ struct DepthCounts {
 /// @param camera its size is that of the image, or 0.
 /// @param depth_scale depth units a metre: 1000 for millimetres.
 /// @param counts receives what it says; may be null.
-/// @throws Error (bad_data) if the sizes differ; Error (usage) on focal lengths or a scale that are
-///         not positive, or another number of axes.
+/// @throws Error (bad_data) if the colours have another size; Error (usage) if the camera has, on
+///         focal lengths or a scale that are not positive, or another number of axes.
 Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
                        const Camera& camera, double depth_scale = 1000,
                        DepthCounts* counts = nullptr);
@@ -90,7 +90,7 @@ void write_pcd(std::ostream& out, const Cloud& cloud, PcdData data = PcdData::bi
 void write_ply(std::ostream& out, const Cloud& cloud, PlyData data = PlyData::little_endian);
 
 /// One label a point as NPY, uint32 little endian: shape (height, width) if height > 1, else
-/// (width). @throws Error (io) if the stream fails.
+/// (width). @throws Error (bad_data) if there are not so many; Error (io) if the stream fails.
 void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
                Index height = 1);
 

@@ -82,16 +82,19 @@ struct ReadOptions {
   std::vector<std::string> columns = {};         ///< of tables: names, "3", "2-5"; empty: all
   Channel channel = Channel::automatic;          ///< of pictures
   std::optional<RawLayout> raw = {};             ///< used by read_any for Format::raw
-  const RunContext* context = nullptr;           ///< budget and stop token; may be null
-  std::function<void(std::string)> note = {};    ///< told what was assumed, one line each
-  std::vector<Index>* dropped = nullptr;         ///< receives the rows left out, ascending
+  /// Budget and stop token of what is opened by its path; null: none. An open Input has its own.
+  const RunContext* context = nullptr;
+  std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
+  std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
 };
 
 // Every reader takes a path ("-" is standard input) or an open Input. All throw
 //   Error (bad_data)   "name:line:column (or byte): what, found X, expected Y; hint"
 //   Error (no_input)   the file is missing, unreadable or a directory
 //   Error (io)         reading broke off, or there is no room for a temporary file
-//   Error (resource)   the budget of options.context would be exceeded
+//   Error (resource)   the budget of the context would be exceeded
+//   Error (cancelled)  a stop was requested
+//   Error (usage)      options.columns name one that is not there, or an option does not fit
 // They need linear time, and never allocate more than in proportion to the bytes that are there.
 
 /// Points, one a line: numbers separated by blanks, commas or semicolons. A first row without any

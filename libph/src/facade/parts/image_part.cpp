@@ -100,6 +100,10 @@ Image image_of(const Image& image, const PartLayout::Layers& layers, const GridS
 }  // namespace
 
 WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePartOptions& options) {
+  if (options.min_dim < 0 || options.max_dim.value_or(0) < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("dimensions of an image in parts: found {}, expected >= 0",
+                            std::min(options.min_dim, options.max_dim.value_or(0))));
   WholeImage whole = whole_image(image, parts, options);
   const GridShape shape = shape_of(whole);
   const std::uint64_t layers = layers_of(shape);

@@ -156,8 +156,9 @@ Input::Input(Input&&) noexcept = default;
 Input& Input::operator=(Input&&) noexcept = default;
 Input::~Input() = default;
 
-Input Input::view(std::string_view bytes, const std::string& name) {
+Input Input::view(std::string_view bytes, const std::string& name, const RunContext* context) {
   Input input;
+  input.context_ = context;
   input.text_ = bytes;
   input.extension_ = lower_extension(name);
   input.name_ = printable(name);

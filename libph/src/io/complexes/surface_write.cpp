@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,8 @@
 
 namespace ph {
 namespace {
+
+constexpr Index kMostNumber = std::numeric_limits<std::uint32_t>::max();  // of a point, in PLY
 
 /// The points of the triangles, ascending.
 std::vector<Index> points_of(const SurfaceMesh& mesh) {
@@ -70,7 +74,7 @@ std::optional<SurfaceFormat> surface_format_of_path(std::string_view path) {
 
 void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
                    SurfaceFormat format, std::span<const Index> ids) {
-  if (points.cols() > 3)
+  if (points.cols() > 3 || (points.cols() < 2 && points.rows() > 0))
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found points of R^{}, expected R^2 or R^3", points.cols()));
   if (mesh.regular > mesh.triangles.size())
@@ -82,6 +86,17 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found a corner at point {}, expected 0 to {}",
                             used.front() < 0 ? used.front() : used.back(), points.rows() - 1));
+  if (!ids.empty() && static_cast<Index>(ids.size()) != points.rows())
+    throw Error(ErrorKind::usage, fmt::format("surface: found numbers of {} points, expected {}",
+                                              ids.size(), points.rows()));
+  const auto number_of = [ids](Index point) {
+    return ids.empty() ? point : ids[static_cast<std::size_t>(point)];
+  };
+  for (const Index point : used)
+    if (const Index number = number_of(point); number < 0 || number > kMostNumber)
+      throw Error(ErrorKind::usage, fmt::format("surface: found the number {} of a point, expected "
+                                                "0 to {}",
+                                                number, kMostNumber));
   const auto place_of = [&](Index point) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(used, point) - used.begin());
   };
@@ -107,8 +122,7 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
                   used.size(), triangles));
   for (const Index point : used) {
     for (const double x : coordinates_of(points, point)) to.add_bytes(x);
-    to.add_bytes(
-        static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]));
+    to.add_bytes(static_cast<std::uint32_t>(number_of(point)));
   }
   for (std::size_t i = 0; i < triangles; ++i) {
     to.add_bytes(std::uint8_t{3});

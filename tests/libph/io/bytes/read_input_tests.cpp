@@ -71,6 +71,22 @@ TEST(Input, ReadersKeepToTheBudget) {
   EXPECT_EQ(context.memory.used(), 0U);
 }
 
+TEST(Input, BytesInMemoryHaveABudgetToo) {
+  std::string text;
+  for (int i = 0; i < 300000; ++i) text += std::to_string(i) + " 1\n";
+  RunContext context;
+  context.memory.set_limit(100'000);
+  EXPECT_TRUE(
+      fails_with(ErrorKind::resource, [&] { read_points(Input::view(text, "t.txt", &context)); }));
+  EXPECT_EQ(read_points(Input::view(text, "t.txt")).rows(), 300000);
+  RunContext stopped;
+  std::stop_source stop;
+  stopped.stop = stop.get_token();
+  stop.request_stop();
+  EXPECT_TRUE(
+      fails_with(ErrorKind::cancelled, [&] { read_points(Input::view(text, "t.txt", &stopped)); }));
+}
+
 TEST(Input, HeaderBombsCostNothing) {
   const std::string huge = "1000000000000";
   const std::string pcd = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +

@@ -37,29 +37,31 @@ template <class Visit>
 void Cubical::for_each_cell(int dim, Visit&& visit) const {
   if (dim < 0 || dim > dim_ || cells_ == 0) return;
   const auto& keys = table().keys;
+  const auto axes = static_cast<std::size_t>(dim_);
   // One set of odd axes after the other; within a set the cells in grid order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
     std::array<std::uint64_t, kMaxDim> at{};
     std::uint64_t index = 0;
     bool empty = false;
-    for (int k = 0; k < dim_; ++k) {
+    for (std::size_t k = 0; k < axes; ++k) {
       at[k] = odd >> k & 1;
       empty = empty || at[k] >= axes_[k].length;
       index += at[k] * axes_[k].stride;
     }
     while (!empty) {
       if (keys[index] != kNever) visit(Cell{keys[index], index});
-      int k = dim_ - 1;
-      for (; k >= 0; --k) {
+      bool is_last = true;
+      for (std::size_t k = axes; k-- > 0;) {
         at[k] += 2;
         index += 2 * axes_[k].stride;
-        if (at[k] < axes_[k].length) break;
+        is_last = at[k] >= axes_[k].length;
+        if (!is_last) break;
         const std::uint64_t first = odd >> k & 1;
         index -= (at[k] - first) * axes_[k].stride;
         at[k] = first;
       }
-      if (k < 0) break;
+      if (is_last) break;
     }
   }
 }
@@ -72,7 +74,7 @@ void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
   const auto& keys = table().keys;
   int sign = 1;
   for (int k = 0; k < dim_; ++k) {
-    const Axis& axis = axes_[k];
+    const Axis& axis = axes_[static_cast<std::size_t>(k)];
     const std::uint64_t x = coordinate(cell.index, axis);
     if (x % 2 == 0) continue;
     // On a circle of one edge both ends are the same vertex and cancel.
@@ -100,7 +102,7 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
   int sign = 1;
   bool wrapped = false;
   for (int k = 0; k < dim_; ++k) {
-    const Axis& axis = axes_[k];
+    const Axis& axis = axes_[static_cast<std::size_t>(k)];
     const std::uint64_t x = coordinate(cell.index, axis);
     if (x % 2 == 1) {
       sign = -sign;

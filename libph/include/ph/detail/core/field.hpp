@@ -62,6 +62,8 @@ class Zp {
 
 /// Whether `p` can be the characteristic of a field here: a prime below 2^31.
 bool is_field_characteristic(std::int64_t p);
+/// @throws Error (usage) if it is none.
+void require_field(std::int64_t p);
 
 namespace detail {
 

@@ -7,8 +7,13 @@
 
 namespace ph::detail {
 
-/// @throws Error (usage) on dimensions below 0 or a min_persistence that is no number.
+/// @throws Error (usage) on dimensions below 0, a min_persistence that is no number, or a field
+/// that
+///         is none.
 void check(const Options& options);
+/// Of a complex that is taken as it is.
+/// @throws Error (usage) also on an edge collapse, and a field that needs incidence numbers.
+void check_as_it_is(const Options& options, bool has_incidences);
 
 /// The engine that will run, with the reason.
 template <Filtration F>
@@ -52,10 +57,13 @@ struct Plan {
   int max_dim;
   EngineChoice<F> choice;
 };
-/// @throws Error (usage) as check and choose_engine.
+/// @throws Error (usage) as check_as_it_is and choose_engine.
 template <Filtration F>
 Plan<F> plan_for(const F& f, const Options& options) {
-  check(options);
+  if constexpr (requires { f.has_incidences(); })
+    check_as_it_is(options, f.has_incidences());
+  else
+    check_as_it_is(options, true);
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
   if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
@@ -70,8 +78,6 @@ Plan<F> plan_for(const F& f, const Options& options) {
 /// The barcode by one of the engines of the filtration; no edge is collapsed.
 template <Filtration F>
 Barcode compute(const F& filtration, const Options& options, const RunContext& context) {
-  if (options.collapse == Collapse::on)
-    throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
   const auto [max_dim, choice] = plan_for(filtration, options);
   BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives,
                          options.cells, context);

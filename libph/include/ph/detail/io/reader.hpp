@@ -61,8 +61,9 @@ class Input {
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
                     Excess excess = Excess::refused);
-  /// A view of bytes that outlive the input.
-  static Input view(std::string_view bytes, const std::string& name);
+  /// A view of bytes that outlive the input. @param context as of `open`.
+  static Input view(std::string_view bytes, const std::string& name,
+                    const RunContext* context = nullptr);
   /// An input that owns its bytes: what was unpacked from another one.
   static Input hold(std::pmr::vector<char> bytes, const std::string& name,
                     const RunContext* context = nullptr);

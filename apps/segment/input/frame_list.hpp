@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "ph/run_context.hpp"
+
+namespace ph::segment {
+
+/// The lines of a list of frames, a file or a pipe, each as soon as it is there.
+class FrameList {
+ public:
+  /// @param path "-" is standard input. @param context outlives the list.
+  /// @throws Error (no_input) if it is missing, unreadable or a folder.
+  FrameList(const std::string& path, const RunContext& context);
+  ~FrameList();
+  FrameList(const FrameList&) = delete;
+  FrameList& operator=(const FrameList&) = delete;
+
+  /// The names that are known by now: all that are in a file, none of a pipe, which may have no
+  /// end. `next` gives them all the same. @throws as `next`.
+  const std::deque<std::string>& known();
+  /// Waits for the next name. @return none: that was all.
+  /// @throws Error (io) if reading breaks off; Error (bad_data) on a NUL and on a line longer than
+  ///         names are; Error (cancelled).
+  std::optional<std::string> next();
+
+ private:
+  std::optional<std::string> read_name();
+  std::optional<std::string> read_line();
+
+  const RunContext& context_;
+  std::string name_;  // printable
+  int file_ = -1;
+  bool is_file_ = false;  // else its end may never come
+  std::string read_;      // what came behind the last line
+  std::deque<std::string> ahead_;
+};
+
+}  // namespace ph::segment
