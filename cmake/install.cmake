@@ -4,7 +4,8 @@
 #
 # `cmake --install BUILD --component NAME` takes a part: `c`, what programs need that were linked
 # with ph::c; `dev`, what it takes to compile and link others; `pcl` and `alpha`, the same of ph::pcl
-# and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a package of each.
+# and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a package of each,
+# but for `mpi` and `licence`.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)

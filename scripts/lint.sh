@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: what is found without running anything, of everything
-# tracked: layout (clang-format), naming and habits (clang-tidy), faults (cppcheck), and what GCC's
-# analyzer finds in C, the one language it is made for. Without arguments: each. Installs what is
+# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: what is found without running anything. Layout
+# (clang-format) is that of all C++; naming and habits (clang-tidy) and faults (cppcheck) are those of
+# libraries and programs; GCC's analyzer looks at C, the one language it is made for. Without arguments: each. Installs what is
 # missing. A line for each comes last. What is found and is none: tests/analysis.
 set -euo pipefail
 cd "$(dirname "$0")/.."

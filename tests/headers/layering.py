@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "image": "core",
     "components": "core",
     "reduction": "core components",
-    "complex": "core metric image components",
+    "complex": "core metric image",
     "gpu": "core metric",
     "rips": "core metric components reduction complex gpu",
     "cubical": "core image components reduction",

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "facade/alpha_engines.hpp"
 #include "facade/collapse_choice.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "rips/collapse/edge_collapse.hpp"
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <thread>
 
-#include "facade/alpha_engines.hpp"
 #include "libph/alpha/alpha_oracle.hpp"
 #include "libph/alpha/alpha_support.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "alpha/periodic/quotient.hpp"
-#include "facade/alpha_engines.hpp"
 #include "libph/alpha/alpha_support.hpp"
 #include "libph/alpha/expect_bars.hpp"
 #include "libph/alpha/periodic_oracle.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "facade/alpha_engines.hpp"
 #include "libph/alpha/alpha_support.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 
