@@ -228,7 +228,8 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     Parameters
     ----------
     path : path
-        The file. JSON brings cells and chains back.
+        The file. JSON brings cells and chains back; loops, sets of voxels and p-values it leaves
+        out.
     format : str, optional
         "csv", "json", "ripser", "pers", "dipha" or "npy". Default: by content and extension.
     **run
@@ -242,4 +243,4 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     bars, meta = _run.run(_core.read_barcode, path_of(path),
                           None if format is None else str(format), options=dict(run))
     return Barcode._made(bars, {name: value for name, value in meta.items()
-                                if value is not None and value != "" and value is not False})
+                                if value is not None and value != ""})

@@ -134,6 +134,18 @@ def test_weights_and_hidden_points(tmp_path):
 
 
 @needs_cgal
+def test_a_file_keeps_what_values_are(tmp_path):
+    points = np.random.default_rng(4).random((20, 2))
+    for options in ({"squared": False}, {"squared": True}, {"squared": False, "period": 1}):
+        bars = ph.alpha(points, **options)
+        for _ in range(2):  # what was read is written again
+            bars.save(tmp_path / "bars.json")
+            bars = ph.read_barcode(tmp_path / "bars.json")
+            assert bars.meta["squared"] is options["squared"]
+            assert bars.meta.get("period") == ((1.0, 1.0) if "period" in options else None)
+
+
+@needs_cgal
 def test_periodic_spaces():
     rng = np.random.default_rng(5)
     points = rng.random((60, 3))

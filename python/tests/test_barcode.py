@@ -362,10 +362,10 @@ def test_save_and_read(bars, extension, tmp_path):
     assert other == bars
     if extension != "json" or bars.meta.get("representatives") == "voxels":
         return
-    for name in ("complex", "field", "max_dim", "threshold", "engine", "superlevel",
+    for name in ("complex", "field", "max_dim", "threshold", "engine",
                  "approximation", "covering_radius"):
         assert other.meta.get(name) == (bars.meta.get(name) or None), name
-    for name in ("metric", "construction", "periodic", "min_persistence", "min_dim"):
+    for name in ("metric", "construction", "periodic", "superlevel", "min_persistence", "min_dim"):
         assert other.meta.get(name) == bars.meta.get(name), name
     if bars._bars.has_cells:
         assert np.array_equal(other.birth_cells(0), bars.birth_cells(0))

@@ -70,8 +70,8 @@ py::dict meta_of(const BarcodeInfo& info) {
   }
   put("construction", info.construction);
   if (!info.construction.empty()) put("periodic", py::tuple(py::cast(info.periodic)));
+  if (!info.construction.empty() || info.superlevel) put("superlevel", info.superlevel);
   put("vertex_weights", info.vertex_weights);
-  put("superlevel", info.superlevel);
   put("approximation", info.approximation);
   put("min_persistence", info.min_persistence);
   if (info.min_dim > 0) put("min_dim", info.min_dim);
