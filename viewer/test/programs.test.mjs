@@ -61,7 +61,10 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
         assert.equal(await countAt(page, cut), expected.length);
       }
       await page.click("text=About");
-      assert.match(await page.textContent("dialog[open]"), /ph-barcode sphere\.csv --max-dim 2/);
+      const about = await page.textContent("dialog[open]");
+      assert.match(about, /ph-barcode sphere\.csv --max-dim 2/);
+      assert.match(about, /Metric\s*euclidean/);
+      assert.doesNotMatch(about, /Construction|Left out/);
       await page.keyboard.press("Escape");
     });
   });
@@ -73,6 +76,15 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
     writeFileSync(join(folder, "waves.pgm"), `P2\n32 24\n255\n${rows.join("\n")}\n`);
     run(barcode, "waves.pgm", "-o", "waves.csv", "--report", "waves.html");
     await look(browser, "waves.html", [...kCharts, ".stage", ...kTree]);
+    run(barcode, "waves.pgm", "-o", "waves.csv", "--report", "cells.html", "--construction", "cells",
+      "--periodic", "0,1", "--min-persistence", "2.5");
+    await look(browser, "cells.html", kCharts, async (page) => {
+      await page.click("text=About");
+      const about = await page.textContent("dialog[open]");
+      assert.match(about, /Construction\s*cells\s*Periodic axes\s*0, 1\s*Field/);
+      assert.match(about, /Left out\s*bars of length 2\.5 and less/);
+      await page.keyboard.press("Escape");
+    });
   });
 
   await t.test("ph-barcode: what is exported says of its values what the program's JSON says", async () => {

@@ -35,9 +35,17 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   entry("Read as", p.input?.description);
   entry("SHA-256", p.input?.sha256);
   entry("Complex", p.complex);
+  entry("Metric", ofValues(p, "metric"));
+  entry("Construction", ofValues(p, "construction"));
+  entry("Periodic axes", ofValues(p, "periodic"));
   entry("Field", p.field && (p.field === 2 ? "Z/2" : `Z/${p.field}`));
   entry("Highest dimension", p.max_dim);
   entry("Threshold", typeof p.threshold === "number" ? exact(p.threshold) : undefined);
+  const least = p.filtration?.min_persistence;
+  entry(
+    "Left out",
+    typeof least === "number" && least > 0 ? `bars of length ${exact(least)} and less` : undefined,
+  );
   entry("Engine", p.engine);
   entry(
     "Bars",
@@ -76,6 +84,13 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   session.onChange((changes) => changes.has("cut") && show());
   show();
   return dialog;
+}
+
+/// A name, or numbers, of what is said of the values.
+function ofValues(provenance: Meta["provenance"], name: string): string | undefined {
+  const said = provenance.filtration?.[name];
+  if (Array.isArray(said)) return said.join(", ");
+  return typeof said === "string" ? said : undefined;
 }
 
 /// "H₁ bottleneck 0.05", one a dimension.
