@@ -106,6 +106,7 @@ class Stream {
     int code = app::kOk;
     std::string line;
     try {
+      app::require_given("--frames-from", one.input);
       require_separate(one);
       const OfStream stream{arguments_.stable_labels ? &remembered_ : nullptr, json_.has_value()};
       const Outcome outcome = run_frame(one, session_, &stream);

@@ -11,6 +11,7 @@
 
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/files/file_identity.hpp"
 #include "common/manual/help_text.hpp"
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -67,6 +68,12 @@ std::string about_values(const CLI::App& app, const std::string& text) {
   if (text.find("missing") != text.npos) return names + ": the value is missing";
   if (text.find("received") != text.npos) return names + ": found more than once, expected once";
   return one_line(text);
+}
+
+/// "--output", "INPUT".
+std::string name_of(const CLI::Option& option) {
+  const std::vector<std::string>& names = option.get_lnames();
+  return names.empty() ? option.get_name() : "--" + names.front();
 }
 
 /// What says nothing of the result: how it is computed, and what is told meanwhile.
@@ -184,6 +191,9 @@ std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions
     return program_and_version(app.get_name()) + "\n" +
            (options.verbose ? build_information() + manual.built_in() : "");
   }
+  // Of all options: whatever takes a path takes none of these.
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results()) require_given(name_of(*option), value);
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <system_error>
 
+#include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
@@ -100,6 +101,7 @@ std::vector<std::string> files_in(const std::string& folder,
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: {}", printable(folder),
                             error ? error.message() : fmt::format("a folder without {}", what)));
+  for (const std::string& file : files) require_given(printable(folder), file);  // links
   std::ranges::sort(files);
   return files;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "common/system/process.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
@@ -67,6 +68,15 @@ void InputFiles::require_other(const Written& output) const {
       ErrorKind::usage,
       fmt::format("{}: {} is {}, expected another file; --force writes over it", output.option, out,
                   in == out ? std::string("an input") : fmt::format("the input {}", in)));
+}
+
+std::string require_given(std::string_view option, const std::string& path) {
+  const auto descriptor = files::descriptor_named(files::path_of(path));
+  if (!descriptor || is_given(*descriptor)) return path;
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("{}: found {}, expected a descriptor that is open when the program starts",
+                  option, printable(path)));
 }
 
 void require_distinct(std::span<const Written> outputs) {

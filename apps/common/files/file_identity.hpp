@@ -40,6 +40,10 @@ class InputFiles {
   std::map<FileIdentity, std::string> paths_;
 };
 
+/// The path of an input or an output. @throws Error (usage) "--output: found /dev/fd/4, …" if it
+/// stands for a descriptor that was not open when the program started: it may be our own by now.
+std::string require_given(std::string_view option, const std::string& path);
+
 /// @throws Error (usage) "--report: x is written by --plot, too" if two outputs are one file.
 void require_distinct(std::span<const Written> outputs);
 

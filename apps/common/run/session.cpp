@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/files/extensions.hpp"
+#include "common/files/file_identity.hpp"
 #include "common/run/signals.hpp"
 #include "common/terminal/messages.hpp"
 #include "core/format_size.hpp"
@@ -57,7 +58,8 @@ bool is_typed(std::initializer_list<std::string_view> paths) {
 }
 
 Output::Output(const std::string& path)
-    : file_(require_unpacked(path)), slot_(remember_temporary(file_.temporary_path())) {}
+    : file_(require_given("output", require_unpacked(path))),
+      slot_(remember_temporary(file_.temporary_path())) {}
 
 Output::Output(Output&& other) noexcept
     : file_(std::move(other.file_)), slot_(std::exchange(other.slot_, -1)) {}

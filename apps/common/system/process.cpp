@@ -37,6 +37,11 @@ void prepare_process() {
   signal(SIGXFSZ, SIG_IGN);  // a write then fails with EFBIG
 }
 
+bool is_given(int descriptor) {
+  const int flags = fcntl(descriptor, F_GETFD);
+  return flags >= 0 && (flags & FD_CLOEXEC) == 0;
+}
+
 void give_back_freed_memory() { malloc_trim(0); }
 
 std::uint64_t peak_memory() {

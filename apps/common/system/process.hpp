@@ -7,6 +7,10 @@ namespace ph::app {
 /// allocator that keeps freed blocks.
 void prepare_process();
 
+/// Whether a descriptor is open and was when the program started: not one of its own, which all
+/// close in programs that it starts.
+bool is_given(int descriptor);
+
 /// The allocator keeps none of the blocks that were freed.
 void give_back_freed_memory();
 

@@ -10,10 +10,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <system_error>
 
 namespace ph::files {
 namespace {
@@ -88,6 +90,33 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
                                                          &std::free);
   if (!real && errno == ENOMEM) throw std::bad_alloc();
   return real ? std::filesystem::path(real.get()) : path;
+}
+
+std::optional<int> descriptor_named(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  std::error_code error;
+  for (int links = 0; links <= kMostLinks; ++links) {
+    const std::string name = path.filename();
+    int number = 0;
+    const char* const end = name.data() + name.size();
+    if (const auto read = std::from_chars(name.data(), end, number);
+        read.ec == std::errc() && read.ptr == end) {
+      const auto folder = resolved(path.has_parent_path() ? path.parent_path() : ".");
+      if (folder == resolved("/proc/self/fd") || folder == resolved("/proc/thread-self/fd"))
+        return number;
+    }
+    const auto target = std::filesystem::read_symlink(path, error);
+    if (error) return std::nullopt;
+    path = path.parent_path() / target;
+  }
+  return std::nullopt;
+}
+
+bool may_write(int file) {
+  const int flags = ::fcntl(file, F_GETFL);
+  if (flags < 0) return false;
+  errno = EBADF;
+  return (flags & O_ACCMODE) != O_RDONLY;
 }
 
 bool may_write(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }

@@ -54,6 +54,12 @@ void unmap(char* data, std::size_t bytes);
 /// @}
 /// @{ For writing.
 
+/// The descriptor that a name like /dev/stdout or /dev/fd/3 stands for, or a link to one. It need
+/// not be open.
+std::optional<int> descriptor_named(std::filesystem::path path);
+/// Whether it is open, and for that.
+bool may_write(int file);
+
 /// A name by which all others of the same file are replaced: the file itself.
 std::filesystem::path resolved(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);

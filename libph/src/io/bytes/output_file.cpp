@@ -30,21 +30,18 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// The descriptor that a name like /dev/stdout or /dev/fd/3 stands for. Opening such a name anew
-/// would write over what the descriptor's owner has written already.
-std::optional<int> descriptor_named(std::string_view path) {
-  if (path == "-" || path == "/dev/stdout") return files::kStandardOutput;
-  if (path == "/dev/stderr") return files::kStandardError;
-  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
-    if (!path.starts_with(folder)) continue;
-    const std::string_view digits = path.substr(folder.size());
-    if (digits.empty() || digits.size() > 4) return std::nullopt;
-    int number = 0;
-    for (const char c : digits) {
-      if (c < '0' || c > '9') return std::nullopt;
-      number = 10 * number + (c - '0');
-    }
-    return number;
+/// What to write to where a name stands for a descriptor, or for a file that the standard outputs
+/// go to: what was written there would be lost if it were opened anew, or replaced.
+std::optional<int> descriptor_of(const std::string& path) {
+  if (path == "-") return files::kStandardOutput;
+  if (const auto named = files::descriptor_named(files::path_of(path))) return named;
+  const auto file = files::status_of(files::path_of(path));
+  if (!file || file->kind != files::Kind::regular) return std::nullopt;
+  for (const int standard : {files::kStandardOutput, files::kStandardError}) {
+    const auto open = files::status_of(standard);
+    if (open && open->device == file->device && open->inode == file->inode &&
+        files::may_write(standard))
+      return standard;
   }
   return std::nullopt;
 }
@@ -53,7 +50,8 @@ std::optional<int> descriptor_named(std::string_view path) {
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) fail_creating(path_, "the name is empty");
-  if (const auto descriptor = descriptor_named(path_)) {
+  if (const auto descriptor = descriptor_of(path_)) {
+    if (path_ != "-" && !files::may_write(*descriptor)) fail_creating(path_, words_for(errno));
     descriptor_ = *descriptor;
     files::pass_bytes(descriptor_);
     return;

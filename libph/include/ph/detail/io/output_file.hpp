@@ -23,8 +23,9 @@ class BrokenPipe : public Error {
 ///
 /// A regular file is written into an unnamed or temporary file in the same folder, which `commit`
 /// flushes to disk and renames; it may be the program's own input. Without `commit` nothing is left
-/// behind. What cannot be replaced is written directly: "-" and /dev/stdout (standard output),
-/// devices, FIFOs. A symbolic link is followed; the mode of a file that is replaced is kept.
+/// behind. What cannot be replaced is written directly: "-" (standard output), /dev/stdout and
+/// other names of descriptors, the file that standard output goes to, devices, FIFOs. A symbolic
+/// link is followed; the mode of a file that is replaced is kept.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
