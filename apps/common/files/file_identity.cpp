@@ -16,15 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<FileIdentity> identity(const std::optional<files::Status>& status) {
-  // A pipe, a terminal or /dev/null keeps nothing that could be lost.
-  if (!status || status->kind != files::Kind::regular) return std::nullopt;
+/// What there is to harm: a pipe or a terminal has nothing to lose, but mixes what two write to it.
+enum class Harm { lost, mixed };
+
+bool is_null_device(const files::Status& status) {
+  const auto null = files::status_of(fs::path("/dev/null"));
+  return null && null->device == status.device && null->inode == status.inode;
+}
+
+std::optional<FileIdentity> identity(const std::optional<files::Status>& status, Harm harm) {
+  if (!status || status->kind == files::Kind::folder) return std::nullopt;
+  const bool keeps = status->kind == files::Kind::regular;
+  // Not all systems tell others apart.
+  const bool mixes = harm == Harm::mixed && status->inode != 0 && !is_null_device(*status);
+  if (!keeps && !mixes) return std::nullopt;
   return FileIdentity{status->device, status->inode, {}};
 }
 
-std::optional<FileIdentity> identity_of(const std::string& path, int standard_descriptor) {
-  if (path == "-") return identity(files::status_of(standard_descriptor));
-  if (const auto status = files::status_of(files::path_of(path))) return identity(status);
+std::optional<FileIdentity> identity_of(const std::string& path, int standard_descriptor,
+                                        Harm harm) {
+  if (path == "-") return identity(files::status_of(standard_descriptor), harm);
+  if (const auto status = files::status_of(files::path_of(path))) return identity(status, harm);
   std::error_code error;
   const fs::path absolute = fs::absolute(files::path_of(path), error);
   const fs::path place = fs::weakly_canonical(absolute, error);
@@ -45,12 +57,12 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
 void InputFiles::add(const std::string& path) {
   if (path.empty()) return;
   const std::string whole = split_member(files::path_of(path)).first.string();
-  if (auto file = identity_of(whole, files::kStandardInput); file && file->name.empty())
+  if (auto file = identity_of(whole, files::kStandardInput, Harm::lost); file && file->name.empty())
     paths_.emplace(std::move(*file), path);
 }
 
 const std::string* InputFiles::replaced_by(const std::string& output) const {
-  const auto file = identity_of(output, files::kStandardOutput);
+  const auto file = identity_of(output, files::kStandardOutput, Harm::lost);
   if (!file) return nullptr;
   const auto input = paths_.find(*file);
   return input == paths_.end() ? nullptr : &input->second;
@@ -89,12 +101,12 @@ void require_distinct(std::span<const Written> outputs) {
                     one.path == "-" ? "standard output" : printable(one.path), other.option));
   };
   for (const Written& output : outputs) {
-    // Also of a pipe, which identities do not tell.
+    // Wherever that goes.
     if (output.path == "-") {
       if (standard) reject(output, *standard);
       standard = &output;
     }
-    auto file = identity_of(output.path, files::kStandardOutput);
+    auto file = identity_of(output.path, files::kStandardOutput, Harm::mixed);
     if (!file) continue;
     const auto [other, is_new] = files.emplace(std::move(*file), &output);
     if (!is_new) reject(output, *other->second);

@@ -44,7 +44,8 @@ class InputFiles {
 /// stands for a descriptor that was not open when the program started: it may be our own by now.
 std::string require_given(std::string_view option, const std::string& path);
 
-/// @throws Error (usage) "--report: x is written by --plot, too" if two outputs are one file.
+/// @throws Error (usage) "--report: x is written by --plot, too" if two outputs are one file, or go
+/// to one pipe or device other than /dev/null.
 void require_distinct(std::span<const Written> outputs);
 
 /// Both: each output is a file of its own, and none of the inputs.

@@ -119,6 +119,18 @@ class Descriptors(unittest.TestCase):
         self.assertTrue(self.read("log").startswith("before\n"))
         self.assertIn(SQUARE_CSV, self.read("log"))
 
+    def test_two_outputs_are_not_mixed(self):
+        os.mkfifo(self.path("fifo"))
+        os.symlink("/dev/stdout", self.path("link"))
+        for first, second in (("-", "/dev/stdout"), ("/proc/self/fd/1", "link"),
+                              ("/dev/stderr", "/dev/fd/2"), ("fifo", "./fifo")):
+            run = self.run_in_folder(VECTORISE, "a.csv", "-o", first, "--fit", second)
+            self.assertEqual((run.returncode, run.stdout), (64, ""), (first, second, run.stderr))
+            self.assertIn("is written by --output, too", run.stderr)
+        # Nothing is there to be mixed.
+        run = self.run_in_folder(VECTORISE, "a.csv", "-o", "/dev/null", "--fit", "/dev/null")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
 
 if __name__ == "__main__":
     BARCODE, DISTANCE, VECTORISE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(4))
