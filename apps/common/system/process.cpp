@@ -17,8 +17,9 @@ namespace {
 /// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
 void occupy_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(descriptor, F_GETFD) < 0)
-      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+    if (fcntl(descriptor, F_GETFD) < 0 &&
+        open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+      static_cast<void>(open("/", O_PATH));  // is always there, and neither read nor written
 }
 
 /// Freed blocks are kept for the next stage up to a size: to map and fault in each anew costs a

@@ -131,6 +131,18 @@ class Descriptors(unittest.TestCase):
         run = self.run_in_folder(VECTORISE, "a.csv", "-o", "/dev/null", "--fit", "/dev/null")
         self.assertEqual(run.returncode, 0, run.stderr)
 
+    def test_closed_ones_where_there_is_no_null_device(self):
+        alone = ["unshare", "--user", "--map-root-user", "--mount"]
+        empty = "mount -t tmpfs none /dev"
+        try:
+            subprocess.run([*alone, "sh", "-c", empty], check=True, capture_output=True)
+        except (OSError, subprocess.SubprocessError) as error:
+            self.skipTest(f"no mounts of one's own: {error}")
+        call = f'{empty} && exec "$0" p.csv -o o.csv --verbose <&- >&- 2>&-'
+        run = self.run_in_folder(*alone, "sh", "-c", call, BARCODE)
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(self.read("o.csv"), SQUARE_CSV)
+
 
 if __name__ == "__main__":
     BARCODE, DISTANCE, VECTORISE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(4))
