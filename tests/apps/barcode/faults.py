@@ -7,10 +7,14 @@ import random
 import resource
 import subprocess
 import sys
+import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 import program  # noqa: E402
 from program import SQUARE, SQUARE_CSV, ProgramTest, main  # noqa: E402
+
+
+OTHER = 4321  # a user and a group that nobody is
 
 
 def limit(kind, amount):
@@ -33,12 +37,21 @@ class Outputs(ProgramTest):
 
     def test_mode_and_links_are_kept(self):
         self.write("out.csv", "old")
-        os.chmod(self.path("out.csv"), 0o640)
+        os.chmod(self.path("out.csv"), 0o6640)
         os.symlink("out.csv", self.path("link.csv"))
         self.expect(0, "square.txt", "-o", "link.csv")
         self.assertTrue(os.path.islink(self.path("link.csv")))
         self.assertEqual(self.read("out.csv"), SQUARE_CSV)
-        self.assertEqual(os.stat(self.path("out.csv")).st_mode & 0o777, 0o640)
+        # Set-ID bits were for the old content.
+        self.assertEqual(os.stat(self.path("out.csv")).st_mode & 0o7777, 0o640)
+
+    @unittest.skipIf(os.geteuid() != 0, "only root may give files away")
+    def test_owners_are_kept(self):
+        self.write("out.csv", "old")
+        os.chown(self.path("out.csv"), OTHER, OTHER + 1)
+        self.expect(0, "square.txt", "-o", "out.csv")
+        status = os.stat(self.path("out.csv"))
+        self.assertEqual((status.st_uid, status.st_gid), (OTHER, OTHER + 1))
 
     def test_names_of_descriptors(self):
         for path in ("-", "/dev/stdout", "/dev/fd/1"):

@@ -149,7 +149,11 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
 
 bool take_mode(int file, const std::filesystem::path& of) {
   struct stat status {};
-  return ::stat(of.c_str(), &status) == 0 && ::fchmod(file, status.st_mode & 07777) == 0;
+  // Not the bits that set an ID: they were given to the old content.
+  if (::stat(of.c_str(), &status) != 0 || ::fchmod(file, status.st_mode & 0777) != 0) return false;
+  if (::fchown(file, status.st_uid, status.st_gid) != 0)
+    static_cast<void>(!::fchown(file, static_cast<uid_t>(-1), status.st_gid));
+  return true;
 }
 
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {

@@ -68,7 +68,8 @@ int open_to_write(const std::filesystem::path& path);
 /// A new file in a folder. It has no name, and vanishes with the process, where the system has
 /// such files. -1: failed. @param name its name; empty: none.
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name);
-/// The mode of a file that is there. @return whether it could be given.
+/// The mode of a file that is there, and its owner and group where that is allowed. @return whether
+/// the mode could be given.
 bool take_mode(int file, const std::filesystem::path& of);
 /// @return how many bytes were written, waiting for room; -1: failed, EPIPE if nobody reads them.
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most);

@@ -73,7 +73,6 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     return;
   }
   open_regular();
-  // The file that is replaced passes its mode on.
   if (status && !files::take_mode(descriptor_, target_)) {
     const int error = errno;
     discard();

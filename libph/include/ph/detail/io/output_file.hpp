@@ -25,7 +25,8 @@ class BrokenPipe : public Error {
 /// flushes to disk and renames; it may be the program's own input. Without `commit` nothing is left
 /// behind. What cannot be replaced is written directly: "-" (standard output), /dev/stdout and
 /// other names of descriptors, the file that standard output goes to, devices, FIFOs. A symbolic
-/// link is followed; the mode of a file that is replaced is kept.
+/// link is followed. A file that is replaced passes on its mode, but for set-ID bits, and its owner
+/// and group where that is allowed.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
