@@ -30,7 +30,7 @@ ERRORS = {
     "ioctl": ("EIO",), "poll": ("EINTR", "ENOMEM"), "pipe2": ("EMFILE",), "getrandom": ("ENOSYS",),
     "sysinfo": ("EFAULT",), "prlimit64": ("EPERM",), "getcwd": ("ENOENT",), "access": ("EACCES",),
     "readlink": ("EACCES", "EINVAL"), "sched_getaffinity": ("EINVAL",), "mkdir": ("EACCES",),
-    "getdents64": ("EIO",), "statfs": ("EIO",), "rt_sigaction": ("EINVAL",),
+    "getdents64": ("EIO",), "statfs": ("EIO",), "statx": ("ENOSYS",), "rt_sigaction": ("EINVAL",),
     "clock_gettime": ("EINVAL",), "clock_nanosleep": ("EINVAL", "EINTR"), "sigaltstack": ("EPERM",)}
 # Without these no program starts, or the C library ends it. A brk that fails returns the old end, not
 # an error: strace cannot say that; mmap stands for it.

@@ -5,6 +5,7 @@ import json
 import os
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import unittest
@@ -52,6 +53,50 @@ class Outputs(ProgramTest):
         self.expect(0, "square.txt", "-o", "out.csv")
         status = os.stat(self.path("out.csv"))
         self.assertEqual((status.st_uid, status.st_gid), (OTHER, OTHER + 1))
+
+    def refused_at_once(self, run):
+        """What no new file can replace: the old one stays, and nothing is computed in vain."""
+        self.assertEqual((run.returncode, self.read("out.csv")), (73, "old"), run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertIn("out.csv: cannot create the output", run.stderr)
+        self.assertIn("expected another name, or '-' redirected into it", run.stderr)
+
+    def test_a_file_that_is_mounted(self):
+        self.write("out.csv", "old")
+        alone = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c"]
+        mount = "mount --bind out.csv out.csv"
+        try:
+            subprocess.run([*alone, mount], cwd=self.folder, check=True, capture_output=True)
+        except (OSError, subprocess.SubprocessError) as error:
+            self.skipTest(f"no mounts of one's own: {error}")
+        call = [*alone, f'{mount} && exec "$0" square.txt -o out.csv', program.PROGRAM]
+        self.refused_at_once(subprocess.run(call, cwd=self.folder, capture_output=True, text=True,
+                                            timeout=60))
+
+    @unittest.skipIf(os.geteuid() != 0, "only root runs programs as another user")
+    def test_a_file_of_another_user_in_a_sticky_folder(self):
+        self.write("out.csv", "old")
+        os.chmod(self.path("out.csv"), 0o666)
+        os.chmod(self.folder, 0o1777)
+        copy = shutil.copy(program.PROGRAM, self.path("program"))
+        try:
+            run = subprocess.run([copy, "square.txt", "-o", "out.csv"], cwd=self.folder,
+                                 user=OTHER, group=OTHER, extra_groups=[], capture_output=True,
+                                 text=True, timeout=60)
+        except OSError as error:
+            self.skipTest(f"no other user may start the program: {error}")
+        self.refused_at_once(run)
+
+    def test_a_file_to_append_to(self):
+        path = self.path(self.write("out.csv", "old"))
+        try:
+            subprocess.run(["chattr", "+a", path], check=True, capture_output=True)
+        except (OSError, subprocess.SubprocessError) as error:
+            self.skipTest(f"no file is for appending alone: {error}")
+        try:
+            self.refused_at_once(self.run_program("square.txt", "-o", "out.csv"))
+        finally:
+            subprocess.run(["chattr", "-a", path], check=True)
 
     def test_names_of_descriptors(self):
         for path in ("-", "/dev/stdout", "/dev/fd/1"):

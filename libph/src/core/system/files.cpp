@@ -121,6 +121,21 @@ bool may_write(int file) {
 
 bool may_write(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
 
+bool may_replace(const std::filesystem::path& path) {
+  struct statx file {};
+  struct stat folder {};
+  // What cannot be asked for is found out when the file is renamed.
+  if (::statx(AT_FDCWD, path.c_str(), 0, STATX_UID, &file) != 0 ||
+      ::stat(path.parent_path().c_str(), &folder) != 0)
+    return true;
+  const uid_t user = ::geteuid();
+  const bool is_kept_by_folder =
+      (folder.st_mode & S_ISVTX) != 0 && user != 0 && file.stx_uid != user && folder.st_uid != user;
+  errno = (file.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 ? EBUSY : EPERM;
+  return !is_kept_by_folder &&
+         (file.stx_attributes & (STATX_ATTR_MOUNT_ROOT | STATX_ATTR_APPEND)) == 0;
+}
+
 int open_to_write(const std::filesystem::path& path) {
   int file = -1;
   do {

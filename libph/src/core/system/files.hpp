@@ -63,6 +63,8 @@ bool may_write(int file);
 /// A name by which all others of the same file are replaced: the file itself.
 std::filesystem::path resolved(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);
+/// Whether a new file can take the place of one that may be written.
+bool may_replace(const std::filesystem::path& path);
 /// What cannot be replaced, as a device. -1: failed.
 int open_to_write(const std::filesystem::path& path);
 /// A new file in a folder. It has no name, and vanishes with the process, where the system has

@@ -26,6 +26,14 @@ std::string words_for(int error) {
               fmt::format("{}: cannot create the output: {}", printable(path), why));
 }
 
+/// Said before anything is computed where it is known by then.
+[[noreturn]] void fail_replacing(const std::string& path, int error) {
+  std::string why = words_for(error);
+  if (error == EBUSY || error == EPERM)
+    why += ": no new file can take its place, expected another name, or '-' redirected into it";
+  fail_creating(path, why);
+}
+
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
@@ -66,6 +74,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   } else if (status->kind == files::Kind::regular) {
     target_ = files::resolved(files::path_of(path_));
     if (!files::may_write(target_)) fail_creating(path_, words_for(errno));
+    if (!files::may_replace(target_)) fail_replacing(path_, errno);
   } else {
     descriptor_ = files::open_to_write(files::path_of(path_));
     if (descriptor_ < 0) fail_creating(path_, words_for(errno));
@@ -154,7 +163,7 @@ void OutputFile::commit() {
   }
   // Open files cannot be renamed everywhere. What they hold is on the disk already.
   static_cast<void>(files::close(std::exchange(descriptor_, -1)));
-  if (!files::rename(temporary_, target_)) fail_creating(path_, words_for(errno));
+  if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();
   discard();
   // The new name is safe once the folder is; a failure here leaves a complete file all the same.

@@ -125,6 +125,8 @@ bool may_write(int) { return true; }
 
 bool may_write(const std::filesystem::path& path) { return _waccess(path.c_str(), 2) == 0; }
 
+bool may_replace(const std::filesystem::path&) { return true; }
+
 int open_to_write(const std::filesystem::path& path) { return open(path, _O_WRONLY); }
 
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name) {
