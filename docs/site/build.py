@@ -17,6 +17,7 @@ Needs no network. A warning of Sphinx is an error. Exit code 77: something that 
 import argparse
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -68,6 +69,16 @@ def run_doxygen(folder):
         f"INPUT = {' '.join(inputs)}\n"
         f"INPUT_FILTER = \"{sys.executable} -B {HERE / 'group.py'}\"\nOUTPUT_DIRECTORY = {folder}\n")
     subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True)
+    for group in folder.glob("xml/group__*.xml"):
+        group.write_text(with_namespaces(group.read_text()))
+
+
+def with_namespaces(group):
+    """Breathe shows what a group has by its name alone, and looks for the types of its parameters in no namespace."""
+    def whole(match):
+        name = re.search(r"<qualifiedname>(ph::[^<]*)</qualifiedname>", match[0])
+        return re.sub(r"<name>[^<]*</name>", f"<name>{name[1]}</name>", match[0], count=1) if name else match[0]
+    return re.sub(r"<memberdef .*?</memberdef>", whole, group, flags=re.DOTALL)
 
 
 def print_options(folder, programs):

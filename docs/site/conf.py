@@ -8,7 +8,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# What prepare.py made: the tree of sources, Doxygen's XML, what the programs print.
+# What build.py made: the tree of sources, Doxygen's XML, what the programs print.
 MADE = Path(os.environ["PH_SITE_FOLDER"])
 sys.path[:0] = [str(HERE), str(HERE / "ext")]
 
@@ -21,7 +21,7 @@ root_doc = "index"
 needs_sphinx = "5.3"
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon",
-              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "shown_code",
+              "sphinx_copybutton", "docstrings", "furo_of_debian", "markers", "navigation", "shown_code",
               "source_pages"]
 site_root = str(ROOT)
 site_made = str(MADE)
@@ -65,10 +65,17 @@ html_theme = "furo"
 html_title = f"libph {version}"
 html_static_path = [str(HERE / "static")]
 html_css_files = ["site.css"]
+html_favicon = str(HERE / "static/icon.svg")
+html_search_scorer = str(HERE / "scorer.js")
+# A page that is opened as a file may not fetch others for their words.
+html_show_search_summary = False
 html_copy_source = False
 html_show_sphinx = False
+html_use_index = False  # the search has all of its names
 html_theme_options = {"navigation_with_keys": True}
-pygments_style = "friendly"
-pygments_dark_style = "monokai"
+# Both have a contrast of 4.5 and more on the theme's grounds.
+pygments_style = "default"
+pygments_dark_style = "github-dark"
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
+copybutton_line_continuation_character = "\\"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What Debian's Furo lacks, since other tools build it: its script imports another one, which a page
 opened as a file must not; its style sheet asks a web server for normalize.css, and has no dark colours
-for those whose browser asks for them."""
+for those whose browser asks for them; who goes by keyboard has to pass the menu on each page."""
 import re
 from pathlib import Path
 
@@ -19,8 +19,13 @@ def whole_style(style):
                    lambda _: NORMALIZE.read_text(), style)
     dark = re.search(r'body\[data-theme="dark"\] (\{\s*--[^}]*\})', style)
     if "prefers-color-scheme" not in style and dark:
-        style += f'@media screen and (prefers-color-scheme: dark) {{ body[data-theme="auto"] {dark[1]} }}\n'
+        style += f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark[1]} }}\n'
     return style
+
+
+def with_way_to_text(page):
+    page = page.replace("<body>", '<body>\n<a class="skip" href="#text">To the text</a>', 1)
+    return page.replace('<article role="main">', '<article role="main" id="text">', 1)
 
 
 def mend(app, error):
@@ -30,6 +35,9 @@ def mend(app, error):
     script, style = static / "scripts/furo.js", static / "styles/furo.css"
     script.write_text(whole_script(script.read_text(), (static / "scripts/gumshoe-patched.js").read_text()))
     style.write_text(whole_style(style.read_text()))
+    for page in Path(app.outdir).rglob("*.html"):
+        if "reports" not in page.relative_to(app.outdir).parts:
+            page.write_text(with_way_to_text(page.read_text()))
 
 
 def setup(app):

@@ -16,7 +16,7 @@ import re
 import shutil
 from pathlib import Path
 
-from group import group_of
+from group import group_of, head_of
 from schema_tables import tables
 
 MARKER = re.compile(r"^<!-- site: (\w+) (.*?) -->$", re.MULTILINE)
@@ -31,7 +31,13 @@ def rst(*lines):
 
 
 def cpp(app, *headers):
-    return "\n".join(fence("doxygengroup", ":content-only:\n:members:", group_of(header)) for header in headers)
+    return "\n".join(f"{head_of(text_of(app, header))}\n" +
+                     fence("doxygengroup", ":content-only:\n:members:", group_of(header)) for header in headers)
+
+
+def text_of(app, header):
+    file, = Path(app.config.site_root).glob(f"lib*/**/include/{header}")
+    return file.read_text()
 
 
 def members(thing):

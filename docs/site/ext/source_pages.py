@@ -68,7 +68,8 @@ class PathsInComments(SphinxTransform):
             return
         for text in list(self.document.findall(nodes.Text)):
             parts = PATH.split(str(text))
-            if len(parts) > 1 and not isinstance(text.parent, (nodes.literal, nodes.literal_block, nodes.reference)):
+            if len(parts) > 1 and not is_within(text, (nodes.literal, nodes.literal_block, nodes.reference,
+                                                       addnodes.pending_xref, addnodes.download_reference)):
                 text.parent.replace(text, [self.link(part) if PATH.fullmatch(part) else nodes.Text(part)
                                            for part in parts])
 
@@ -79,6 +80,12 @@ class PathsInComments(SphinxTransform):
             return nodes.Text(path)
         uri = posixpath.relpath(docname, posixpath.dirname(self.env.docname)) + ".html"
         return nodes.reference("", path, refuri=uri, internal=True)
+
+
+def is_within(node, kinds):
+    while node is not None and not isinstance(node, kinds):
+        node = node.parent
+    return node is not None
 
 
 def is_folder(config, path):
@@ -129,8 +136,10 @@ def page_of_file(app, path):
         lexer = pygments.lexers.get_lexer_for_filename(path).aliases[0]
     except ClassNotFound:
         lexer = "text"
-    return PygmentsBridge("html", app.config.pygments_style).highlight_block(
+    shown = PygmentsBridge("html", app.config.pygments_style).highlight_block(
         text, lexer, force=True, linenos="inline")
+    # Numbers that are no text are not copied along.
+    return re.sub(r'<span class="linenos">([^<]*)</span>', r'<span class="linenos" data-line="\1"></span>', shown)
 
 
 def page_of_folder(path, names, files, inside):

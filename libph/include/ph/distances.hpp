@@ -122,9 +122,8 @@ WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const
 
 /// The sliced Wasserstein distance of two persistence diagrams (order 1), approximated by
 /// directions. Points of a diagram, and the points of the diagonal nearest to those of the other
-/// one, are projected to a line. What is between the two sorted lists of numbers, |x_1 - y_1| +
-/// |x_2 - y_2|
-/// + …, is averaged over the directions of the line: angles k π / directions, k = 0 …
+/// one, are projected to a line. What is between the two sorted lists of numbers, the sum of
+/// |x_i - y_i|, is averaged over the directions of the line: angles k π / directions, k = 0 …
 /// directions - 1. They go once around: a line at π is the one at 0, and counts once.
 ///
 /// Bars that never die, and those that were always there, add what wasserstein_distance adds for

@@ -13,7 +13,7 @@
 namespace ph {
 
 /// Simplices in any order, each with its value: simplex i has the vertices
-/// vertices[offsets[i] .. offsets[i+1]).
+/// vertices[offsets[i] … offsets[i+1]).
 struct SimplexList {
   std::vector<Index> vertices;
   std::vector<std::size_t> offsets{0};
@@ -33,7 +33,7 @@ struct SimplexList {
 };
 
 /// A boundary matrix by columns: column i is cell i, of dimension dims[i], with the facets
-/// rows[offsets[i] .. offsets[i+1]) and, beside them, their incidence numbers.
+/// rows[offsets[i] … offsets[i+1]) and, beside them, their incidence numbers.
 struct BoundaryMatrix {
   std::vector<int> dims;
   std::vector<std::size_t> offsets{0};

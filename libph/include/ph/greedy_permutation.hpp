@@ -23,7 +23,7 @@ struct GreedyLimits {
 /// of the smallest number among equals.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
-  /// Of points[k] the distance to the nearest of points[0 .. k); infinite for k = 0. Never
+  /// Of points[k] the distance to the nearest of points[0 … k); infinite for k = 0. Never
   /// increases.
   std::vector<double> radii;
   /// Each point of the whole set is at most so far from one of `points`.

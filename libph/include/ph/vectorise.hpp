@@ -157,8 +157,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> bars, std::siz
 /// deviation `sigma` along both axes, times length^power; a pixel has the integral over it. What a
 /// bar has farther than 8 sigma away, less than 2e-15 of it, is left out.
 ///
-/// Source: Adams et al., Persistence images: a stable vector representation of persistent homology,
-/// 2017. O(n · pixels within 8 sigma). Unit: that of the values to `power`; without one if it is 0.
+/// Source: Adams et al., 2017, Persistence images: a stable vector representation of persistent
+/// homology. O(n · pixels within 8 sigma). Unit: that of the values to `power`; without one if it is 0.
 /// @param sigma finite, > 0. @param power finite, at least 0.
 /// @param out lengths × births: a row for each interval of lengths, ascending.
 void persistence_image(std::span<const Bar> bars, const ImageFrame& frame, double sigma,
@@ -190,8 +190,8 @@ struct AtolOptions {
 /// k-means finds their centres, and half the distance to the nearest other centre is a width (of a
 /// single one the mean distance of the points, 1 if that is 0).
 ///
-/// Source: Royer et al., ATOL: measure vectorization for automatic topologically-oriented learning,
-/// 2021. First centres by k-means++ (Arthur, Vassilvitskii, 2007), then rounds until no point
+/// Source: Royer et al., 2021, ATOL: measure vectorization for automatic topologically-oriented
+/// learning. First centres by k-means++ (Arthur, Vassilvitskii, 2007), then rounds until no point
 /// changes its centre. The result is the same on any machine, for bars and diagrams in any order
 /// and for any number of threads. O(n · centres) a round, shared by threads.
 /// @throws Error (usage) on options out of range; Error (bad_data) on fewer points that differ than

@@ -24,7 +24,7 @@ struct ScenePage {
 /// never reads), the segments and the surfaces of the segmentation with what is said of them, the
 /// merge tree contracted to what cuts can tell apart, the bars of a length. At the cut of the
 /// segmentation the page shows just that; any other cut gives the segments and surfaces of
-/// `ph-segment --cut` with --min-seam 0 --parts.
+/// `ph-segment --cut` with `--min-seam 0 --parts`.
 /// @throws Error (not_built_in) without a page; Error (resource, cancelled); what `sink` throws.
 void write_page(const Sink& sink, const ScenePage& page, const RunContext& context);
 

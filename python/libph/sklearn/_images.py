@@ -39,9 +39,12 @@ class PersistenceImage(Vectoriser):
 
     Attributes
     ----------
-    birth_ranges_, persistence_ranges_ : list of pair of float
-    bandwidths_ : list of float
+    birth_ranges_ : list of pair of float
         Of each diagram of a sample.
+    persistence_ranges_ : list of pair of float
+        The same of lengths.
+    bandwidths_ : list of float
+        The same of bandwidths.
 
     Examples
     --------

@@ -211,7 +211,7 @@ BoundaryInput read_phat(const Input& input, const ReadOptions& options = {});
 std::vector<double> read_values(const Input& input, std::size_t count,
                                 const ReadOptions& options = {}, std::string_view owner = "cell");
 
-/// A polygon mesh: face f has the vertices corners[offsets[f] .. offsets[f+1]).
+/// A polygon mesh: face f has the vertices corners[offsets[f] … offsets[f+1]).
 struct Mesh {
   Points vertices;  ///< one a row, three columns
   std::vector<Index> corners;
@@ -228,7 +228,7 @@ Mesh read_off(const Input& input, const ReadOptions& options = {});
 Mesh read_ply_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 Mesh read_ply_mesh(const Input& input, const ReadOptions& options = {});
 
-/// The input formats, in the order of the programs' --format option.
+/// The input formats, in the order of the programs' `--format` option.
 enum class Format {
   automatic,  ///< by content and extension
   points,
@@ -272,7 +272,7 @@ struct ReadResult {
 /// One line of the table of formats: its name, what it is, and a line of it.
 struct FormatInfo {
   Format format;
-  std::string_view name;         ///< as in --format
+  std::string_view name;         ///< as in `--format`
   std::string_view description;  ///< "one point a line: numbers separated by blanks or commas"
   std::string_view example;      ///< "0.5 1.25 -3e-2"
   /// Null if the format is not built in.
@@ -282,7 +282,7 @@ struct FormatInfo {
 /// All formats. Adding one is a function and a line of this table.
 std::span<const FormatInfo> formats();
 const FormatInfo& format_info(Format format);
-/// The format of a name of --format ("lower-distance").
+/// The format of a name of `--format` ("lower-distance").
 std::optional<Format> format_from_name(std::string_view name);
 
 /// Decides by magic numbers, then by extension, then by the shape of the first lines. Never
