@@ -92,7 +92,9 @@ def test_pages_of_points(barcode_page, points, options, arguments):
     origin, _ = check(bars.report(points, title="points.npy"), written) \
         if options.get("min_persistence", 0) >= 0 else ({}, {})
     if options.get("weights"):
-        assert origin["notes"]["Vertices enter late"] == f"dtm {options['dtm_neighbors']}"
+        exponent = options.get("weight_exponent", 1)
+        assert origin["notes"]["Vertices enter late"] == \
+            f"dtm {options['dtm_neighbors']}, exponent {exponent}"
     if "approximation" in options:
         assert "epsilon 1" in origin["notes"]["Approximation"]
 
@@ -187,14 +189,15 @@ def test_pages_of_bars_alone(program, tmp_path):
         for page in (meta, expected):
             del page["provenance"], page["program"]
         assert meta == expected
-    # What was read shows its data, too, if the options are given that the file does not know.
+    # What was read shows its data, too: the file says how it was computed.
     weighted = ph.rips(POINTS, metric="manhattan")
     weighted.save(tmp_path / "bars.json")
     read = ph.read_barcode(tmp_path / "bars.json")
-    assert parts(read.report(POINTS, metric="manhattan", title="x").html)[1] == \
-        parts(weighted.report(POINTS, title="x").html)[1]
+    for options in ({}, {"metric": "manhattan"}):
+        assert parts(read.report(POINTS, title="x", **options).html)[1] == \
+            parts(weighted.report(POINTS, title="x").html)[1]
     with pytest.raises(ph.DataError, match="merge tree has no class"):
-        read.report(POINTS)
+        read.report(POINTS, metric="euclidean")
 
 
 @needs_page
