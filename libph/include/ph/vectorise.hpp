@@ -158,7 +158,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> bars, std::siz
 /// bar has farther than 8 sigma away, less than 2e-15 of it, is left out.
 ///
 /// Source: Adams et al., 2017, Persistence images: a stable vector representation of persistent
-/// homology. O(n · pixels within 8 sigma). Unit: that of the values to `power`; without one if it is 0.
+/// homology. O(n · pixels within 8 sigma). Unit: that of the values to `power`; without one if it
+/// is 0.
 /// @param sigma finite, > 0. @param power finite, at least 0.
 /// @param out lengths × births: a row for each interval of lengths, ascending.
 void persistence_image(std::span<const Bar> bars, const ImageFrame& frame, double sigma,
