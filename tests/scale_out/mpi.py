@@ -209,8 +209,8 @@ def check_refusals(mpi):
     points(mpi.folder / "many.csv", 20_000, 3)
     (mpi.folder / "far.csv").write_text("0,1\n1,0\n")
     (mpi.folder / "holes.csv").write_text("1,2\nnan,3\n4,5\n")
-    code, out, _ = mpi.run(1, "--help")
-    assert code == 0 and out.startswith("mpirun -n RANKS ph-barcode-mpi"), out
+    code, out, err = mpi.run(1, "--help")
+    assert code == 0 and out.startswith("mpirun -n RANKS ph-barcode-mpi"), (code, out, err)
     for arguments, word, code in (
             (["image.npy", "--metric", "cosine"], "--metric", 64),
             (["none.npy", "--max-dim", "0"], "none.npy", 66), (["image.npy", "--part", "1/2"], "--part", 64),
