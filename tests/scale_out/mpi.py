@@ -36,8 +36,12 @@ class Mpi:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def run(self, ranks, *arguments):
-        process = self.start(ranks, *arguments)
-        out, err = process.communicate(timeout=120)
+        # On a busy machine the mpirun of MPICH may die of a broken pipe to a program that was quick.
+        for _ in range(3):
+            process = self.start(ranks, *arguments)
+            out, err = process.communicate(timeout=120)
+            if process.returncode != -signal.SIGPIPE:
+                break
         return process.returncode, out, err
 
     def ranks(self, output):
