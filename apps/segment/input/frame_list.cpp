@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "core/system/files.hpp"
@@ -17,8 +16,6 @@ namespace {
 
 constexpr std::size_t kMostName = 1 << 16;  // bytes: systems have some 4 096
 
-std::string reason(int error) { return std::generic_category().message(error); }
-
 }  // namespace
 
 FrameList::FrameList(const std::string& path, const RunContext& context)
@@ -29,7 +26,7 @@ FrameList::FrameList(const std::string& path, const RunContext& context)
   const auto status = file_ < 0 ? std::nullopt : files::status_of(file_);
   if (!status || status->kind == files::Kind::folder)
     throw Error(ErrorKind::no_input, fmt::format("{}: cannot read the list of frames: {}", name_,
-                                                 reason(status ? EISDIR : errno)));
+                                                 files::reason(status ? EISDIR : errno)));
   is_file_ = status->kind == files::Kind::regular;
 }
 
@@ -79,8 +76,8 @@ std::optional<std::string> FrameList::read_line() {
     std::array<char, 1 << 12> some{};
     const std::ptrdiff_t got = files::read_some(file_, some.data(), some.size());
     if (got < 0 && errno != EAGAIN)
-      throw Error(ErrorKind::io,
-                  fmt::format("{}: cannot read the list of frames: {}", name_, reason(errno)));
+      throw Error(ErrorKind::io, fmt::format("{}: cannot read the list of frames: {}", name_,
+                                             files::reason(errno)));
     if (got == 0) {
       if (read_.empty()) return std::nullopt;
       return std::exchange(read_, {});

@@ -8,7 +8,7 @@ FIELD = re.compile(r"Alias for field number \d+")
 
 
 def mend(app, what, name, thing, options, lines):
-    if len(lines) > 0 and FIELD.fullmatch(lines[0]):  # of a named tuple, which describes it
+    if lines and FIELD.fullmatch(lines[0]):  # of a named tuple, which describes it
         lines[:] = []
     lines[:] = [TRAILING.sub(r"\1\\_", line) for line in lines]
 

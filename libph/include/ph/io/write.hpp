@@ -150,8 +150,7 @@ enum class SurfaceFormat {
 std::optional<SurfaceFormat> surface_format_of_path(std::string_view path);
 /// Writes a surface with the points that it has, in their order; the caller commits the file.
 /// @param points of R², where the third coordinate is 0, or R³; the mesh is of them.
-/// @param ids the numbers that points have in the input, one for each, below 2^32; empty: their
-/// own.
+/// @param ids the numbers of the points in the input, one for each, below 2^32; empty: their own.
 /// @throws Error (usage) on points of another space, corners that are none of the points, more
 ///         regular triangles than there are, and `ids` that are none; Error (io) as OutputFile.
 void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 /// Files as the system has them, by descriptors. Where a function says that it failed, errno says
 /// why.
@@ -14,6 +15,9 @@ namespace ph::files {
 inline std::filesystem::path path_of(const std::string& name) {
   return std::u8string(name.begin(), name.end());
 }
+
+/// What the system says of an errno.
+inline std::string reason(int error) { return std::generic_category().message(error); }
 
 constexpr int kStandardInput = 0, kStandardOutput = 1, kStandardError = 2;
 

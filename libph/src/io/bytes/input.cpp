@@ -23,8 +23,6 @@ constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
 constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: so many NULs are no data
 
-std::string reason(int error) { return std::generic_category().message(error); }
-
 // Closes what it opened, not standard input.
 class Descriptor {
  public:
@@ -197,7 +195,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                         !standard_input);
   const auto status = file.get() < 0 ? std::nullopt : files::status_of(file.get());
   if (!status && errno != EISDIR)
-    throw Error(ErrorKind::no_input, input.name_ + ": cannot open: " + reason(errno));
+    throw Error(ErrorKind::no_input, input.name_ + ": cannot open: " + files::reason(errno));
   if (!status || status->kind == files::Kind::folder)
     throw Error(ErrorKind::no_input, input.name_ + ": cannot read: it is a directory");
 
@@ -247,7 +245,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
         files::read_some(file.get(), storage->data + storage->used,
                          std::min(storage->capacity - storage->used, std::size_t{1} << 24));
     if (got < 0 && errno == EAGAIN) continue;
-    if (got < 0) throw Error(ErrorKind::io, input.name_ + ": cannot read: " + reason(errno));
+    if (got < 0) throw Error(ErrorKind::io, input.name_ + ": cannot read: " + files::reason(errno));
     if (got == 0) {
       if (!sized) break;
       throw Error(ErrorKind::io, fmt::format("{}: it shrank while it was read: {} of {} bytes",

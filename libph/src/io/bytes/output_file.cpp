@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 
-std::string words_for(int error) {
-  return std::error_code(error, std::generic_category()).message();
-}
-
 [[noreturn]] void fail_creating(const std::string& path, const std::string& why) {
   throw Error(ErrorKind::cannot_create,
               fmt::format("{}: cannot create the output: {}", printable(path), why));
@@ -28,7 +24,7 @@ std::string words_for(int error) {
 
 /// Said before anything is computed where it is known by then.
 [[noreturn]] void fail_replacing(const std::string& path, int error) {
-  std::string why = words_for(error);
+  std::string why = files::reason(error);
   if (error == EBUSY || error == EPERM)
     why += ": no new file can take its place, expected another name, or '-' redirected into it";
   fail_creating(path, why);
@@ -59,25 +55,25 @@ std::optional<int> descriptor_of(const std::string& path) {
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) fail_creating(path_, "the name is empty");
   if (const auto descriptor = descriptor_of(path_)) {
-    if (path_ != "-" && !files::may_write(*descriptor)) fail_creating(path_, words_for(errno));
+    if (path_ != "-" && !files::may_write(*descriptor)) fail_creating(path_, files::reason(errno));
     descriptor_ = *descriptor;
     files::pass_bytes(descriptor_);
     return;
   }
   const auto status = files::status_of(files::path_of(path_));
   if (!status) {
-    if (errno != ENOENT) fail_creating(path_, words_for(errno));
+    if (errno != ENOENT) fail_creating(path_, files::reason(errno));
     if (!files::path_of(path_).has_filename()) fail_creating(path_, "there is no such folder");
     target_ = files::path_of(path_);
   } else if (status->kind == files::Kind::folder) {
     fail_creating(path_, "it is a folder");
   } else if (status->kind == files::Kind::regular) {
     target_ = files::resolved(files::path_of(path_));
-    if (!files::may_write(target_)) fail_creating(path_, words_for(errno));
+    if (!files::may_write(target_)) fail_creating(path_, files::reason(errno));
     if (!files::may_replace(target_)) fail_replacing(path_, errno);
   } else {
     descriptor_ = files::open_to_write(files::path_of(path_));
-    if (descriptor_ < 0) fail_creating(path_, words_for(errno));
+    if (descriptor_ < 0) fail_creating(path_, files::reason(errno));
     owned_ = true;
     return;
   }
@@ -85,14 +81,14 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (status && !files::take_mode(descriptor_, target_)) {
     const int error = errno;
     discard();
-    fail_creating(path_, words_for(error));
+    fail_creating(path_, files::reason(error));
   }
 }
 
 void OutputFile::open_regular() {
   owned_ = true;
   descriptor_ = files::create_in(folder_of(target_), temporary_);
-  if (descriptor_ < 0) fail_creating(path_, words_for(errno));
+  if (descriptor_ < 0) fail_creating(path_, files::reason(errno));
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -159,7 +155,7 @@ void OutputFile::commit() {
   if (temporary_.empty()) {
     // A link cannot replace a file, so it takes two steps: a temporary name, then the rename.
     temporary_ = files::name_in(descriptor_, folder);
-    if (temporary_.empty()) fail_creating(path_, words_for(errno));
+    if (temporary_.empty()) fail_creating(path_, files::reason(errno));
   }
   // Open files cannot be renamed everywhere. What they hold is on the disk already.
   static_cast<void>(files::close(std::exchange(descriptor_, -1)));
@@ -172,9 +168,9 @@ void OutputFile::commit() {
 
 void OutputFile::fail_writing(int error) const {
   if (error == EPIPE) throw BrokenPipe();
-  throw Error(ErrorKind::io,
-              fmt::format("{}: cannot write: {}",
-                          path_ == "-" ? "standard output" : printable(path_), words_for(error)));
+  throw Error(ErrorKind::io, fmt::format("{}: cannot write: {}",
+                                         path_ == "-" ? "standard output" : printable(path_),
+                                         files::reason(error)));
 }
 
 OutputStream::OutputStream(OutputFile& file) : std::ostream(nullptr), file_(file) {

@@ -7,9 +7,8 @@
 
 namespace ph::detail {
 
-/// @throws Error (usage) on dimensions below 0, a min_persistence that is no number, or a field
-/// that
-///         is none.
+/// @throws Error (usage) on dimensions below 0, a min_persistence that is no number, or a
+///         field that is none.
 void check(const Options& options);
 /// Of a complex that is taken as it is.
 /// @throws Error (usage) also on an edge collapse, and a field that needs incidence numbers.
@@ -60,10 +59,9 @@ struct Plan {
 /// @throws Error (usage) as check_as_it_is and choose_engine.
 template <Filtration F>
 Plan<F> plan_for(const F& f, const Options& options) {
-  if constexpr (requires { f.has_incidences(); })
-    check_as_it_is(options, f.has_incidences());
-  else
-    check_as_it_is(options, true);
+  bool has_incidences = true;
+  if constexpr (requires { f.has_incidences(); }) has_incidences = f.has_incidences();
+  check_as_it_is(options, has_incidences);
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
   if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
