@@ -103,6 +103,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         X : array_like
             Points, one a row, or distances.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------

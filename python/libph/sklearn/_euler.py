@@ -72,6 +72,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         X : list
             Images.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------

@@ -25,6 +25,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         X : list
             As of `transform`.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------
@@ -62,6 +63,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         X : list
             As of `transform`.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------

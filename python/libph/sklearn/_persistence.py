@@ -41,6 +41,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         X : list
             As of `transform`.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------

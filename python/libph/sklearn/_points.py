@@ -54,6 +54,7 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         X : array_like
             Points, one a row.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------
@@ -132,6 +133,7 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
         X : array_like
             Points, one a row.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------

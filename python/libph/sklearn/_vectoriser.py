@@ -30,6 +30,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         X : list
             As of `transform`.
         y : None
+            Not used; pipelines pass it.
 
         Returns
         -------
