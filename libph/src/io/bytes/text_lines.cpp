@@ -74,6 +74,7 @@ std::string hint_for(std::string_view cell) {
   if (cell.find('\r') != std::string_view::npos) return "end lines with a line feed";
   if (cell.find(".#INF") != std::string_view::npos) return "write infinity as inf";
   if (cell.find(".#") != std::string_view::npos) return "write NaN as nan";
+  if (cell.find('#', 1) != std::string_view::npos) return "write a blank before the # of a comment";
   if (cell.find('\0') != std::string_view::npos) return "is this a binary file?";
   return {};
 }
@@ -88,22 +89,35 @@ const char* end_of_quotes(const char* begin, const char* end) {
   }
 }
 
-// Where the comment of a line begins; its end if there is none. Behind a number without a blank or
-// a separator there is none: 1.#INF was written for infinity.
+// Whether a '#' is part of the cell that begins before it: of a word, or of 1.#INF, which was
+// written for infinity.
+bool is_in_cell(const char* cell, const char* hash) {
+  if (cell == hash) return false;
+  if (*cell == '-' || *cell == '+') ++cell;
+  const bool is_number = is_digit(*cell) || (*cell == '.' && cell + 1 != hash);
+  return !is_number || hash[-1] == '.';
+}
+
+// Where the comment of a line begins; its end if there is none.
 const char* start_of_comment(const char* begin, const char* end) {
   constexpr std::array<std::string_view, 7> kSpreadsheetErrors{
       "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"};
   bool in_quotes = false;
+  const char* cell = begin;  // the one that `hash` is in, or behind
   for (const char* p = begin;; ++p) {
     const auto* const hash =
         static_cast<const char*>(std::memchr(p, '#', static_cast<std::size_t>(end - p)));
     if (hash == nullptr) return end;
+    for (const char* q = hash; q != p; --q) {
+      if (!ends_cell(q[-1])) continue;
+      cell = q;
+      break;
+    }
     if (std::count(p, hash, '"') % 2 != 0) in_quotes = !in_quotes;
     const std::string_view rest(hash, static_cast<std::size_t>(end - hash));
     const bool is_error = std::ranges::any_of(
         kSpreadsheetErrors, [&](std::string_view error) { return rest.starts_with(error); });
-    const bool is_in_cell = hash != begin && !ends_cell(hash[-1]);
-    if (!in_quotes && !is_error && !is_in_cell) return hash;
+    if (!in_quotes && !is_error && !is_in_cell(cell, hash)) return hash;
     p = hash;
   }
 }
@@ -165,6 +179,7 @@ bool TextLines::next() {
       const char* const comment = start_of_comment(begin, stop);
       if (comment != stop) {
         stop = comment;
+        while (begin != stop && (stop[-1] == ' ' || stop[-1] == '\t')) --stop;
       } else if (stop[-1] == '\r') {
         --stop;
       }
@@ -337,8 +352,12 @@ void Cells::reject(const char* begin, const char* stop, std::string what, std::s
   while (stop != end_ && !ends_cell(*stop)) ++stop;
   const std::string_view cell(begin, static_cast<std::size_t>(stop - begin));
   if (cell.empty()) {
+    std::string advice(hints_.missing);
+    if (stop != end_ && *stop == '\t')
+      advice.insert(
+          0, advice.empty() ? "write one tab between cells" : "write one tab between cells; ");
     lines_->fail(begin, {"empty cell", stop == end_ ? "the end of the line" : quoted({stop, 1}),
-                         std::move(expected), std::string(hints_.missing)});
+                         std::move(expected), std::move(advice)});
   }
   const std::string why = hint_for(cell);
   lines_->fail(begin,

@@ -26,7 +26,7 @@ bool is_whole(std::string_view text) {
 // of them.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
-  std::vector<std::string> names = header_cells(line, false);
+  std::vector<std::string> names = header_cells(line, false, true);
   if (names.empty() || !names.front().empty()) return {};
   bool is_named = false, has_numbers = false, counts = true, are_whole = true;
   for (std::size_t k = 1; k < names.size(); ++k) {
@@ -163,7 +163,7 @@ std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
 bool has_blanks_between_numbers(std::string_view line) {
   const bool has_tabs = separator_in(line) == '\t';
   return std::ranges::any_of(
-      has_tabs ? header_cells(line, false) : std::vector<std::string>{std::string(line)},
+      has_tabs ? header_cells(line, false, true) : std::vector<std::string>{std::string(line)},
       [&](const std::string& cell) {
         const std::vector<std::string> words = header_cells(cell, false);
         return (words.size() > 1 || !has_tabs) && std::ranges::all_of(words, is_number);
@@ -183,17 +183,23 @@ bool has_tabs_between_cells(const Input& input) {
     return std::ranges::count(rows, separator, separator_in);
   };
   if (has('\t') == 0 || has(',') + has(';') > 0) return false;
-  const bool fit = has('\t') == 2 && !header_names(rows[0]).empty() &&
-                   header_cells(rows[0], false).size() == header_cells(rows[1], false).size();
+  const auto width = [&](std::size_t k) { return header_cells(rows[k], false, true).size(); };
+  const bool fit = has('\t') == 2 && !header_cells(rows[0], true, true).empty() && width(0) > 1 &&
+                   width(0) == width(1);
   return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
-// Whether --columns has a name of this line that is no number of a column.
-bool asks_for_names(const ReadOptions& options, std::string_view line) {
-  const std::vector<std::string> names = header_cells(line, false);
+// Whether --columns has a name of this line that is no number of a column. Who counts columns from
+// 0 asks for 0, which is a name only before fractions, in a line that counts from 0 itself.
+bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
+                    const std::vector<std::string>& next) {
+  bool may_be_0 = !std::ranges::all_of(next, is_whole);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    may_be_0 = may_be_0 && names[k] == std::to_string(k);
   return std::ranges::any_of(options.columns, [&](const std::string& word) {
-    const double number = number_in(word).value_or(0);
-    const bool is_place = number >= 1 && number <= static_cast<double>(names.size());
+    const double number = number_in(word).value_or(-1);
+    const bool is_place =
+        number >= (may_be_0 ? 1 : 0) && number <= static_cast<double>(names.size());
     return !is_place && std::ranges::find(names, word) != names.end();
   });
 }
@@ -291,14 +297,17 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     return found == '\t' && !layout.keeps_tabs ? ' ' : found;
   };
   if (has_next) layout.separator = separator(next);
-  layout.header = header_names(lines.line());
+  layout.header = header_cells(lines.line(), true, layout.keeps_tabs);
   if (layout.header.empty() && has_next) {
     layout.header = unnamed_header(lines.line(), without_quotes(first_cell(next, layout)));
     if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
       layout.header.clear();  // a row that begins with an empty cell
   }
-  if (layout.header.empty() && has_next && asks_for_names(options, lines.line()))
-    layout.header = header_cells(lines.line(), false);
+  if (layout.header.empty() && has_next) {
+    std::vector<std::string> names = header_cells(lines.line(), false, layout.keeps_tabs);
+    if (asks_for_names(options, names, header_cells(next.line(), false, layout.keeps_tabs)))
+      layout.header = std::move(names);
+  }
   const bool has_header = !layout.header.empty();
   if (has_header)
     layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));

@@ -46,7 +46,9 @@ std::string_view without_quotes(std::string_view cell);
 /// Cells of a line of names, without the quotes around them, without an empty last one, and without
 /// two slashes before the first.
 /// @param names_only nothing if one is a number, or empty.
-std::vector<std::string> header_cells(std::string_view line, bool names_only);
+/// @param keeps_tabs each tab separates two cells, else any number of them.
+std::vector<std::string> header_cells(std::string_view line, bool names_only,
+                                      bool keeps_tabs = false);
 /// What separates the cells of a line: a comma, a semicolon or a tab outside of quotes, the first
 /// of these that there is, else blanks.
 char separator_in(std::string_view line);

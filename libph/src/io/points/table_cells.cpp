@@ -49,7 +49,7 @@ char separator_in(std::string_view line) {
   return ' ';
 }
 
-std::vector<std::string> header_cells(std::string_view line, bool names_only) {
+std::vector<std::string> header_cells(std::string_view line, bool names_only, bool keeps_tabs) {
   if (line.starts_with("//")) line.remove_prefix(2);  // as CloudCompare writes a line of names
   const char separator = separator_in(line);
   const auto trimmed = [separator](std::string_view text) {
@@ -63,10 +63,12 @@ std::vector<std::string> header_cells(std::string_view line, bool names_only) {
   for (std::string_view rest = trimmed(line); !rest.empty();) {
     const std::size_t length = header_cell(rest, separator);
     const std::string_view cell = without_quotes(trimmed(rest.substr(0, length)));
+    const bool is_space = length == 0 && separator == '\t' && !keeps_tabs;
+    rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
+    if (is_space) continue;
     if (names_only && looks_numeric(cell)) return {};
     all_missing = all_missing && is_missing_value(cell);
     cells.emplace_back(cell);
-    rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
   }
   if (names_only && all_missing) return {};
   return cells;

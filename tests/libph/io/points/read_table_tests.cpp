@@ -74,6 +74,9 @@ TEST(ReadTable, YearsAreNamesIfAskedFor) {
   EXPECT_EQ(std::get<Points>(numbered.data).rows(), 3);
   EXPECT_TRUE(says(numbered, "line 1 is read as numbers"));
   EXPECT_FALSE(says(any("A,1,2\nB,3,4\n", {.columns = {"2-3"}}), "line 1 is read"));
+  EXPECT_EQ(std::get<Points>(any("0,1\n1.5,2\n", {.columns = {"0"}}).data), Points{{1.5}});
+  for (const std::string points : {"0,2\n3,4\n", "0,1\n2,3\n", "0,2.5\n3,4.5\n"})
+    EXPECT_THROW(any(points, {.columns = {"0"}}), Error) << points;
 }
 
 TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
@@ -111,7 +114,11 @@ TEST(ReadTable, ATabSeparatesTwoCells) {
   EXPECT_TRUE(contains(bad_data([&] { any("1\t2\n\t3\n"); }), ":2:1: empty cell"));
   EXPECT_EQ(std::get<Points>(any("refl x\ty (m)\n1\t2\t\n3\t4\t\n").data),
             (Points{{1, 2}, {3, 4}}));
+  EXPECT_EQ(std::get<Points>(any("1\t2\t\t# c\n\t# c\n3\t4\n").data), (Points{{1, 2}, {3, 4}}));
+  EXPECT_TRUE(contains(bad_data([&] { any("1\t\t2\n3\t\t4\n"); }), "write one tab between cells"));
   // Where blanks separate, too, a tab is one.
+  EXPECT_EQ(std::get<Points>(any("x y\t\n1 2\t\n3 4\t\n").data), (Points{{1, 2}, {3, 4}}));
+  EXPECT_EQ(std::get<Points>(any("x\t\ty\n1 2\n3 4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1 2\t3\n4\t\t5 6\n\t7 8 9\n").data),
             (Points{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
 }

@@ -121,8 +121,8 @@ class Input {
 };
 
 /// The lines of a text input that carry data: comments ('#' to the end of the line, but within a
-/// cell or quotes, and in an error of a spreadsheet, as #N/A) and blank lines are skipped, a byte
-/// order mark and CRLF are accepted.
+/// word, a number of old Windows programs (1.#INF) or quotes, and in an error of a spreadsheet, as
+/// #N/A) and blank lines are skipped, a byte order mark and CRLF are accepted.
 class TextLines {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
