@@ -168,6 +168,7 @@ class Comparison {
   /// Prices have the digits of the dearest bar. If a matching costs far less than that, it may be
   /// by chance: it is sought again among those that cost no more, in a unit of their size.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
+    if (length_of_matching() == 0) return found;
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {
       return norm_of(std::array{length, rays}, options_.order);
