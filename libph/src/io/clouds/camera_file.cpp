@@ -124,13 +124,18 @@ class CameraYaml {
     return std::ranges::find(kKnown, model) != kKnown.end();
   }
 
-  /// Coefficients under a name that no program documented here gives them.
+  /// Coefficients under a name that no program documented here gives them; zeros need no lens.
   void refuse_other_names() const {
     for (const std::string_view name :
          {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
           "distortion_coeffs", "distortion_coefficient", "distortion_parameters", "dist"}) {
       const YamlWords::Value* value = find({std::string(name) + ".data", name});
-      if (value == nullptr) continue;
+      const auto is_zero = [](const YamlWords::Word& word) {
+        double number = 1;
+        floating_from_chars(word.text.data(), word.text.data() + word.text.size(), number);
+        return number == 0;
+      };
+      if (value == nullptr || std::ranges::all_of(value->words, is_zero)) continue;
       fail(*value, {"coefficients of the lens",
                     '"' + std::string(name) + '"',
                     "distortion_coefficients",
@@ -227,14 +232,15 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
       }
       camera.intrinsics = {k[0], k[4], k[6], k[7]};
       has_matrix = true;
-    } else if (name == "depth_scale") {
-      json.peek();
+    } else if (name == "depth_scale" && json.peek() != 'n') {  // null is none
       const std::size_t place = json.place();
-      camera.depth_scale = json.number();
+      const double found = json.number();
+      // Below 1 it is metres a unit, as librealsense has it: no unit is longer than a metre.
+      camera.depth_scale = found < 1 ? 1 / found : found;
       if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
         json.fail(place, {"depth_scale",
-                          fmt::format("{}", camera.depth_scale),
-                          "units a metre, at least 1",
+                          fmt::format("{}", found),
+                          "units a metre, at least 1, or metres a unit, below 1",
                           {}});
     } else if (name == "intrinsic" && !inside) {
       json.expect('{');

@@ -99,6 +99,8 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   expect_usual(camera_of(open3d));
   EXPECT_EQ(camera_of(open3d).depth_scale, 0);
   EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": 4000.0, ")).depth_scale, 4000);
+  EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": 0.001, ")).depth_scale, 1000);
+  EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": null, ")).depth_scale, 0);
   expect_usual(
       camera_of("{\"class_name\": \"PinholeCameraParameters\", \"extrinsic\": [1, 2],\n"
                 " \"intrinsic\": " +
@@ -138,7 +140,8 @@ TEST(Camera, FaultsNameTheirPlace) {
        "coefficients of the lens, found \"dist_coeffs\", expected distortion_coefficients"},
       {"width: 2\nheight: 2\nk: [1, 0, 1, 0, 1, 1, 0, 0, 1]\ndistortion_model: fov\n",
        "c.yaml:4:1: model of the lens, found \"fov\""},
-      {"{\"width\": 640, \"depth_scale\": 0.001}", "c.yaml:1:31: depth_scale, found 0.001"},
+      {"{\"width\": 640, \"depth_scale\": -2}", "c.yaml:1:31: depth_scale, found -2"},
+      {"{\"width\": 640, \"depth_scale\": 0}", "c.yaml:1:31: depth_scale, found 0"},
       {replaced(good, "1]  #", "1  #"), "not a number, found \"distortion_model: plumb_bob\""},
       {good + "more: [1, 2", "list without an end"},
       {good + "more: [1,, 2]\n", "empty element of a list"},
