@@ -122,21 +122,23 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
 
 /// At round values: less than a decade has no two powers of ten.
 std::vector<Axis::Tick> Axis::round_values(int count) const {
-  const double least = std::pow(10.0, negated_ ? -high_ : low_),
-               most = std::pow(10.0, negated_ ? -low_ : high_);
+  // In a unit in which neither the ends nor a step leave the range of double.
+  const auto unit = static_cast<int>(std::floor(negated_ ? -low_ : high_));
+  const double least = std::pow(10.0, (negated_ ? -high_ : low_) - unit),
+               most = std::pow(10.0, (negated_ ? -low_ : high_) - unit);
   const double step = round_step((most - least) / count);
-  const int power = magnitude(most), digits = magnitude(step * 1.0001);
+  const int power = unit + magnitude(most), digits = unit + magnitude(step * 1.0001);
   constexpr double slack = 1e-6;
   const double last = std::floor(most / step + slack);
   std::vector<Tick> ticks;
   for (double i = std::ceil(least / step - slack); i <= last && std::ssize(ticks) < 4 * count;
        ++i) {
-    const double value = i * step, place = (negated_ ? -1 : 1) * std::log10(value);
+    const double value = i * step, place = (negated_ ? -1 : 1) * (std::log10(value) + unit);
     const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
     const std::string label =
         has_plain_labels(power)
-            ? label_of(value, std::max(0, -digits))
-            : fmt::format("{}·10{}", label_of(value / std::pow(10.0, power), power - digits),
+            ? label_of(value * std::pow(10.0, unit), std::max(0, -digits))
+            : fmt::format("{}·10{}", label_of(value / std::pow(10.0, power - unit), power - digits),
                           superscript(power));
     ticks.push_back({from_ + part * (to_ - from_), label});
   }

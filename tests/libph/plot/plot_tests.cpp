@@ -93,6 +93,16 @@ TEST(Plot, AnAxisNamesWhatIsOnItAndCountsWhatIsNot) {
   }
 }
 
+TEST(Plot, ALogarithmicAxisHasTicksAtTheEndsOfDouble) {
+  PlotOptions options;
+  options.axis.logarithmic = true;
+  const std::string large =
+      svg_plot(test::barcode_of({{0, 1e308, std::numeric_limits<double>::max()}}), options);
+  for (const char* tick : {"1.0·10³⁰⁸", "1.6·10³⁰⁸"}) EXPECT_TRUE(has_text(large, tick)) << tick;
+  const std::string small = svg_plot(test::barcode_of({{0, 5e-324, 1e-323}}), options);
+  for (const char* tick : {"5·10⁻³²⁴", "9·10⁻³²⁴"}) EXPECT_TRUE(has_text(small, tick)) << tick;
+}
+
 TEST(Plot, ALogarithmicAxisHasAsMuchRoomForEachPowerOfTen) {
   PlotOptions options;
   options.axis.logarithmic = true;
