@@ -19,6 +19,8 @@ from .._errors import DataError
 METRICS = ["euclidean", "l2", "manhattan", "l1", "cityblock", "chebyshev", "cosine"]
 
 _Numbers = NDArray[np.float64]
+_MOST_FOR_A_TREE = 15  # coordinates: with more, a tree looks at nearly all points, and is slower
+_ENTRIES = 2**22  # of a table of distances that is there at once
 _ROOM = 400  # rows may be 2**400 times as far from 0 as points: the square of that is a double
 
 
@@ -40,9 +42,10 @@ class Neighbours:
     def __init__(self, points: _Numbers, k: int, metric: str, n_jobs: int | None) -> None:
         self._points, self._name = _comparable(points, metric)
         self._k = k
+        self._by_rows = self._points.shape[1] > _MOST_FOR_A_TREE
         self._n_jobs = n_jobs
         self._exponent = _exponent_of(self._points)
-        self._search = self._search_in(self._exponent)
+        self._search = None if self._by_rows else self._search_in(self._exponent)
 
     def _search_in(self, exponent: int) -> NearestNeighbors:
         # This tree takes differences, which "brute" and hence "auto" do not.
@@ -54,9 +57,28 @@ class Neighbours:
         """Of each row the distances of its k nearest points, ascending, and which they are."""
         rows = _comparable(rows, self._name)[0]
         exponent = max(self._exponent, _exponent_of(rows) - _ROOM)
-        search = self._search if exponent == self._exponent else self._search_in(exponent)
-        distances, places = search.kneighbors(np.ldexp(rows, -exponent))
+        scaled = np.ldexp(rows, -exponent)
+        if self._by_rows:
+            distances, places = self._nearest(scaled, np.ldexp(self._points, -exponent))
+        else:
+            search = self._search if exponent == self._exponent else self._search_in(exponent)
+            distances, places = search.kneighbors(scaled)
         return _in_metric(np.ldexp(distances, exponent), self._name), places
+
+    def _nearest(self, rows: _Numbers, points: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
+        """By all distances, some rows at a time."""
+        k, many = self._k, max(1, _ENTRIES // len(points))
+        distances = np.empty((len(rows), k))
+        places = np.empty((len(rows), k), dtype=np.int64)
+        for start in range(0, len(rows), many):
+            strip = slice(start, start + many)
+            apart = cdist(rows[strip], points, _of_differences(self._name))
+            nearest = np.argpartition(apart, k - 1, axis=1)[:, :k]
+            length = np.take_along_axis(apart, nearest, axis=1)
+            order = np.argsort(length, axis=1, kind="stable")
+            distances[strip] = np.take_along_axis(length, order, axis=1)
+            places[strip] = np.take_along_axis(nearest, order, axis=1)
+        return distances, places
 
 
 def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers:

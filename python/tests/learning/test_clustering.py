@@ -37,13 +37,14 @@ def test_distance_to_measure(rng, metric):
 @pytest.mark.parametrize("metric", ["euclidean", "l2", "manhattan", "l1", "chebyshev"])
 @pytest.mark.parametrize("offset, scale", [(1e7, 1), (0, 1e200), (0, 1e-200), (1e5, 1e-3)])
 @pytest.mark.parametrize("k", [1, 5, 40])
-def test_offsets_and_scales_cost_no_digits(rng, metric, offset, scale, k):
-    X = rng.normal(size=(60, 20)) * scale + offset
+@pytest.mark.parametrize("columns", [4, 20])
+def test_offsets_and_scales_cost_no_digits(rng, metric, offset, scale, k, columns):
+    X = rng.normal(size=(60, columns)) * scale + offset
     found = DistanceToMeasure(k, metric=metric).fit_transform(X)
     assert np.allclose(found[:, 0], ph.distance_to_measure(X, k, metric=metric), rtol=1e-12, atol=0)
     found = FarthestPoints(5, metric=metric).fit(X)
     assert np.array_equal(found.transform(X)[found.indices_, range(5)], np.zeros(5))
-    new = rng.normal(size=20) * scale + offset
+    new = rng.normal(size=columns) * scale + offset
     expected = [ph.rips([new, point], metric=metric).deaths[0] for point in found.points_]
     assert np.allclose(found.transform([new])[0], expected, rtol=1e-12, atol=0)
 
