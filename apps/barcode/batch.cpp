@@ -210,7 +210,8 @@ BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
       (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
     return BarcodeFormat::csv;
   if (const auto format = barcode_format_of_path(arguments.output)) return *format;
-  if (app::has_extension(app::require_unpacked(arguments.output)))
+  require_unpacked(arguments.output);
+  if (app::has_extension(arguments.output))
     session.note(app::no_format_in(arguments.output, "csv"));
   return BarcodeFormat::csv;
 }

@@ -351,6 +351,12 @@ def test_entropy():
 
 
 @each
+def test_names_that_promise_packed_files(tmp_path):
+    with pytest.raises(ph.UsageError, match="found .gz, expected a name without it"):
+        ph.rips([[0], [1]]).save(tmp_path / "bars.json.gz", format="json")
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("extension", ["csv", "json", "pers", "dipha", "npy", "ripser"])
 def test_save_and_read(bars, extension, tmp_path):
     path = tmp_path / f"bars.{extension}"

@@ -58,7 +58,7 @@ bool is_typed(std::initializer_list<std::string_view> paths) {
 }
 
 Output::Output(const std::string& path)
-    : file_(require_given("output", require_unpacked(path))),
+    : file_(require_given("output", path)),
       slot_(remember_temporary(file_.temporary_path())) {}
 
 Output::Output(Output&& other) noexcept

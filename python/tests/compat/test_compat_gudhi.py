@@ -234,7 +234,7 @@ def test_errors(options, text):
 
 def test_errors_name_arguments_of_gudhi():
     for call, text in (
-            (lambda: gudhi.DTMRipsComplex(SQUARE, k=5), "k: found 5"),
+            (lambda: gudhi.DTMRipsComplex(SQUARE, k=5), "k: found 5, expected a whole number, at most"),
             (lambda: gudhi.DTMRipsComplex([], k=1.5), "k: found 1.5"),
             (lambda: gudhi.DTMRipsComplex(SQUARE, k=2, q=0), "q: found 0"),
             (lambda: gudhi.bottleneck_distance([], [], -1), "e: found -1"),

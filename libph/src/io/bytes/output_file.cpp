@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <optional>
@@ -52,7 +53,20 @@ std::optional<int> descriptor_of(const std::string& path) {
 
 }  // namespace
 
+void require_unpacked(const std::string& path) {
+  constexpr std::array<std::string_view, 6> kPacked{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z"};
+  std::string lower(path);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  for (const std::string_view packed : kPacked)
+    if (lower.ends_with(packed))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: found {}, expected a name without it: outputs are not packed",
+                              printable(path), packed));
+}
+
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  require_unpacked(path_);
   if (path_.empty()) fail_creating(path_, "the name is empty");
   if (const auto descriptor = descriptor_of(path_)) {
     if (path_ != "-" && !files::may_write(*descriptor)) fail_creating(path_, files::reason(errno));

@@ -19,6 +19,10 @@ class BrokenPipe : public Error {
   BrokenPipe() : Error(ErrorKind::io, "broken pipe") {}
 };
 
+/// @throws Error (usage) if the name of an output promises a packed file (.gz and the like), which
+/// nothing writes.
+void require_unpacked(const std::string& path);
+
 /// A file that appears under its name only when it is complete.
 ///
 /// A regular file is written into an unnamed or temporary file in the same folder, which `commit`
@@ -30,7 +34,8 @@ class BrokenPipe : public Error {
 class OutputFile {
  public:
   /// @param path "-" for standard output.
-  /// @throws Error (cannot_create) if the file cannot be created where it shall be.
+  /// @throws Error (cannot_create) if the file cannot be created where it shall be, Error (usage)
+  ///         as require_unpacked.
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
