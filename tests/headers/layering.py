@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which room may include which, how large a folder may be, where tests lie: layering.py ROOT.
+"""Which room may include which, how large a folder may be, where tests lie, and that fmt::join has
+its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -108,12 +109,20 @@ def target_of(root, file, include):
     return None
 
 
+def lacks_header_of_join(text):
+    """fmt/format.h has fmt::join in fmt 9 and 10 only."""
+    return re.search(r"\bfmt::join\(", text) and "#include <fmt/ranges.h>" not in text
+
+
 def violations_of(root, file):
     room = room_of(file)
     if room not in MAY_INCLUDE:
         yield f"{file}: found in no room, expected one of {', '.join(MAY_INCLUDE)}"
         return
-    for match in INCLUDE.finditer((root / file).read_text()):
+    text = (root / file).read_text()
+    if lacks_header_of_join(text):
+        yield f"{file}: found fmt::join without #include <fmt/ranges.h>"
+    for match in INCLUDE.finditer(text):
         include = match[1] or match[2]
         if include.startswith(("pcl/", "CGAL/")):
             if not str(file).startswith(MAY_SHOW[include.split("/")[0]]):

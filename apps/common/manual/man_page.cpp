@@ -131,7 +131,8 @@ std::string man_page(const Described& program) {
   page += format_section(manual);
   page += ".SH EXIT STATUS\n";
   for (const ExitStatus& status : exit_statuses())
-    page += item(fmt::format("\\fB{}\\fR", status.code), fmt::format("{}.", status.what));
+    page += item(fmt::format("\\fB{}\\fR", static_cast<int>(status.code)),
+                 fmt::format("{}.", status.what));
   page +=
       ".SH ENVIRONMENT\n" + item("\\fBTMPDIR\\fR",
                                  "The folder of temporary files (default: /tmp). They hold what a "

@@ -2,6 +2,7 @@
 #include "vectorise/fit/fit_json.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>

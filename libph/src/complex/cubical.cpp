@@ -2,6 +2,7 @@
 #include "ph/cubical.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "ph/explicit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
