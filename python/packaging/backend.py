@@ -7,7 +7,8 @@ So ``pip install .`` needs no network where CMake, a compiler and pybind11 are i
 build-dir
     An existing build folder, configured with PH_BUILD_PYTHON: it is used as it is.
 cmake-args
-    More arguments for the configuration, separated by blanks.
+    More arguments for the configuration, separated by blanks and quoted as in a shell. Those of
+    several such settings are joined.
 """
 import base64
 import csv
@@ -15,6 +16,7 @@ import hashlib
 import io
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -135,17 +137,36 @@ def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
 
+def words_of(setting):
+    """What newer versions of pip hand over as a list if it is given twice."""
+    return shlex.split(setting if isinstance(setting, str) else " ".join(setting))
+
+
+def make_folder(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise SystemExit(f"libph: {folder}: found no folder to build in: {error.strerror}; copy the "
+                         "sources to where you may write") from None
+
+
 def build(settings):
     """Compiles the module. @return the build folder."""
+    unknown = sorted(settings.keys() - {"build-dir", "cmake-args"})
+    if unknown:
+        raise SystemExit(f"libph: found setting {unknown[0]}, expected build-dir or cmake-args")
     given = settings.get("build-dir")
     folder = Path(given) if given else ROOT / "build" / f"python-{sys.implementation.cache_tag}"
     if not given:
+        make_folder(folder)
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-        run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
+        # Fresh: the sources may have been elsewhere, with another generator, with other arguments.
+        run("cmake", "--fresh", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
             "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF", "-DPH_BUILD_TESTS=OFF",
             "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF", "-DPH_INSTALL=OFF",
             "-DPH_UNITY=ON", f"-DPython3_EXECUTABLE={sys.executable}",
-            *pybind11_folder(), *settings.get("cmake-args", "").split())
+            *pybind11_folder(), *words_of(settings.get("cmake-args", "")))
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
     run("cmake", "--build", folder, "--target", "_core", "--parallel", jobs)
     return folder

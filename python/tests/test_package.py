@@ -77,6 +77,24 @@ def test_an_archive_of_the_sources(backend, tmp_path):
     assert not any("__pycache__" in n or "node_modules" in n for n in names)
 
 
+def test_settings(backend, monkeypatch, tmp_path):
+    ran = []
+    monkeypatch.setattr(backend, "ROOT", tmp_path)
+    monkeypatch.setattr(backend, "run", lambda *command: ran.append([str(word) for word in command]))
+    for given in ("-DA=1 '-DB=2 3'", ["-DA=1", "'-DB=2 3'"]):  # newer versions of pip make a list
+        backend.build({"cmake-args": given})
+        assert ran[-2][-2:] == ["-DA=1", "-DB=2 3"] and "--fresh" in ran[-2]
+    with pytest.raises(SystemExit, match="found setting cmake-arg, expected build-dir or cmake-args"):
+        backend.build({"cmake-arg": "-DA=1"})
+
+
+def test_sources_where_nothing_can_be_written(backend, monkeypatch, tmp_path):
+    (tmp_path / "build").write_text("")
+    monkeypatch.setattr(backend, "ROOT", tmp_path)
+    with pytest.raises(SystemExit, match="found no folder to build in: Not a directory"):
+        backend.build({})
+
+
 @pytest.fixture(scope="module")
 def environment(tmp_path_factory):
     """A virtual environment with the package in it, installed by pip without a network."""
