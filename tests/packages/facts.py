@@ -9,6 +9,7 @@
 * Each package of debian/control is what debian/rules makes of a component.
 
 --plant puts one fault after another into a copy and demands that it is found.
+Exit code 77: no debian/, as in an archive of the sources.
 """
 import fnmatch
 import json
@@ -227,6 +228,9 @@ def plant(root):
 
 
 def main():
+    if not Path(sys.argv[-1], "debian").exists():
+        print("skipped: debian/ is missing, as in an archive of the sources")
+        sys.exit(77)
     if sys.argv[1] == "--plant":
         sys.exit(1 if plant(Path(sys.argv[2]).resolve()) else 0)
     faults = faults_of(Path(sys.argv[1]).resolve())
