@@ -42,12 +42,16 @@ endif()
 if(TARGET ph-barcode-mpi)
   install(TARGETS ph-barcode-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
-# Links between pages hold: they lie as in the repository.
+# Links between pages hold: they lie as in the repository. A larger project has pages of its own.
+set(doc_dir ${CMAKE_INSTALL_DOCDIR})
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libph)
+endif()
 install(FILES README.md CHANGELOG.md CITATION.cff CODE_OF_CONDUCT.md CONTRIBUTING.md SECURITY.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
-install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
+        DESTINATION ${doc_dir} COMPONENT doc)
+install(DIRECTORY docs examples DESTINATION ${doc_dir} COMPONENT doc
         PATTERN CMakeLists.txt EXCLUDE PATTERN docs/site EXCLUDE)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+install(FILES LICENSE DESTINATION ${doc_dir} COMPONENT licence)
 
 configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-config.cmake
                               INSTALL_DESTINATION ${package_dir})
