@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Programs that need no shared library: docs/development/adr/0018-static-programs.md. Sets
 # PH_IS_STATIC, and PH_FMT, what to link for fmt; makes ZLIB, PNG and FreeType be found as archives.
-set(PH_STATIC_PROGRAMS AUTO CACHE STRING
-    "Link the programs statically: ON, OFF, or AUTO: if all archives are there")
-set_property(CACHE PH_STATIC_PROGRAMS PROPERTY STRINGS AUTO ON OFF)
+ph_choice(PH_STATIC_PROGRAMS AUTO
+          "Link the programs statically: ON, OFF, or AUTO: if all archives are there" AUTO ON OFF)
 set(PH_IS_STATIC FALSE)
 set(PH_FMT fmt::fmt)
 if(PH_COMPILE_DEPENDENCIES)

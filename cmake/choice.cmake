@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# ph_choice(NAME WORD DOC WORDS…): an option with these words, WORD by default. Any other is refused.
+# Upper and lower case mean the same, and so do ON, TRUE, YES and 1, as everywhere in CMake.
+function(ph_choice name word doc)
+  set(${name} ${word} CACHE STRING "${doc}")
+  set_property(CACHE ${name} PROPERTY STRINGS ${ARGN})
+  string(TOUPPER "${${name}}" given)
+  string(REGEX REPLACE "^(TRUE|YES|1)$" ON given "${given}")
+  string(REGEX REPLACE "^(FALSE|NO|0)$" OFF given "${given}")
+  if(NOT given IN_LIST ARGN)
+    list(JOIN ARGN ", " words)
+    message(FATAL_ERROR "${name}: found '${${name}}', expected one of ${words}")
+  endif()
+  set(${name} ${given} PARENT_SCOPE)
+endfunction()
