@@ -17,8 +17,9 @@ function(ph_link_program program)
   if(NOT PH_IS_STATIC)
     return()
   endif()
+  # Not -Wl, for the map: it takes paths apart at commas.
   target_link_options(${program} PRIVATE -static -Wl,--gc-sections
-                      -Wl,-Map=${CMAKE_CURRENT_BINARY_DIR}/${program}.map)
+                      -Xlinker -Map=${CMAKE_CURRENT_BINARY_DIR}/${program}.map)
 endfunction()
 
 if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
