@@ -45,7 +45,7 @@ MUTANTS = [
      "changes.push_back({0, curve.at[k], kInfinity});",
      "changes.push_back({0, curve.at[k], curve.at[k]});",
      ["ph-vectorise"], "ph_vectorise_fits"),
-    ("outputs: only lower case is a packed file", "apps/common/files/extensions.cpp",
+    ("outputs: only lower case is a packed file", "libph/src/io/bytes/output_file.cpp",
      "if (lower.ends_with(packed))",
      "if (path.ends_with(packed))",
      ["ph-barcode", "ph-segment", "ph-distance", "ph-vectorise", "peak"], "faults_corpus"),

@@ -58,8 +58,7 @@ bool is_typed(std::initializer_list<std::string_view> paths) {
 }
 
 Output::Output(const std::string& path)
-    : file_(require_given("output", path)),
-      slot_(remember_temporary(file_.temporary_path())) {}
+    : file_(require_given("output", path)), slot_(remember_temporary(file_.temporary_path())) {}
 
 Output::Output(Output&& other) noexcept
     : file_(std::move(other.file_)), slot_(std::exchange(other.slot_, -1)) {}
