@@ -350,13 +350,13 @@ def test_entropy():
 # ---- files
 
 
-@each
 def test_names_that_promise_packed_files(tmp_path):
     with pytest.raises(ph.UsageError, match="found .gz, expected a name without it"):
         ph.rips([[0], [1]]).save(tmp_path / "bars.json.gz", format="json")
     assert not list(tmp_path.iterdir())
 
 
+@each
 @pytest.mark.parametrize("extension", ["csv", "json", "pers", "dipha", "npy", "ripser"])
 def test_save_and_read(bars, extension, tmp_path):
     path = tmp_path / f"bars.{extension}"
