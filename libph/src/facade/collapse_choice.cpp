@@ -44,8 +44,8 @@ int rips_max_dim(const Rips& rips, const Options& options) {
   }
   if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
-                fmt::format("min_dim: found {}, expected at most {}, the highest unless max_dim "
-                            "says another",
+                fmt::format("lowest dimension: found {}, expected at most {}, the highest unless "
+                            "another is given",
                             options.min_dim, max_dim));
   }
   if (rips.has_only_points()) {

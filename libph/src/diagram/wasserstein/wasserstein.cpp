@@ -52,10 +52,12 @@ void check(const WassersteinOptions& options, std::string_view function) {
 double norm_of(std::span<const double> lengths, double order) {
   const double largest = lengths.empty() ? 0 : std::ranges::max(lengths);
   if (largest == 0 || largest == kInfinity) return largest;
+  // Division by a power of two costs no digits; powers of high order are of numbers up to 1.
+  const double unit = order <= 2 ? std::ldexp(1, std::ilogb(largest)) : largest;
   double sum = 0;
   for (const double length : lengths)
-    sum += order == 1 ? length / largest : std::pow(length / largest, order);
-  return largest * (order == 1 ? sum : std::pow(sum, 1 / order));
+    sum += order == 1 ? length / unit : std::pow(length / unit, order);
+  return unit * (order == 1 ? sum : std::pow(sum, 1 / order));
 }
 
 /// A unit of length, in which powers of lengths up to `largest` overflow nowhere. Numbers are
@@ -168,7 +170,6 @@ class Comparison {
   /// Prices have the digits of the dearest bar. If a matching costs far less than that, it may be
   /// by chance: it is sought again among those that cost no more, in a unit of their size.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
-    if (length_of_matching() == 0) return found;
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {
       return norm_of(std::array{length, rays}, options_.order);
