@@ -8,6 +8,7 @@ of one overflows.
 from __future__ import annotations
 
 import numpy as np
+from joblib import Parallel, delayed
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 from sklearn.neighbors import NearestNeighbors
@@ -20,7 +21,7 @@ METRICS = ["euclidean", "l2", "manhattan", "l1", "cityblock", "chebyshev", "cosi
 
 _Numbers = NDArray[np.float64]
 _MOST_FOR_A_TREE = 15  # coordinates: with more, a tree looks at nearly all points, and is slower
-_ENTRIES = 2**22  # of a table of distances that is there at once
+_ENTRIES = 2**21  # of a table of distances that a thread has at once
 _ROOM = 400  # rows may be 2**400 times as far from 0 as points: the square of that is a double
 
 
@@ -42,10 +43,10 @@ class Neighbours:
     def __init__(self, points: _Numbers, k: int, metric: str, n_jobs: int | None) -> None:
         self._points, self._name = _comparable(points, metric)
         self._k = k
-        self._by_rows = self._points.shape[1] > _MOST_FOR_A_TREE
         self._n_jobs = n_jobs
         self._exponent = _exponent_of(self._points)
-        self._search = None if self._by_rows else self._search_in(self._exponent)
+        is_for_a_tree = self._points.shape[1] <= _MOST_FOR_A_TREE
+        self._search = self._search_in(self._exponent) if is_for_a_tree else None
 
     def _search_in(self, exponent: int) -> NearestNeighbors:
         # This tree takes differences, which "brute" and hence "auto" do not.
@@ -58,27 +59,29 @@ class Neighbours:
         rows = _comparable(rows, self._name)[0]
         exponent = max(self._exponent, _exponent_of(rows) - _ROOM)
         scaled = np.ldexp(rows, -exponent)
-        if self._by_rows:
-            distances, places = self._nearest(scaled, np.ldexp(self._points, -exponent))
+        if self._search is None:
+            distances, places = self._by_all(scaled, np.ldexp(self._points, -exponent))
         else:
             search = self._search if exponent == self._exponent else self._search_in(exponent)
             distances, places = search.kneighbors(scaled)
         return _in_metric(np.ldexp(distances, exponent), self._name), places
 
-    def _nearest(self, rows: _Numbers, points: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
+    def _by_all(self, rows: _Numbers, points: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
         """By all distances, some rows at a time."""
-        k, many = self._k, max(1, _ENTRIES // len(points))
-        distances = np.empty((len(rows), k))
-        places = np.empty((len(rows), k), dtype=np.int64)
-        for start in range(0, len(rows), many):
-            strip = slice(start, start + many)
-            apart = cdist(rows[strip], points, _of_differences(self._name))
-            nearest = np.argpartition(apart, k - 1, axis=1)[:, :k]
-            length = np.take_along_axis(apart, nearest, axis=1)
-            order = np.argsort(length, axis=1, kind="stable")
-            distances[strip] = np.take_along_axis(length, order, axis=1)
-            places[strip] = np.take_along_axis(nearest, order, axis=1)
-        return distances, places
+        many = max(1, _ENTRIES // len(points))
+        strips = [rows[start:start + many] for start in range(0, len(rows), many)]
+        found = Parallel(n_jobs=self._n_jobs, prefer="threads")(
+            delayed(_nearest)(strip, points, self._k, _of_differences(self._name)) for strip in strips)
+        return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+
+
+def _nearest(rows: _Numbers, points: _Numbers, k: int,
+             metric: str) -> tuple[_Numbers, NDArray[np.int64]]:
+    apart = cdist(rows, points, metric)
+    places = np.argpartition(apart, k - 1, axis=1)[:, :k]
+    distances = np.take_along_axis(apart, places, axis=1)
+    order = np.argsort(distances, axis=1, kind="stable")
+    return np.take_along_axis(distances, order, axis=1), np.take_along_axis(places, order, axis=1)
 
 
 def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers:

@@ -179,6 +179,7 @@ bool TextLines::next() {
       const char* const comment = start_of_comment(begin, stop);
       if (comment != stop) {
         stop = comment;
+        // A tab before a comment leads to it, even where tabs separate cells.
         while (begin != stop && (stop[-1] == ' ' || stop[-1] == '\t')) --stop;
       } else if (stop[-1] == '\r') {
         --stop;

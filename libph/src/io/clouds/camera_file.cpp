@@ -9,6 +9,7 @@
 #include "core/floating.hpp"
 #include "io/bytes/json_cursor.hpp"
 #include "io/bytes/yaml_words.hpp"
+#include "io/points/table.hpp"
 #include "ph/detail/io/camera.hpp"
 #include "ph/error.hpp"
 
@@ -131,9 +132,7 @@ class CameraYaml {
           "distortion_coeffs", "distortion_coefficient", "distortion_parameters", "dist"}) {
       const YamlWords::Value* value = find({std::string(name) + ".data", name});
       const auto is_zero = [](const YamlWords::Word& word) {
-        double number = 1;
-        floating_from_chars(word.text.data(), word.text.data() + word.text.size(), number);
-        return number == 0;
+        return detail::number_in(word.text) == 0.0;
       };
       if (value == nullptr || std::ranges::all_of(value->words, is_zero)) continue;
       fail(*value, {"coefficients of the lens",

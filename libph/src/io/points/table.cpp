@@ -303,7 +303,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
       layout.header.clear();  // a row that begins with an empty cell
   }
-  if (layout.header.empty() && has_next) {
+  if (layout.header.empty() && has_next && !options.columns.empty()) {
     std::vector<std::string> names = header_cells(lines.line(), false, layout.keeps_tabs);
     if (asks_for_names(options, names, header_cells(next.line(), false, layout.keeps_tabs)))
       layout.header = std::move(names);

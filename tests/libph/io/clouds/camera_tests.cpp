@@ -97,6 +97,9 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
       "{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [520.5, 0, 0, 0, 521.5, 0, 318.25, "
       "241.5, 1]}";
   expect_usual(camera_of(open3d));
+  const std::string zeros = "width: 2\nheight: 2\nk: [1, 0, 1, 0, 1, 1, 0, 0, 1]\ndistortion: ";
+  for (const char* distortion : {"0", "[0, +0.0, -0, 0e1]"})
+    EXPECT_EQ(camera_of(zeros + distortion + "\n").lens.coefficients, (std::array<double, 8>{}));
   EXPECT_EQ(camera_of(open3d).depth_scale, 0);
   EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": 4000.0, ")).depth_scale, 4000);
   EXPECT_EQ(camera_of(replaced(open3d, "{", "{\"depth_scale\": 0.001, ")).depth_scale, 1000);
@@ -136,6 +139,8 @@ TEST(Camera, FaultsNameTheirPlace) {
       {replaced(good, "image_height: 480", "image_width: 640"), "c.yaml:2:1: a key twice"},
       {replaced(good, "plumb_bob", "odd"), "c.yaml:9:1: model of the lens, found \"odd\""},
       {replaced(good, "plumb_bob", "rational_polynomial"), "coefficients of rational_polynomial"},
+      {"width: 2\nheight: 2\nk: [1, 0, 1, 0, 1, 1, 0, 0, 1]\ndistortion: plumb\n",
+       "coefficients of the lens, found \"distortion\", expected distortion_coefficients"},
       {replaced(good, "distortion_coefficients", "dist_coeffs"),
        "coefficients of the lens, found \"dist_coeffs\", expected distortion_coefficients"},
       {"width: 2\nheight: 2\nk: [1, 0, 1, 0, 1, 1, 0, 0, 1]\ndistortion_model: fov\n",
