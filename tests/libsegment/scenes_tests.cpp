@@ -10,6 +10,7 @@
 
 #include "ph/eigen.hpp"
 #include "ph/segment.hpp"
+#include "support/test_data.hpp"
 
 namespace ph::segment {
 namespace {
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> scenes() {
   std::vector<fs::path> files;
-  const fs::path folder = fs::path(PH_SHARED_DIR) / "scenes";
-  if (!fs::is_directory(folder)) return files;
+  const fs::path folder = ph::test::test_data("scenes");
+  if (folder.empty()) return files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".pcd") files.push_back(entry.path());
   }
@@ -82,7 +83,7 @@ class SceneTest : public testing::TestWithParam<double> {};
 
 TEST_P(SceneTest, IsSingleLinkageOfTheVoxels) {
   const std::vector<fs::path> files = scenes();
-  if (files.empty()) GTEST_SKIP() << "NO SCENES in " << PH_SHARED_DIR << "/scenes: nothing tested";
+  if (files.empty()) GTEST_SKIP() << ph::test::no_test_data("scenes");
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
     const std::vector<float> xyz = read_cloud(file).xyz();

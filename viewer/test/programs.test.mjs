@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports that the programs make, in headless Chromium: node programs.test.mjs PH_BARCODE PH_SEGMENT
-// [SCENE]. Exit code 77: nothing could be tested.
+// Reports that the programs make, in headless Chromium: node programs.test.mjs PH_BARCODE PH_SEGMENT.
+// The environment variable PH_TEST_DATA names the folder of the optional test data, which has a real
+// scene. Exit code 77: nothing could be tested.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -10,7 +11,9 @@ import test from "node:test";
 import { coloursOf, downloaded, frame, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 import { npy, spherePoints, tableScene } from "./support/program_inputs.mjs";
 
-const [barcode, segment, scene] = process.argv.slice(2).map((path) => resolve(path));
+const [barcode, segment] = process.argv.slice(2).map((path) => resolve(path));
+const data = process.env.PH_TEST_DATA ?? "";
+const scene = data && resolve(data, "scenes/test57.pcd");
 if (!execFileSync(barcode, ["--version", "--verbose"]).toString().match(/reports +built in/)) {
   console.log("SKIPPED: reports are not built in");
   process.exit(77);
@@ -231,7 +234,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
   await t.test("ph-segment: cuts of the page are those of the program", async (tt) => {
     let input = scene;
     if (!input || !existsSync(input)) {
-      tt.diagnostic(`NO SCENE ${scene ?? ""}: a made-up one`);
+      tt.diagnostic(`skipped: PH_TEST_DATA, which is "${data}", has no scenes/test57.pcd`);
       writeFileSync(join(folder, "table.xyz"), tableScene());
       input = "table.xyz";
     }

@@ -14,7 +14,7 @@ import libph as ph
 from sequences import (BESIDE, FRAMES, LARGE, ROOM_CAMERA, SMALL, TABLE, WALL, noise_on, read_png,
                        room, seen_again)
 
-FOLDER = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[3])) / "../shared/scenes/uncropped"
+TEST_DATA = os.environ.get("PH_TEST_DATA", "")
 UCN, YCB = (612.937, 613.173, 322.549, 248.158), (1066.778, 1067.487, 312.9869, 241.3109)
 OSD = (525.0, 525.0, 319.5, 239.5)
 REAL = {"ucn0": (UCN, 1000), "ucn1": (UCN, 1000), "ucn2": (UCN, 1000), "ucn3": (UCN, 1000),
@@ -119,9 +119,9 @@ def test_the_program_says_the_same(tmp_path):
 @pytest.mark.filterwarnings("ignore::UserWarning")
 @pytest.mark.parametrize("name", REAL)
 def test_ten_frames_of_a_real_scene(name):
-    path = FOLDER / f"{name}-depth.png"
-    if not path.exists():
-        pytest.skip(f"NO SCENE {path}: ten frames of a real scene are not tested")
+    path = Path(TEST_DATA, "scenes/uncropped", f"{name}-depth.png")
+    if not TEST_DATA or not path.exists():
+        pytest.skip(f"PH_TEST_DATA, which is {TEST_DATA!r}, has no scenes/uncropped/{path.name}")
     camera, unit = REAL[name]
     depth = read_png(path) / unit
     depth[depth == 0] = np.nan

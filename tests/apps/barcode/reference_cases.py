@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""All reference cases through a built ph-barcode: reference_cases.py PROGRAM SHARED-FOLDER."""
+"""All reference cases through a built ph-barcode: reference_cases.py PROGRAM.
+
+The environment variable PH_TEST_DATA names the folder that has them."""
 import os
 import subprocess
 import sys
 
-program, shared = sys.argv[1:3]
-driver = os.path.join(shared, "tools", "run_cases.py")
-if not os.path.exists(driver):
-    print(f"SKIPPED: the reference cases are not here ({driver})")
+program, data = sys.argv[1], os.environ.get("PH_TEST_DATA", "")
+driver = os.path.join(data, "tools", "run_cases.py")
+if not data or not os.path.exists(driver):
+    print(f"SKIPPED: PH_TEST_DATA, which is {data!r}, has no tools/run_cases.py: no reference case is tested")
     sys.exit(77)
 sys.exit(subprocess.run([sys.executable, "-B", driver, program]).returncode)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """ph-segment --report: the page against the other outputs, and its cuts against ph-segment --cut.
 
-    segment_report.py PH_SEGMENT SCENES
+    segment_report.py PH_SEGMENT
+
+The environment variable PH_TEST_DATA names the folder of the optional test data.
 """
 import csv
 import hashlib
@@ -19,8 +21,8 @@ from program import ProgramTest, has_page, main  # noqa: E402
 from report_reader import NONE, Report  # noqa: E402
 from room import room  # noqa: E402
 
-SCENES = sys.argv.pop(2)
-SCENE = os.path.abspath(os.path.join(SCENES, "test57.pcd"))  # parts that touch, many
+TEST_DATA = os.environ.get("PH_TEST_DATA", "")
+SCENE = os.path.abspath(os.path.join(TEST_DATA, "scenes/test57.pcd"))  # parts that touch, many
 
 
 def table_scene(width=64, height=48):
@@ -96,8 +98,8 @@ class Reports(ProgramTest):
             self.expect_cuts("scene.pcd", options, cuts)
 
     def test_every_cut_of_a_real_scene(self):
-        if not os.path.exists(SCENE):
-            self.skipTest(f"NO SCENES in {SCENES}: cuts of a real scene are not tested")
+        if not TEST_DATA or not os.path.exists(SCENE):
+            self.skipTest(f"PH_TEST_DATA, which is {TEST_DATA!r}, has no scenes/test57.pcd")
         report, counts = self.expect_cuts(SCENE, [], (0.0, 1.0, 5.0, 15.0, 30.0))
         self.assertGreaterEqual(len(counts), 3)
         self.assertLess(os.path.getsize(self.path("r.html")), 5_000_000)

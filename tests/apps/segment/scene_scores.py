@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Floors under the scores of ph-segment on a few real frames, by the metrics of the benchmark.
 
-    scene_scores.py PH_SEGMENT SCENES
+    scene_scores.py PH_SEGMENT
+
+The environment variable PH_TEST_DATA names the folder that has the frames.
 """
+import os
 import pathlib
 import sys
 import tempfile
@@ -14,7 +17,8 @@ except ImportError as error:
     print(f"SKIPPED: {error} (apt install python3-numpy)")
     sys.exit(77)
 
-SCENES = pathlib.Path(sys.argv.pop(2))
+TEST_DATA = os.environ.get("PH_TEST_DATA", "")
+SCENES = pathlib.Path(TEST_DATA, "scenes")
 PROGRAM = pathlib.Path(sys.argv.pop(1))
 BENCH = pathlib.Path(__file__).resolve().parents[3] / "bench"
 sys.path[:0] = [str(BENCH / "segmentation"), str(BENCH)]
@@ -24,8 +28,8 @@ from segmentation_programs import Program  # noqa: E402
 
 # One of each kind that pipelines by distance get wrong: stacked, occluded, cylindric, complex.
 FRAMES = ("learn19", "learn27", "learn37", "test57")
-if not all((SCENES / f"{frame}.pcd").exists() for frame in FRAMES):
-    print(f"SKIPPED: NO SCENES in {SCENES}: nothing tested")
+if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAMES):
+    print(f"SKIPPED: PH_TEST_DATA, which is {TEST_DATA!r}, lacks frames in scenes: no score is tested")
     sys.exit(77)
 
 

@@ -12,6 +12,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/representatives.hpp"
+#include "support/test_data.hpp"
 
 namespace ph::test {
 namespace {
@@ -206,9 +207,9 @@ TEST(EdgeCollapse, KeepsWhatItMust) {
   for (const Index n : {0, 1, 2}) EXPECT_LE(kept(Rips(to_points(PointMatrix::Random(n, 2)))), 1U);
 }
 
-/// The points of a file of the shared folder; nothing where it is missing.
-std::optional<Points> shared_points(const std::string& name) {
-  std::ifstream file(std::string(PH_SHARED_DIR) + "/data/" + name);
+/// The points of a file; nothing where it is missing.
+std::optional<Points> points_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(file, line);) {
     std::istringstream numbers(line);
@@ -223,9 +224,12 @@ std::optional<Points> shared_points(const std::string& name) {
   return points;
 }
 
-TEST(EdgeCollapse, CountsOfSharedData) {
-  const auto orthogonal = shared_points("o3_1024.txt"), klein = shared_points("klein_400.txt");
-  if (!orthogonal || !klein) GTEST_SKIP() << "the shared data is not there";
+TEST(EdgeCollapse, CountsOfTestData) {
+  const auto folder = test_data("data");
+  if (folder.empty()) GTEST_SKIP() << no_test_data("data");
+  const auto orthogonal = points_of(folder / "o3_1024.txt");
+  const auto klein = points_of(folder / "klein_400.txt");
+  if (!orthogonal || !klein) GTEST_SKIP() << "skipped: o3_1024.txt or klein_400.txt is missing";
   const Rips o3(*orthogonal, {.threshold = 1.8});
   EXPECT_EQ(o3.edge_count(), 33189U);
   EXPECT_EQ(collapse_edges(o3).edge_count(), 7227U);

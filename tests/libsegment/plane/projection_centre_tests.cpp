@@ -9,6 +9,7 @@
 #include <random>
 
 #include "libsegment/scenery.hpp"
+#include "support/test_data.hpp"
 
 namespace ph::segment {
 namespace {
@@ -182,8 +183,8 @@ TEST(ProjectionCentre, IsTakenWhereTheOptionsSayNothing) {
 
 TEST(ProjectionCentre, OfRealFrames) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(PH_SHARED_DIR) / "scenes";
-  if (!fs::is_directory(folder)) GTEST_SKIP() << "NO SCENES in " << folder << ": nothing tested";
+  const fs::path folder = ph::test::test_data("scenes");
+  if (folder.empty()) GTEST_SKIP() << ph::test::no_test_data("scenes");
   unsigned seed = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".pcd") continue;

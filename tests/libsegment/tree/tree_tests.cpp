@@ -14,6 +14,7 @@
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "support/points.hpp"
+#include "support/test_data.hpp"
 #include "tree/tree_file.hpp"
 
 namespace ph::segment {
@@ -351,8 +352,8 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
 // ---- real frames
 
 TEST(StoredTreeScenes, CutsOfFramesAreTheirSegmentsAndTakeMilliseconds) {
-  const fs::path folder = fs::path(PH_SHARED_DIR) / "scenes";
-  if (!fs::is_directory(folder)) GTEST_SKIP() << "NO SCENES in " << folder << ": nothing tested";
+  const fs::path folder = ph::test::test_data("scenes");
+  if (folder.empty()) GTEST_SKIP() << ph::test::no_test_data("scenes");
   using Clock = std::chrono::steady_clock;
   const auto milliseconds = [](Clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();

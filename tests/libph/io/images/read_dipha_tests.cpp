@@ -4,10 +4,7 @@
 
 #include "libph/io/read_support.hpp"
 #include "ph/io/read.hpp"
-
-#ifndef PH_SHARED_DIR
-#define PH_SHARED_DIR ""
-#endif
+#include "support/test_data.hpp"
 
 namespace ph::test {
 namespace {
@@ -139,10 +136,8 @@ TEST(ReadDipha, SaysWhatItIsNot) {
 }
 
 TEST(ReadDipha, ReadsWhatNpyReads) {
-  const auto folder = std::filesystem::path(PH_SHARED_DIR) / "cases" / "in";
-  if (!std::filesystem::is_directory(folder)) {
-    GTEST_SKIP() << "skipped: the reference inputs are not in " << folder;
-  }
+  const auto folder = test_data("cases/in");
+  if (folder.empty()) GTEST_SKIP() << no_test_data("cases/in");
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".npy") continue;
     const Image image = read_image(entry.path());

@@ -4,21 +4,14 @@
 #include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
-
-#ifndef PH_SHARED_DIR
-#define PH_SHARED_DIR ""
-#endif
+#include "support/test_data.hpp"
 
 namespace ph::test {
 namespace {
 
-const std::filesystem::path kShared = PH_SHARED_DIR;
-
-TEST(SharedData, ReadsEveryReferenceInput) {
-  const auto folder = kShared / "cases" / "in";
-  if (!std::filesystem::is_directory(folder)) {
-    GTEST_SKIP() << "skipped: the reference inputs are not in " << folder;
-  }
+TEST(TestData, ReadsEveryReferenceInput) {
+  const auto folder = test_data("cases/in");
+  if (folder.empty()) GTEST_SKIP() << no_test_data("cases/in");
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto& path = entry.path();
@@ -36,11 +29,9 @@ TEST(SharedData, ReadsEveryReferenceInput) {
   EXPECT_EQ(read_sparse(folder / "sparse_cycle.txt").size(), 8);
 }
 
-TEST(SharedData, ReadsAndRewritesEveryScene) {
-  const auto folder = kShared / "scenes";
-  if (!std::filesystem::is_directory(folder)) {
-    GTEST_SKIP() << "skipped: the scenes are not in " << folder;
-  }
+TEST(TestData, ReadsAndRewritesEveryScene) {
+  const auto folder = test_data("scenes");
+  if (folder.empty()) GTEST_SKIP() << no_test_data("scenes");
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".pcd") continue;
     const Cloud cloud = read_cloud(entry.path());
