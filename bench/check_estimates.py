@@ -93,8 +93,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
                         help="build folder, with ph-barcode, bench_run and bench_cells")
-    parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("../shared/data"),
-                        help="folder of the inputs that are not generated (default: ../shared/data)")
+    parser.add_argument("--data", type=pathlib.Path, default=rips_rows.data_folder(),
+                        help="folder of the inputs that are not generated (default: data in the folder that the "
+                             "environment variable PH_TEST_DATA names, else shared/data beside the clone)")
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
     parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: all)")
     parser.add_argument("--time-limit", type=int, default=60, metavar="SECONDS",

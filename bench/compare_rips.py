@@ -197,8 +197,9 @@ def parse():
     parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
     parser.add_argument("--choice", action="append", default=[], metavar="WORDS",
                         help="also measure ph-barcode with these options, such as '--engine edge-links'; repeatable")
-    parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("../shared/data"),
-                        help="folder of the inputs that are not generated (default: ../shared/data)")
+    parser.add_argument("--data", type=pathlib.Path, default=rips_rows.data_folder(),
+                        help="folder of the inputs that are not generated (default: data in the folder that the "
+                             "environment variable PH_TEST_DATA names, else shared/data beside the clone)")
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
     parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: all)")
     parser.add_argument("--only", action="append", default=[], metavar="NAME",

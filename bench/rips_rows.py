@@ -5,6 +5,7 @@ Only `random.Random.random()` is drawn from, whose sequence Python promises to k
 the same file on every machine.
 """
 import math
+import os
 import pathlib
 import random
 import struct
@@ -158,6 +159,12 @@ ROWS = (
     Row("cube_1000000", 0, peers=False, usual=False),
     Row("tiny_12", 2, limit=True, usual=False),
 )
+
+
+def data_folder():
+    """The folder of the inputs that are not generated, where the command line names none."""
+    root = os.environ.get("PH_TEST_DATA") or pathlib.Path(__file__).resolve().parents[2] / "shared"
+    return pathlib.Path(root, "data")
 
 
 def input_file(row, data, made):
