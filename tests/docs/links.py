@@ -16,7 +16,7 @@ OURS = {"cpp", "hpp", "ipp"}
 # One that ends so is looked up with any folder.
 SOURCES = OURS | {"c", "cmake", "h", "in", "md", "mjs", "py", "sh", "ts"}
 NOT_OURS = {"build", "node_modules", ".git", "violations"}
-# It names files that are gone.
+# It may name files that are gone.
 HISTORY = "CHANGELOG.md"
 
 

@@ -18,8 +18,6 @@ IMAGE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+)\)")
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 NOT_RUN = re.compile(r"<!-- not run: \S.*-->\n$")
 WIDTH = 100
-# Its lines are as wide as they were.
-HISTORY = "CHANGELOG.md"
 NOT_OURS = {"build", "node_modules", ".git", "violations", "out"}
 CODE = {"python", "c", "cpp", "console"}
 
@@ -119,9 +117,8 @@ def main():
     faults = [*missing_headers(root)]
     for page in pages:
         text, name = page.read_text(encoding="utf-8"), page.relative_to(root).as_posix()
-        of_page = [*title_faults(text), *picture_faults(text), *code_faults(text, name, compiled)]
-        if page.name != HISTORY:
-            of_page += width_faults(text)
+        of_page = [*title_faults(text), *width_faults(text), *picture_faults(text),
+                   *code_faults(text, name, compiled)]
         if name.startswith("docs/") and page not in found:
             of_page.append("docs/index.md does not lead to it")
         faults += [f"{name}: {fault}" for fault in of_page]
