@@ -12,7 +12,7 @@ those that are measured: there it prints `dim birth death`, a bar a line.
 Arguments may stand in a file, one a line, named as @FILE.
 
 Measured are user + system CPU seconds and peak resident memory of whole processes, reading the image included, output
-going nowhere; see docs/notes/benchmarks.md for how. Needs numpy.
+going nowhere; see bench/README.md for how. Needs numpy.
 """
 import argparse
 import datetime

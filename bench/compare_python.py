@@ -7,7 +7,7 @@
 A package that is neither installed nor in a folder given by --path leaves its cells empty. Measured are user + system
 CPU seconds and peak resident memory of `python3 -c PROGRAM`: the start of the interpreter, imports and reading of the
 array count. What the same interpreter takes to import NumPy alone is the first row. In a run that is not measured the
-bars are compared with ours. Needs NumPy; see docs/notes/benchmarks.md for how.
+bars are compared with ours. Needs NumPy; see bench/README.md for how.
 """
 import argparse
 import json

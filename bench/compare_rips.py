@@ -11,7 +11,7 @@ of [A|B] are A in that run and B in those that are measured.
 Arguments may stand in a file, one a line, named as @FILE.
 
 Measured are user + system CPU seconds and peak resident memory of whole processes, output going nowhere;
-see docs/notes/benchmarks.md for how. Standard library only.
+see bench/README.md for how. Standard library only.
 """
 import argparse
 import datetime

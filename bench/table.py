@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Prints the tables of docs/notes/benchmarks.md: table.py BUILD_DIR [--ripser PROGRAM]
+"""Prints tables of engines and of readers of clouds beside peers: table.py BUILD_DIR [--ripser PROGRAM]
 [--gudhi-python PYTHON] [--scenes FOLDER] [--repeat N].
 
 User + system CPU seconds and peak resident memory, one thread, the best of N runs, ours and the peer's

@@ -29,7 +29,7 @@ DOCS = ROOT / "docs"
 # Pages that lie elsewhere in the repository.
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
-             "viewer/README.md": "development/viewer.md"}
+             "viewer/README.md": "development/viewer.md", "bench/README.md": "notes/measuring.md"}
 PROGRAMS = 4  # all of them, or none
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",

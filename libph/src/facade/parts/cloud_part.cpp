@@ -92,7 +92,7 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // Measured of 10⁶ to 10⁸ points, uniform and in clusters: see docs/notes/benchmarks.md. Of a
+  // Measured of 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. Of a
   // small block, and where clusters end, more is near than in it.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;

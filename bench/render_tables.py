@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Renders the tables of docs/notes/benchmarks.md from bench/results: render_tables.py [--check] [ROOT]
+
+The page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each table. What stands between
+them is replaced. With --check the page is left alone, and the exit code is 1 if it would change.
+
+A CSV file has the columns of the table between a column `shown` (yes: the row is on the page) and the
+columns `script`, `machine`, `date` and `versions`. Of these the line above the table is made. Two
+columns "X s" and "X MB" become one column X. Standard library only.
+"""
+import argparse
+import csv
+import difflib
+import itertools
+import re
+import sys
+import textwrap
+from pathlib import Path
+
+PAGE = "docs/notes/benchmarks.md"
+RESULTS = "bench/results"
+SOURCE = ["script", "machine", "date", "versions"]
+TABLE = re.compile(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->\n)", re.DOTALL)
+
+
+def read(path):
+    """@return the columns of the table, and its rows that are shown."""
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    columns = header[1:-len(SOURCE)]
+    if header != ["shown", *columns, *SOURCE] or len(set(header)) < len(header):
+        raise SystemExit(f"{path}: expected the columns shown, those of the table, and {', '.join(SOURCE)}")
+    for number, row in enumerate(rows, 2):
+        if len(row) != len(header) or row[0] not in ("yes", ""):
+            raise SystemExit(f"{path}:{number}: expected {len(header)} cells, the first one yes or empty")
+    return columns, [dict(zip(header, row)) for row in rows if row[0]]
+
+
+def names_of(columns):
+    """The columns of the page: X for "X s" and "X MB"."""
+    pairs = {name[:-2] for name in columns if name.endswith(" s") and f"{name[:-2]} MB" in columns}
+    merged = (name[:-2] if name[:-2] in pairs and name.endswith(" s") else name for name in columns)
+    return [name for name in merged if not (name.endswith(" MB") and name[:-3] in pairs)]
+
+
+def cell(row, name):
+    if name in row:
+        return row[name]
+    return " / ".join(filter(None, (row[f"{name} s"], row[f"{name} MB"])))
+
+
+def caption(rows, root):
+    """Where the rows come from. If they have several origins, what is other in which rows."""
+    sentences, first, usual = [], 1, []
+    for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
+        if not (root / origin[0]).is_file():
+            raise SystemExit(f"{origin[0]}: found no such script")
+        said = [f"`{origin[0]}`", *origin[1:]]
+        last = first + len(list(group)) - 1
+        which = "" if not usual else f"Row {first}: " if first == last else f"Rows {first} to {last}: "
+        other = [words for words in said if words and words not in usual]
+        sentences.append(which + "; ".join(other) + ".")
+        usual, first = usual or said, last + 1
+    return textwrap.fill(" ".join(sentences), 100, break_long_words=False, break_on_hyphens=False)
+
+
+def rendered(path, root):
+    columns, rows = read(path)
+    names = names_of(columns)
+    lines = [names, ["---"] * len(names), *([cell(row, name) for name in names] for row in rows)]
+    return caption(rows, root) + "\n\n" + "\n".join(f"| {' | '.join(cells)} |" for cells in lines) + "\n"
+
+
+def new_page(text, root):
+    results = {path.name: path for path in (root / RESULTS).glob("*.csv")}
+    named = [match[2] for match in TABLE.finditer(text)]
+    if sorted(named) != sorted(results):
+        raise SystemExit(f"{PAGE}: found the tables {', '.join(sorted(named))}; "
+                         f"{RESULTS} has {', '.join(sorted(results))}")
+    return TABLE.sub(lambda match: match[1] + rendered(results[match[2]], root) + match[3], text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=Path, nargs="?", default=Path(__file__).resolve().parents[1])
+    parser.add_argument("--check", action="store_true", help="change nothing; exit with 1 if the page would change")
+    arguments = parser.parse_args()
+    page = arguments.root / PAGE
+    old = page.read_text(encoding="utf-8")
+    new = new_page(old, arguments.root)
+    if not arguments.check:
+        page.write_text(new, encoding="utf-8")
+    elif new != old:
+        sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), PAGE, RESULTS))
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()
