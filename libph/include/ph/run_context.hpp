@@ -22,6 +22,9 @@ class MemoryBudget final : public std::pmr::memory_resource {
   static constexpr std::size_t kUnlimited = SIZE_MAX;
 
   explicit MemoryBudget(std::size_t limit_bytes = kUnlimited) : limit_(limit_bytes) {}
+  /// A budget within another one, which outlives it: what is taken here counts in both, and both
+  /// limits hold.
+  explicit MemoryBudget(MemoryBudget& parent) : parent_(&parent), limit_(kUnlimited) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
@@ -29,7 +32,10 @@ class MemoryBudget final : public std::pmr::memory_resource {
   void set_limit(std::size_t bytes) { limit_ = bytes; }
   std::size_t used() const { return used_.load(std::memory_order_relaxed); }
   /// What may still be taken.
-  std::size_t left() const { return limit_ - std::min(limit_, used()); }
+  std::size_t left() const {
+    const std::size_t left = limit_ - std::min(limit_, used());
+    return parent_ ? std::min(left, parent_->left()) : left;
+  }
   std::size_t peak() const { return peak_.load(std::memory_order_relaxed); }
 
   /// @throws Error (resource) if `bytes` more would exceed the limit. Allocates nothing.
@@ -38,11 +44,16 @@ class MemoryBudget final : public std::pmr::memory_resource {
  private:
   friend class MemoryClaim;
   void add(std::size_t bytes);
-  void subtract(std::size_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
+  void add_here(std::size_t bytes);
+  void subtract(std::size_t bytes) {
+    used_.fetch_sub(bytes, std::memory_order_relaxed);
+    if (parent_) parent_->subtract(bytes);
+  }
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;
   void do_deallocate(void* p, std::size_t bytes, std::size_t alignment) override;
   bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
+  MemoryBudget* parent_ = nullptr;
   std::size_t limit_;
   std::atomic<std::size_t> used_{0};
   std::atomic<std::size_t> peak_{0};
@@ -83,6 +94,10 @@ struct Progress {
 /// What a long computation needs from its caller: a way to stop it, to watch it and to bound it.
 /// Outlives every object that was built with it.
 struct RunContext {
+  RunContext() = default;
+  /// A context whose memory counts in that of another one, which outlives it.
+  explicit RunContext(MemoryBudget& parent) : memory(parent) {}
+
   std::stop_token stop;                              ///< asked for often; see `poll`
   std::function<void(const Progress&)> on_progress;  ///< called at most ten times a second
   mutable MemoryBudget memory;                       ///< unlimited unless `set_limit` is called

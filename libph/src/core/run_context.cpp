@@ -33,12 +33,23 @@ bool is_large(std::size_t bytes, std::size_t alignment) {
 void MemoryBudget::require(std::size_t bytes) const {
   const std::size_t now = used();
   if (bytes > limit_ || now > limit_ - bytes) refuse(bytes, now, limit_);
+  if (parent_) parent_->require(bytes);
 }
 
 void MemoryBudget::add(std::size_t bytes) {
+  if (parent_) parent_->add(bytes);
+  try {
+    add_here(bytes);
+  } catch (...) {
+    if (parent_) parent_->subtract(bytes);
+    throw;
+  }
+}
+
+void MemoryBudget::add_here(std::size_t bytes) {
   const std::size_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
   if (bytes > limit_ || before > limit_ - bytes) {
-    subtract(bytes);
+    used_.fetch_sub(bytes, std::memory_order_relaxed);
     refuse(bytes, before, limit_);
   }
   std::size_t seen = peak_.load(std::memory_order_relaxed);

@@ -55,7 +55,7 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
     const auto run = [&](const RunContext& context) {
       if (engine.id == Engine::gradient)
         return persistence(Cubical(image, {}, context), options, context);
-      return persistence(Rips(points, {.only_points = takes_points}, context), options, context);
+      return persistence(Rips(points, {}, context), options, context);
     };
     std::size_t peak = 0;
     Barcode expected;
@@ -176,6 +176,64 @@ TEST(MemoryBudgets, HoldForExplicitComplexes) {
   }
 }
 
+TEST(MemoryBudgets, WithinAnotherBothLimitsHold) {
+  MemoryBudget outer(1000);
+  {
+    MemoryBudget inner(outer);
+    EXPECT_EQ(inner.limit(), MemoryBudget::kUnlimited);
+    EXPECT_EQ(inner.left(), 1000U);
+    inner.set_limit(600);
+    void* a = inner.allocate(500, 8);
+    EXPECT_EQ(inner.used(), 500U);
+    EXPECT_EQ(outer.used(), 500U);
+    expect_error(ErrorKind::resource, "memory limit of 600", [&] { (void)inner.allocate(101, 8); });
+    expect_error(ErrorKind::resource, "memory limit of 600", [&] { inner.require(101); });
+    EXPECT_EQ(outer.used(), 500U) << "a refusal changes nothing";
+    EXPECT_EQ(inner.used(), 500U);
+    EXPECT_EQ(inner.left(), 100U);
+    void* b = outer.allocate(450, 8);
+    EXPECT_EQ(inner.left(), 50U) << "of the outer one";
+    EXPECT_EQ(inner.used(), 500U);
+    expect_error(ErrorKind::resource, "memory limit of 1", [&] { (void)inner.allocate(51, 8); });
+    expect_error(ErrorKind::resource, "memory limit of 1", [&] { inner.require(51); });
+    EXPECT_EQ(inner.used(), 500U);
+    EXPECT_EQ(outer.used(), 950U);
+    EXPECT_NO_THROW(inner.require(50));
+    {
+      const MemoryClaim claim(inner, 50);
+      EXPECT_EQ(outer.used(), 1000U);
+    }
+    MemoryBudget innermost(inner);
+    void* c = innermost.allocate(50, 8);
+    EXPECT_EQ(outer.used(), 1000U);
+    innermost.deallocate(c, 50, 8);
+    inner.deallocate(a, 500, 8);
+    EXPECT_EQ(inner.used(), 0U);
+    EXPECT_EQ(outer.used(), 450U);
+    outer.deallocate(b, 450, 8);
+    EXPECT_EQ(inner.peak(), 550U);
+  }
+  EXPECT_EQ(outer.used(), 0U);
+  EXPECT_EQ(outer.peak(), 1000U);
+}
+
+TEST(RunContexts, CountWithinAnother) {
+  RunContext outer;
+  outer.memory.set_limit(1 << 20);
+  {
+    const RunContext inner(outer.memory);
+    const Rips rips(Generator(3).points(50, 3, false), {}, inner);
+    persistence(rips, {}, inner);
+    EXPECT_GT(inner.memory.used(), 0U);
+    EXPECT_EQ(outer.memory.used(), inner.memory.used());
+    EXPECT_GE(outer.memory.peak(), inner.memory.peak());
+    expect_error(ErrorKind::resource, "memory limit",
+                 [&] { persistence(rips, {.max_dim = 3, .engine = Engine::standard}, inner); });
+    EXPECT_EQ(outer.memory.used(), inner.memory.used());
+  }
+  EXPECT_EQ(outer.memory.used(), 0U);
+}
+
 TEST(MemoryBudgets, CountWhatComesFromElsewhere) {
   MemoryBudget budget(1000);
   {
@@ -200,6 +258,7 @@ TEST(RunContexts, AStopRequestEndsALongJobSoon) {
   for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology}) {
     SCOPED_TRACE(engine.name());
     const Rips rips(long_job(engine), {.threshold = 10});
+    rips.graph(RipsForm::distinct_edges);
     std::stop_source source;
     RunContext context;
     context.stop = source.get_token();
@@ -223,21 +282,24 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
   RunContext context;
   context.stop = source.get_token();
   const Points points = circle(5);
-  expect_error(ErrorKind::cancelled, "stopped", [&] { Rips rips(points, {}, context); });
-  expect_error(ErrorKind::cancelled, "stopped",
-               [&] { Rips rips(points, {.threshold = 1}, context); });
+  const Rips rips(points);
+  for (const RipsForm form : {RipsForm::edges, RipsForm::distinct_edges, RipsForm::forest}) {
+    expect_error(ErrorKind::cancelled, "stopped", [&] { rips.graph(form, context); });
+    expect_error(ErrorKind::cancelled, "stopped",
+                 [&] { Rips(points, {.threshold = 1}).graph(form, context); });
+    rips.graph(form);
+  }
+  rips.graph(RipsForm::points);
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     Cubical cubical(Image{{2}, {0, 1}}, {}, context);
   });
-  const Rips rips(points), alone(points, {.only_points = true});
   const Cubical image(Image{{2}, {0, 1}});
   for (const auto& engine : detail::engine_facts()) {
     expect_error(ErrorKind::cancelled, "stopped", [&] {
       if (engine.id == Engine::gradient)
         persistence(image, {.engine = engine.id}, context);
       else
-        persistence(engine.id == Engine::beta_skeleton ? alone : rips,
-                    {.max_dim = 0, .engine = engine.id}, context);
+        persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
     });
   }
 }
