@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace ph {
 
 /// All distances of a finite set, stored once for each pair: the strict lower triangle row by row,
 /// d(1,0), d(2,0), d(2,1), d(3,0), … Points may have births, as on the diagonal of a matrix that
-/// gives each vertex the value at which it enters.
+/// gives each vertex the value at which it enters. The numbers never change, and copies share them.
 class DistanceMatrix {
  public:
   /// @param size number of points. @param lower size*(size-1)/2 distances, each >= 0 or +infinity.
@@ -20,16 +21,20 @@ class DistanceMatrix {
 
   Index size() const { return size_; }
   /// By point; empty: all are there from 0 on.
-  std::span<const double> births() const { return births_; }
+  std::span<const double> births() const { return numbers_->births; }
   double operator()(Index i, Index j) const {
     if (i == j) return 0.0;
     if (i < j) std::swap(i, j);
-    return lower_[static_cast<std::size_t>(i * (i - 1) / 2 + j)];
+    return lower_[i * (i - 1) / 2 + j];
   }
 
  private:
+  struct Numbers {
+    std::vector<double> lower, births;
+  };
   Index size_;
-  std::vector<double> lower_, births_;
+  std::shared_ptr<const Numbers> numbers_;
+  const double* lower_;  // in numbers_
 };
 
 }  // namespace ph

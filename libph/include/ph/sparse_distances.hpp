@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "ph/points.hpp"
@@ -14,7 +15,8 @@ struct WeightedEdge {
   friend bool operator==(const WeightedEdge&, const WeightedEdge&) = default;
 };
 
-/// Some of the distances of a finite set; every other pair is never joined.
+/// Some of the distances of a finite set; every other pair is never joined. The distances never
+/// change, and copies share them.
 class SparseDistances {
  public:
   /// @param size number of points. @param edges pairs u != v below `size`, each pair at most once,
@@ -27,11 +29,11 @@ class SparseDistances {
   static SparseDistances within(PointsView points, double radius);
 
   Index size() const { return size_; }
-  const std::vector<WeightedEdge>& edges() const { return edges_; }
+  const std::vector<WeightedEdge>& edges() const { return *edges_; }
 
  private:
   Index size_;
-  std::vector<WeightedEdge> edges_;
+  std::shared_ptr<const std::vector<WeightedEdge>> edges_;
 };
 
 }  // namespace ph

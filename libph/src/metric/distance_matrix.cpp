@@ -8,28 +8,30 @@
 namespace ph {
 
 DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
-    : size_(size), lower_(std::move(lower)), births_(std::move(births)) {
+    : size_(size) {
   constexpr Index most = Index{1} << 31;  // whose pairs can be counted
   if (size < 0 || size > most)
     throw Error(ErrorKind::bad_data,
                 fmt::format("distance matrix: found {} points, expected 0 to 2^31", size));
   const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;
-  if (static_cast<Index>(lower_.size()) != pairs) {
+  if (static_cast<Index>(lower.size()) != pairs) {
     throw Error(ErrorKind::bad_data, fmt::format("distance matrix: found {} distances, expected {} "
                                                  "for {} points",
-                                                 lower_.size(), pairs, size));
+                                                 lower.size(), pairs, size));
   }
   std::size_t k = 0;
   for (Index i = 1; i < size; ++i) {
     for (Index j = 0; j < i; ++j, ++k) {
-      if (!(lower_[k] >= 0)) {
+      if (!(lower[k] >= 0)) {
         throw Error(
             ErrorKind::bad_data,
-            fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, lower_[k]));
+            fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, lower[k]));
       }
-      lower_[k] += 0.0;  // -0.0 becomes +0.0
+      lower[k] += 0.0;  // -0.0 becomes +0.0
     }
   }
+  numbers_ = std::make_shared<const Numbers>(Numbers{std::move(lower), std::move(births)});
+  lower_ = numbers_->lower.data();
 }
 
 }  // namespace ph

@@ -26,25 +26,26 @@ void check(const WeightedEdge& e, Index size) {
 }  // namespace
 
 SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges)
-    : size_(size), edges_(std::move(edges)) {
+    : size_(size) {
   if (size < 0)
     throw Error(ErrorKind::bad_data,
                 fmt::format("sparse distances: found {} points, expected 0 or more", size));
-  for (WeightedEdge& e : edges_) {
+  for (WeightedEdge& e : edges) {
     check(e, size_);
     if (e.u > e.v) std::swap(e.u, e.v);
     e.value += 0.0;  // -0.0 becomes +0.0
   }
-  std::sort(edges_.begin(), edges_.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
+  std::sort(edges.begin(), edges.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
     return a.u != b.u ? a.u < b.u : a.v < b.v;
   });
   const auto twice = std::adjacent_find(
-      edges_.begin(), edges_.end(),
+      edges.begin(), edges.end(),
       [](const WeightedEdge& a, const WeightedEdge& b) { return a.u == b.u && a.v == b.v; });
-  if (twice != edges_.end()) {
+  if (twice != edges.end()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("edge ({}, {}) is there twice", twice->u, twice->v));
   }
+  edges_ = std::make_shared<const std::vector<WeightedEdge>>(std::move(edges));
 }
 
 SparseDistances SparseDistances::within(PointsView points, double radius) {
