@@ -18,19 +18,26 @@ int main(int argc, char** argv) {
   try {
     const int top = std::atoi(argv[3]);
     ph::RipsOptions options;
-    options.merge_equal_points = true;  // as ph-barcode does
     if (argv[4] != std::string_view("-")) options.threshold = std::atof(argv[4]);
-    const ph::Rips all = argv[1] == std::string_view("binary")
-                             ? ph::Rips(ph::read_binary_distances(argv[2]), options)
-                             : ph::Rips(ph::read_points(argv[2]), options);
-    const ph::Rips rips = argv[5] == std::string_view("collapse") ? ph::collapse_edges(all) : all;
-    rips.with_filtration(std::max(0, top - 1), [&](const auto& filtration) {
-      for (int dim = 0; dim <= top; ++dim) {
-        unsigned long long count = 0;
-        filtration.for_each_cell(dim, [&](const auto&) { ++count; });
-        std::printf("%llu\n", count);
-      }
-    });
+    const ph::Rips rips = argv[1] == std::string_view("binary")
+                              ? ph::Rips(ph::read_binary_distances(argv[2]), options)
+                              : ph::Rips(ph::read_points(argv[2]), options);
+    const auto count = [top](const ph::RipsGraph& graph) {
+      ph::with_rips_filtration(graph, std::max(0, top - 1), [&](const auto& filtration) {
+        for (int dim = 0; dim <= top; ++dim) {
+          unsigned long long cells = 0;
+          filtration.for_each_cell(dim, [&](const auto&) { ++cells; });
+          std::printf("%llu\n", cells);
+        }
+      });
+    };
+    const ph::RipsGraph& graph =  // as ph-barcode has it
+        rips.graph(rips.has_form(ph::RipsForm::distinct_edges) ? ph::RipsForm::distinct_edges
+                                                               : ph::RipsForm::edges);
+    if (argv[5] == std::string_view("collapse"))
+      count(ph::collapse_edges(graph));
+    else
+      count(graph);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 70;

@@ -83,8 +83,10 @@ void run(const char* name, Shape shape, ph::Index n, ph::Index d, const ph::RunC
     });
   });
   std::optional<ph::Rips> rips;
-  const double forest =
-      seconds_of([&] { rips.emplace(points, ph::RipsOptions{.only_components = true}, context); });
+  const double forest = seconds_of([&] {
+    rips.emplace(ph::Rips::borrowed(points, {}, context));
+    rips->graph(ph::RipsForm::forest, context);
+  });
   std::size_t bars = 0;
   const double pairs =
       seconds_of([&] { bars = ph::persistence(*rips, {.max_dim = 0}, context).size(); });

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "ph/custom.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/ph.hpp"
 
 namespace {
@@ -39,7 +40,8 @@ void add(const std::string& input, const Complex& complex, const ph::EngineFacts
          int max_dim) {
   for (; max_dim >= 0; --max_dim) try {
       const ph::Options options{.max_dim = max_dim, .engine = engine.id};
-      ph::plan(ph::AnyComplex(complex), options);
+      const ph::AnyComplex any(complex);
+      ph::build(any, ph::plan(any, options));
       benchmark::RegisterBenchmark((input + std::string(engine.id.name())).c_str(),
                                    [=](auto& state) { run(state, complex, options); })
           ->Unit(benchmark::kMillisecond);
@@ -63,7 +65,8 @@ int main(int argc, char** argv) {
     add("cubical_64/", volume, engine, 3);
   }
   benchmark::RegisterBenchmark("rips_graph_1000", [points = random_points(1000, 3)](auto& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(ph::Rips(points).edge_count());
+    for (auto _ : state)
+      benchmark::DoNotOptimize(ph::Rips(points).graph(ph::RipsForm::edges).edge_count());
   })->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -17,9 +17,8 @@ int main() {
     points.set_row(i, {t * std::cos(angle), t * std::sin(angle)});
   }
 
-  // Only the components: no distance is computed that is not needed for them.
-  const ph::Rips rips(points, {.only_components = true});
-  const ph::MergeTree tree = ph::merge_tree(rips);
+  // No distance is computed that the components do not need.
+  const ph::MergeTree tree = ph::merge_tree(ph::Rips(points));
   const auto rows = ph::linkage(tree);
   std::cout << "last merges at " << rows[rows.size() - 2].value << " and " << rows.back().value
             << ", the one before at " << rows[rows.size() - 3].value << "\n";

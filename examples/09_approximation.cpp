@@ -27,22 +27,19 @@ int main() {
   }
   const ph::PointsView circle(points.data(), count - outliers, points.cols());
 
-  // Bars longer than twice the covering radius are bars of the whole circle, too.
-  const ph::GreedyPermutation sample = ph::greedy_permutation(circle, {.points = 100});
-  const auto vertices = sample.ascending();
-  const ph::Barcode some = ph::persistence(ph::Rips(circle, {.vertices = vertices}));
-  std::cout << vertices.size() << " points, covering radius " << sample.covering_radius << ": "
-            << long_loops(some, 2 * sample.covering_radius) << " real loop\n";
+  // Bars longer than twice the covering radius are also bars of the whole circle.
+  const ph::Rips sample(circle, {.subsample = ph::GreedyLimits{.points = 100}});
+  const double radius = *sample.covering_radius();
+  std::cout << "100 points, covering radius " << radius << ": "
+            << long_loops(ph::persistence(sample), 2 * radius) << " real loop\n";
 
   // Births and deaths are at most 1.5 times too late.
   const ph::Rips sparse(circle, {.approximation = 0.5});
   const auto all = static_cast<std::size_t>(circle.rows() * (circle.rows() - 1) / 2);
   std::cout << long_loops(ph::persistence(sparse), 0.5) << " loop in 1/"
-            << all / sparse.edge_count() << " of the edges\n";
+            << all / *ph::facts(sparse, ph::plan(sparse)).edges << " of the edges\n";
 
   // Where points are few, they enter late.
-  std::vector<double> births = ph::distance_to_measure(points, 40);
-  for (double& birth : births) birth *= 2;
-  const ph::Rips weighted(points, {.births = births, .weight_exponent = ph::WeightExponent::one});
+  const ph::Rips weighted(points, {.dtm_neighbours = 40});
   std::cout << long_loops(ph::persistence(weighted), 0.5) << " loop among the outliers\n";
 }

@@ -16,7 +16,6 @@
 #include "barcode/complex/load.hpp"
 #include "barcode/memory/alternatives.hpp"
 #include "barcode/memory/estimate_text.hpp"
-#include "barcode/output/h0_tree.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/output/report.hpp"
 #include "barcode/output/significance.hpp"
@@ -46,12 +45,13 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
   const auto does_nothing = [&](std::string_view why) {
     session.note(fmt::format("--slab-layers does nothing: {}", why));
   };
-  if (facts_of(plan.engine).listed_dim(0) >= 0)
-    does_nothing(fmt::format("engine {} takes all of them at once", plan.engine.name()));
+  const Engine engine = plan.options.engine;
+  if (facts_of(engine).listed_dim(0) >= 0)
+    does_nothing(fmt::format("engine {} takes all of them at once", engine.name()));
   else if (arguments.options.representatives != Representatives::none)
     does_nothing("representatives need all of them at once");
   else if (!cubical::can_be_cut(cubical->cubical_image(),
-                                {arguments.options.min_dim, plan.max_dim}))
+                                {arguments.options.min_dim, *plan.options.max_dim}))
     does_nothing(cubical->cubical_image().extents.size() > 3
                      ? "of four axes or more bars of dimensions between 0 and the highest but one "
                        "need all of them at once"
@@ -65,13 +65,13 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
 /// take long: there may be no tree. @throws Error (usage) if there is none.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                                           const Arguments& arguments, const RunContext& context) {
-  const auto tree = whole_tree(loaded.built, *loaded.data, arguments, context);
+  const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
   if (!tree)
     throw Error(ErrorKind::usage,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
                             "approximation, --construction vertices, no --threshold on a listed "
                             "complex, and at most {} voxels",
-                            loaded.data->name, report::kMostTreeVoxels));
+                            loaded.name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();
   std::vector<std::string> pictures;
@@ -130,16 +130,24 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
   Loaded loaded = load(job, input, arguments, session, watch);
   somebody_types.reset();
-  auto& [built, description, point_ids, data, claim] = loaded;
+  auto& [built, name, description, point_ids, data, claim] = loaded;
   require_loops(built, arguments);
   const auto taken = static_cast<double>(session.memory_taken());
+  const auto note_promise = [&](const std::optional<std::string>& promise) {
+    if (promise) session.note(fmt::format("{}: {}", name, *promise));
+  };
   if (arguments.dry_run) {
     if (arguments.significance)
       session.note("--significance does nothing: --dry-run computes no bars");
-    const Estimate estimated = estimate(built.complex, arguments.options, session.context());
+    const Estimate estimated = in_name_of(
+        name, [&] { return estimate(built.complex, arguments.options, session.context()); });
+    take_facts(built, estimated.built);
+    note_promise(promise_of(built, estimated.built));
     explain_slabs(built, estimated, arguments, session);
     const app::BarHold results_are_written(session);
-    write_file("-", estimate_text(estimated, built, description, taken));
+    // The edges, if they were made, were not there before.
+    const double held = estimated.built.edges ? estimated.bytes_held : 0;
+    write_file("-", estimate_text(estimated, built, description, taken + held));
     return {app::kOk, description};
   }
   std::vector<std::string> trees;
@@ -152,24 +160,36 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
                             session.context());
     watch.lap("surfaces");
   }
-  if (job.report.empty()) {
+  const RunPlan planned = in_name_of(name, [&] {
+    RunPlan made = plan(built.complex, arguments.options, session.context());
+    build(built.complex, made, session.context());
+    return made;
+  });
+  const RunFacts known = facts(built.complex, planned, session.context());
+  take_facts(built, known);
+  const std::optional<std::string> promise = promise_of(built, known);
+  note_promise(promise);
+  // Points alone are the input itself.
+  if (job.report.empty() && !arguments.check && planned.form != RipsForm::points) {
+    if (auto* rips = std::get_if<Rips>(&built.complex)) rips->forget_input();
     data.reset();
     claim.reset();
   }
-  const RunPlan planned = plan(built.complex, arguments.options, session.context());
   watch.lap("complex");
-  session.explain(fmt::format("engine {}: {}", planned.engine.name(), planned.reason));
+  const std::string_view engine = planned.options.engine.name();
+  session.explain(fmt::format("engine {}: {}", engine, planned.reason));
   if (!planned.collapse_reason.empty())
-    session.explain(
-        fmt::format("collapse {} ({})", planned.collapses ? "on" : "off", planned.collapse_reason));
+    session.explain(fmt::format("collapse {} ({})",
+                                planned.options.collapse == Collapse::on ? "on" : "off",
+                                planned.collapse_reason));
 
   explain_slabs(built, planned, arguments, session);
 
-  Options options = with_plan(arguments.options, planned);
+  RunPlan settled = planned;
   // A bar that the threshold cuts is infinite, however short it would have been.
-  if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
+  if (built.cut) settled.options.min_persistence = std::min(settled.options.min_persistence, 0.0);
   const auto compute = [&](const AnyComplex& complex) {
-    Barcode bars = persistence(complex, options, session.context());
+    Barcode bars = run(complex, settled, session.context());
     if (built.cut) bars = cut_at(bars, complex, *built.cut, arguments.options.min_persistence);
     return bars;
   };
@@ -178,7 +198,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   std::vector<BarLoops> loops_of_bars;
   if (writes_loops(job, arguments)) {
     loops_of_bars =
-        loops(built.complex, barcode, options,
+        loops(built.complex, barcode, settled.options,
               arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());
     watch.lap("loops");
   }
@@ -192,9 +212,10 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   int code = app::kOk;
   std::vector<std::string> warnings;
   if (arguments.check) {
-    options.engine = Engine::standard;
-    options.collapse = Collapse::off;
-    options.representatives = Representatives::none;
+    settled.options.engine = Engine::standard;
+    settled.options.collapse = Collapse::off;
+    settled.options.representatives = Representatives::none;
+    if (settled.form) settled.form = RipsForm::edges;
     const std::string difference = first_difference(
         barcode, built.by_definition ? compute(built.by_definition(session.context()))
                                      : compute(built.complex));
@@ -204,7 +225,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     } else {
       app::print_line(
           fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
-                      job.input, planned.engine.name(), difference));
+                      job.input, engine, difference));
       warnings.push_back("check: the engine and the reference engine differ: " + difference);
       code = app::kDifference;
     }
@@ -221,7 +242,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.input_description = description;
   info.complex = built.name;
   info.field = arguments.options.field;
-  info.max_dim = arguments.options.max_dim.value_or(planned.max_dim);
+  info.max_dim = arguments.options.max_dim.value_or(*planned.options.max_dim);
   info.threshold = built.threshold;
   info.metric = built.metric;
   info.vertex_weights = built.vertex_weights;
@@ -234,7 +255,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.min_dim = arguments.options.min_dim;
   info.loops = loops_of_bars;
   info.p_values = p_values;
-  info.engine = planned.engine.name();
+  info.engine = engine;
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();
   for (const auto& [stage, seconds] : watch.laps())
@@ -244,8 +265,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   const app::BarHold results_are_written(session);
   outputs->write(barcode, info, look_of(arguments.look, arguments.cubical.superlevel), trees,
                  session.context());
-  if (data) {
-    const Shown shown{barcode, info, *data, built, std::move(warnings)};
+  if (!job.report.empty()) {
+    const Shown shown{barcode, info, *data, built, planned.form, promise, std::move(warnings)};
     write_report(outputs->report().file(), shown, arguments, session);
     outputs->report().commit();
   }

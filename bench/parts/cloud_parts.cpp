@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     ph::RunContext of_one;
     of_one.threads = 1;
     const double one = seconds_of([&] {
-      const ph::Rips rips(points, {.only_components = true}, of_one);
+      const ph::Rips rips = ph::Rips::borrowed(points, {}, of_one);
       expected = ph::persistence(rips, {.max_dim = 0, .cells = false}, of_one);
     });
     fmt::print("{:9} {:9} {:5} {:8.2f} {:8} {:6} {:9.0f}\n", name, n, 1, one, "", "",

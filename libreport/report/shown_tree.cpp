@@ -17,7 +17,14 @@ namespace {
 constexpr std::size_t kMostMerges = 100'000;
 
 std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
-  if (rips.graph().has_names()) return std::nullopt;  // some points are born beyond the threshold
+  RipsOptions options = rips.options();
+  if (rips.size() == 0 || !rips.has_form(RipsForm::forest)) return std::nullopt;
+  if (options.merge_equal_points.value_or(false)) {  // the tree has all points
+    options.merge_equal_points.reset();
+    return tree_of(rips.with(std::move(options), context), context);
+  }
+  // Some points may be no vertices.
+  if (rips.graph(RipsForm::forest, context).has_names()) return std::nullopt;
   return merge_tree(rips, context);
 }
 

@@ -17,7 +17,7 @@ Alpha AlphaRecipe::alpha(const RunContext& context) const {
   return Alpha(space_->point_set()->points, options_, context);
 }
 
-Built AlphaRecipe::build(const Options&, const RunContext& context) const {
+Built AlphaRecipe::build(const RunContext& context) const {
   Facts facts;
   Alpha complex = alpha(context);
   if (std::isfinite(options_.threshold)) facts.threshold = options_.threshold;

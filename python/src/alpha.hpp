@@ -16,7 +16,7 @@ class AlphaRecipe final : public Recipe {
               std::vector<Index> ids)
       : space_(std::move(space)), options_(std::move(options)), ids_(std::move(ids)) {}
 
-  Built build(const Options& options, const RunContext& context) const override;
+  Built build(const RunContext& context) const override;
   bool is_short(const Options& options) const override;
   const std::vector<Index>& vertex_ids() const override { return ids_; }
   std::optional<PointsView> points() const override { return space_->point_set()->points; }

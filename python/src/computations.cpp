@@ -18,26 +18,31 @@ namespace ph::python {
 namespace {
 
 Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) {
-  Built built = recipe.build(task.options, context);
-  const RunPlan planned = plan(built.complex, task.options, context);
-  Options options = with_plan(task.options, planned);
+  Built built = recipe.build(context);
+  RunPlan planned = plan(built.complex, task.options, context);
   // A bar that the threshold cuts is infinite, however short it would have been.
-  if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
+  if (built.cut) planned.options.min_persistence = std::min(planned.options.min_persistence, 0.0);
 
-  Bars bars{persistence(built.complex, options, context)};
+  Bars bars{run(built.complex, planned, context)};
   if (built.cut)
     bars.barcode = cut_at(bars.barcode, built.complex, *built.cut, task.options.min_persistence);
   if (task.loops != LoopChoice::none)
-    bars.loops =
-        loops(built.complex, bars.barcode, options, task.loops == LoopChoice::tight, context);
+    bars.loops = loops(built.complex, bars.barcode, planned.options,
+                       task.loops == LoopChoice::tight, context);
   if (!recipe.vertex_ids().empty()) {
     bars.barcode = with_input_ids(bars.barcode, recipe.vertex_ids());
     name_points(bars.loops, recipe.vertex_ids());
   }
   bars.facts = std::move(built.facts);
-  bars.facts.engine = planned.engine.name();
-  bars.facts.collapses = planned.collapses;
-  bars.facts.max_dim = task.options.max_dim.value_or(planned.max_dim);
+  if (const RunFacts known = facts(built.complex, planned, context); known.vertices) {
+    bars.facts.vertices = known.vertices;
+    bars.facts.edges = known.edges;
+    bars.facts.threshold = known.threshold;
+    bars.facts.covering_radius = known.covering_radius;
+  }
+  bars.facts.engine = planned.options.engine.name();
+  bars.facts.collapses = planned.options.collapse == Collapse::on;
+  bars.facts.max_dim = task.options.max_dim.value_or(*planned.options.max_dim);
   bars.field = task.options.field;
   return bars;
 }
@@ -61,7 +66,7 @@ std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
 
 Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& options) {
   return run(options, recipe.is_short(task.options), [&](const RunContext& context) {
-    const Built built = recipe.build(task.options, context);
+    const Built built = recipe.build(context);
     return estimate(built.complex, task.options, context);
   });
 }
@@ -73,9 +78,9 @@ py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
     std::vector<double> values;
   };
   Edges edges = run(options, false, [&](const RunContext& context) {
-    const Rips rips = recipe.collapsed(context);
+    const RipsGraph graph = recipe.collapsed(context);
     Edges all;
-    for (const FlagEdge& edge : rips.graph().edges()) {
+    for (const FlagEdge& edge : graph.edges()) {
       all.u.push_back(edge.u);
       all.v.push_back(edge.v);
       all.values.push_back(edge.value);
@@ -123,11 +128,12 @@ void bind_computations(py::module_& m) {
       py::arg("loops"));
   py::class_<Estimate>(m, "Estimate")
       .def_property_readonly("engine",
-                             [](const Estimate& e) { return std::string(e.engine.name()); })
+                             [](const Estimate& e) { return std::string(e.options.engine.name()); })
       .def_readonly("reason", &Estimate::reason)
-      .def_readonly("collapses", &Estimate::collapses)
+      .def_property_readonly("collapses",
+                             [](const Estimate& e) { return e.options.collapse == Collapse::on; })
       .def_readonly("collapse_reason", &Estimate::collapse_reason)
-      .def_readonly("max_dim", &Estimate::max_dim)
+      .def_property_readonly("max_dim", [](const Estimate& e) { return *e.options.max_dim; })
       .def_readonly("cells", &Estimate::cells)
       .def_readonly("counted_dims", &Estimate::counted_dims)
       .def_readonly("bytes_low", &Estimate::bytes_low)

@@ -6,7 +6,6 @@
 
 #include "bindings.hpp"
 #include "data/arrays.hpp"
-#include "ph/detail/report/shown_tree.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
@@ -19,22 +18,6 @@ namespace {
 // start a thread takes a tenth of one, more on a busy machine. 215 points up to H1, 80 up to H2.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
-
-Rips rips_of(const PointSet& set, RipsOptions options, const Options& task,
-             const RunContext& context) {
-  options.distance = set.distance;
-  options.minkowski_p = set.p;
-  options.only_points = !options.only_components && !options.approximation &&
-                        holds_points_alone(set.points, options, task);
-  return Rips(set.points, options, context);
-}
-template <class Distances>
-Rips rips_of(const Distances& distances, const RipsOptions& options, const Options& task,
-             const RunContext& context) {
-  if (task.engine == Engine::beta_skeleton)
-    throw Error(ErrorKind::usage, "engine beta-skeleton: found distances, expected points");
-  return Rips(distances, options, context);
-}
 
 bool is_c_contiguous(const py::buffer_info& array) {
   py::ssize_t stride = array.itemsize;
@@ -53,10 +36,13 @@ const std::vector<Index>& Recipe::vertex_ids() const {
   return none;
 }
 
-std::optional<MergeTree> Recipe::whole_tree(const Built& built, const Options&,
-                                            const RunContext& context) const {
-  if (built.cut) return std::nullopt;
-  return report::whole_tree(built.complex, context);
+RipsRecipe::RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options,
+                       std::vector<Index> ids)
+    : space_(std::move(space)), options_(std::move(options)), ids_(std::move(ids)) {
+  if (const PointSet* set = space_->point_set()) {
+    options_.distance = set->distance;
+    options_.minkowski_p = set->p;
+  }
 }
 
 std::optional<PointsView> RipsRecipe::points() const {
@@ -66,69 +52,21 @@ std::optional<PointsView> RipsRecipe::points() const {
 }
 
 bool RipsRecipe::is_euclidean() const {
-  const PointSet* set = space_->point_set();
-  return set && set->distance == PointDistance::euclidean && !choices_.subsample &&
-         !choices_.approximation && !choices_.dtm_neighbours && choices_.births.empty();
+  return space_->point_set() && options_.distance == PointDistance::euclidean &&
+         !options_.subsample && !options_.approximation && !options_.dtm_neighbours &&
+         options_.births.empty();
 }
 
-std::optional<MergeTree> RipsRecipe::whole_tree(const Built& built, const Options& options,
-                                                const RunContext& context) const {
-  const bool has_names = std::get<Rips>(built.complex).graph().has_names();
-  if (space_->size() == 0 || choices_.subsample || choices_.approximation ||
-      (has_names && options.min_persistence < 0))
-    return std::nullopt;
-  // This one is a spanning forest of all points, equal ones among them.
-  Choices choices = choices_;
-  choices.threshold = built.facts.threshold;
-  choices.merge_equal_points.reset();
-  Options components;
-  components.max_dim = 0;
-  components.min_persistence = -1;
-  return report::whole_tree(
-      RipsRecipe(space_, std::move(choices)).build(components, context).complex, context);
+Rips RipsRecipe::rips(const RunContext& context) const {
+  return space_->visit(context, [&]<class Data>(Data&& data) {
+    if constexpr (std::same_as<std::remove_cvref_t<Data>, PointSet>)
+      return Rips::borrowed(data.points, options_, context);
+    else
+      return Rips(std::forward<Data>(data), options_, context);
+  });
 }
 
-Built RipsRecipe::build(const Options& task, const RunContext& context) const {
-  RipsOptions options;
-  options.threshold = choices_.threshold;
-  options.weight_exponent = choices_.weight_exponent;
-  options.approximation = choices_.approximation;
-  options.device = choices_.device;
-  // An engine asked for by name has its reasons.
-  const bool is_free = task.engine == Engine::automatic || task.engine == Engine::union_find;
-  options.only_components = task.max_dim == 0 && is_free && !choices_.approximation;
-  const bool may_merge = !options.only_components && task.min_persistence >= 0 &&
-                         task.representatives != Representatives::cocycles;
-  options.merge_equal_points = choices_.merge_equal_points.value_or(may_merge);
-  return space_->visit(context,
-                       [&](const auto& data) { return build(data, options, task, context); });
-}
-
-template <class Data>
-Built RipsRecipe::build(const Data& data, RipsOptions options, const Options& task,
-                        const RunContext& context) const {
-  Facts facts;
-  std::vector<double> births = choices_.births;
-  std::vector<std::uint32_t> vertices;
-  if constexpr (!std::same_as<Data, SparseDistances>) {
-    if (choices_.dtm_neighbours && data.size() > 0) {
-      births = distance_to_measure(data, *choices_.dtm_neighbours, context);
-      for (double& birth : births) birth *= 2;  // diameters
-    }
-    if (choices_.subsample) {
-      const GreedyPermutation sample = greedy_permutation(data, *choices_.subsample, context);
-      vertices = sample.ascending();
-      facts.covering_radius = sample.covering_radius;
-    }
-  }
-  options.births = births;
-  options.vertices = vertices;
-  Rips rips = rips_of(data, options, task, context);
-  facts.vertices = rips.size();
-  if (!rips.has_only_points()) facts.edges = rips.edge_count();
-  if (std::isfinite(rips.threshold())) facts.threshold = rips.threshold();
-  return {std::move(rips), std::move(facts)};
-}
+Built RipsRecipe::build(const RunContext& context) const { return {rips(context)}; }
 
 bool RipsRecipe::is_short(const Options& task) const {
   // A simplex that is listed has max_dim + 2 vertices at most.
@@ -136,11 +74,11 @@ bool RipsRecipe::is_short(const Options& task) const {
                                                       task.max_dim.value_or(1) + 2) < kFewSimplices;
 }
 
-Rips RipsRecipe::collapsed(const RunContext& context) const {
+RipsGraph RipsRecipe::collapsed(const RunContext& context) const {
+  const Rips complex = rips(context);
   Options task;
   task.collapse = Collapse::on;
-  const Built built = build(task, context);
-  return collapse_edges(std::get<Rips>(built.complex), context);
+  return collapse_edges(complex.graph(*plan(complex, task, context).form, context), context);
 }
 
 CubicalRecipe::CubicalRecipe(const py::buffer& image, bool is_masked, bool is_file,
@@ -169,7 +107,7 @@ Image CubicalRecipe::image(const RunContext& context) const {
   return image;
 }
 
-Built CubicalRecipe::build(const Options&, const RunContext& context) const {
+Built CubicalRecipe::build(const RunContext& context) const {
   Facts facts;
   facts.threshold = options_.threshold;
   return {Cubical(image(context), options_, context), std::move(facts)};
@@ -180,7 +118,7 @@ bool CubicalRecipe::is_short(const Options& task) const {
          std::ldexp(static_cast<double>(array_.size), static_cast<int>(array_.ndim)) < kFewCubes;
 }
 
-Built ListedRecipe::build(const Options&, const RunContext& context) const {
+Built ListedRecipe::build(const RunContext& context) const {
   Facts facts;
   facts.threshold = threshold_;
   return {list_(context), std::move(facts), threshold_};
@@ -253,21 +191,22 @@ void bind_complexes(py::module_& m) {
                        std::optional<double> subsample_radius, std::optional<double> approximation,
                        std::optional<bool> merge_equal_points, Device device,
                        const std::optional<py::buffer>& ids) {
-             RipsRecipe::Choices choices;
-             choices.threshold = threshold;
-             if (births) choices.births = vector_of<double>(*births);
-             choices.dtm_neighbours = dtm_neighbours;
-             choices.weight_exponent = weight_exponent;
+             RipsOptions options;
+             options.threshold = threshold;
+             if (births) options.births = vector_of<double>(*births);
+             options.dtm_neighbours = dtm_neighbours;
+             options.weight_exponent = weight_exponent;
              if (subsample || subsample_radius) {
-               choices.subsample.emplace();
-               if (subsample) choices.subsample->points = *subsample;
-               if (subsample_radius) choices.subsample->radius = *subsample_radius;
+               options.subsample.emplace();
+               if (subsample) options.subsample->points = *subsample;
+               if (subsample_radius) options.subsample->radius = *subsample_radius;
              }
-             choices.approximation = approximation;
-             choices.merge_equal_points = merge_equal_points;
-             choices.device = device;
-             if (ids) choices.ids = vector_of<Index>(*ids);
-             return std::make_unique<RipsRecipe>(std::move(space), std::move(choices));
+             options.approximation = approximation;
+             options.merge_equal_points = merge_equal_points;
+             options.device = device;
+             return std::make_unique<RipsRecipe>(
+                 std::move(space), std::move(options),
+                 ids ? vector_of<Index>(*ids) : std::vector<Index>());
            }),
            py::arg("space"), py::arg("threshold"), py::arg("births"), py::arg("dtm_neighbours"),
            py::arg("weight_exponent"), py::arg("subsample"), py::arg("subsample_radius"),

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/metric_space.hpp"
-#include "ph/merge_tree.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/persistence.hpp"
 #include "results/bars.hpp"
 
@@ -36,9 +36,8 @@ struct Built {
 class Recipe {
  public:
   virtual ~Recipe() = default;
-  /// @param options of the homology: what is not needed for it may be left out of the complex.
   /// @param context outlives the complex.
-  virtual Built build(const Options& options, const RunContext& context) const = 0;
+  virtual Built build(const RunContext& context) const = 0;
   /// Whether building it and computing its homology takes milliseconds at most.
   virtual bool is_short(const Options& options) const = 0;
   /// By vertex of the complex its number in the input; empty: its own.
@@ -49,45 +48,28 @@ class Recipe {
   virtual std::optional<PointsView> points() const { return std::nullopt; }
   /// Whether all pairs of points within a distance are the edges at that distance.
   virtual bool is_euclidean() const { return false; }
-  /// The merge tree of all of its vertices; nothing where it has not all that are in the input.
-  /// @param built by these options, or by those of the same homology.
-  virtual std::optional<MergeTree> whole_tree(const Built& built, const Options& options,
-                                              const RunContext& context) const;
 };
 
 class RipsRecipe final : public Recipe {
  public:
-  struct Choices {
-    std::optional<double> threshold;
-    std::vector<double> births;           ///< by point; empty: 0
-    std::optional<Index> dtm_neighbours;  ///< births by the distance to this measure
-    WeightExponent weight_exponent = WeightExponent::infinity;
-    std::optional<GreedyLimits> subsample;
-    std::optional<double> approximation;
-    std::optional<bool> merge_equal_points;  ///< none: where it may
-    Device device = Device::cpu;
-    std::vector<Index> ids;  ///< of the points; empty: their numbers
-  };
-  RipsRecipe(std::shared_ptr<const MetricSpace> space, Choices choices)
-      : space_(std::move(space)), choices_(std::move(choices)) {}
+  /// @param options but for the distance of points, which the space has. @param ids of the points
+  /// in the input; empty: their numbers.
+  RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options, std::vector<Index> ids);
 
-  Built build(const Options& options, const RunContext& context) const override;
+  Built build(const RunContext& context) const override;
   bool is_short(const Options& options) const override;
-  const std::vector<Index>& vertex_ids() const override { return choices_.ids; }
+  const std::vector<Index>& vertex_ids() const override { return ids_; }
   std::optional<PointsView> points() const override;
   bool is_euclidean() const override;
-  std::optional<MergeTree> whole_tree(const Built& built, const Options& options,
-                                      const RunContext& context) const override;
   /// The edges of the complex after they were collapsed.
-  Rips collapsed(const RunContext& context) const;
+  RipsGraph collapsed(const RunContext& context) const;
 
  private:
-  template <class Data>
-  Built build(const Data& data, RipsOptions options, const Options& task,
-              const RunContext& context) const;
+  Rips rips(const RunContext& context) const;
 
   const std::shared_ptr<const MetricSpace> space_;
-  const Choices choices_;
+  RipsOptions options_;
+  const std::vector<Index> ids_;
 };
 
 /// Of an image in an array of one of the types of voxels, which it keeps.
@@ -96,7 +78,7 @@ class CubicalRecipe final : public Recipe {
   /// @param is_file whether the array is a file that is mapped and cannot be written.
   CubicalRecipe(const py::buffer& image, bool is_masked, bool is_file, CubicalOptions options);
 
-  Built build(const Options& options, const RunContext& context) const override;
+  Built build(const RunContext& context) const override;
   bool is_short(const Options& options) const override;
   Image image(const RunContext& context) const;
   const CubicalOptions& options() const { return options_; }
@@ -115,7 +97,7 @@ class ListedRecipe final : public Recipe {
   ListedRecipe(List list, std::optional<double> threshold, std::size_t cells)
       : list_(std::move(list)), threshold_(threshold), cells_(cells) {}
 
-  Built build(const Options& options, const RunContext& context) const override;
+  Built build(const RunContext& context) const override;
   bool is_short(const Options& options) const override;
 
  private:

@@ -79,12 +79,14 @@ py::bytes page_of_bars(const Bars& bars, const Recipe* recipe, const Task& task,
   if (recipe) page.points = array ? points_of(*array) : recipe->points();
   const std::string text = run(options, false, [&](const RunContext& context) {
     if (!recipe) return text_of(page, context);
-    const Built built = recipe->build(task.options, context);
+    const Built built = recipe->build(context);
     page.complex = &built.complex;
+    page.form = plan(built.complex, task.options, context).form;
     page.point_ids = recipe->vertex_ids();
     page.is_euclidean = recipe->is_euclidean();
     std::optional<report::ShownTree> shown;
-    if (auto tree = recipe->whole_tree(built, task.options, context)) {
+    auto tree = built.cut ? std::nullopt : report::whole_tree(built.complex, context);
+    if (tree) {
       shown = report::shown_tree(std::move(*tree), bars.barcode, built.complex, context);
       require_bars(*shown, bars.barcode);
     }

@@ -15,9 +15,9 @@ TEST(Extension, TheEngineIsThere) {
   EXPECT_EQ(engine_names().back(), "column");
   EXPECT_EQ(facts_of(*column).listed_dim(1), 2);
   const Rips square(Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  EXPECT_EQ(plan(square, {.engine = *column}).engine, *column);
+  EXPECT_EQ(plan(square, {.engine = *column}).options.engine, *column);
   EXPECT_EQ(persistence(square, {.engine = *column}).bars(1).size(), 1U);
-  EXPECT_NE(plan(square).engine, *column) << "chosen though it says that it suits nothing";
+  EXPECT_NE(plan(square).options.engine, *column) << "chosen though it says that it suits nothing";
   EXPECT_GT(estimate(square, {.engine = *column}).bytes_high, 0);
 }
 
@@ -62,8 +62,8 @@ TEST(Extension, DiametersAreTheRipsFiltration) {
     const Rips rips(distances, {.threshold = 10});
     const Options options{.max_dim = 2, .field = field};
     EXPECT_EQ(first_difference(persistence(simplices, options), persistence(rips, options)), "");
-    EXPECT_EQ(plan(simplices, options).engine, Engine::cohomology);
-    EXPECT_EQ(plan(simplices, {.max_dim = 0}).engine, Engine::union_find);
+    EXPECT_EQ(plan(simplices, options).options.engine, Engine::cohomology);
+    EXPECT_EQ(plan(simplices, {.max_dim = 0}).options.engine, Engine::union_find);
   });
 }
 

@@ -90,7 +90,7 @@ void check_rips(Choices& choices, bool ties, const Suite& suite) {
         return Rips(choices.sparse(choices.integer(0, 7), ties, choices.real()), options);
     }
   }();
-  rips.with_filtration(suite.max_dim, suite);
+  test::with_all_edges(rips, suite.max_dim, suite);
   if (suite.part == Suite::Part::engines) test::check_collapse(rips, suite.max_dim, suite.field);
 }
 

@@ -45,7 +45,7 @@ MUTANTS = [
      "if (of_i > nearest[", "if (of_i >= nearest[", ["sampling_tests"]),
     ("greedy: roots are not compared", "libph/src/metric/greedy_permutation.cpp",
      "std::sqrt(nearest_[i]) == root", "nearest_[i] == largest", ["sampling_tests"]),
-    ("collapse: zero-length bars are lost in silence", "libph/src/facade/collapse_choice.cpp",
+    ("collapse: zero-length bars are lost in silence", "libph/src/facade/rips_plan.cpp",
      "if (options.min_persistence < 0)", "if (options.min_persistence < -9)",
      ["edge_collapse_tests"]),
     ("forest: threshold exclusive", FOREST_PRIM,

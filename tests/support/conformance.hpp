@@ -13,6 +13,7 @@
 
 #include "ph/custom.hpp"
 #include "ph/detail/core/range_filtration.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 
@@ -286,32 +287,60 @@ void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields =
 
 /// The bars of positive length are the same with fewer edges.
 inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
-  const auto bars = [&](Engine engine, Collapse collapse) {
+  const auto bars = [&](const Rips& of, Engine engine, Collapse collapse) {
     return persistence(
-        rips, {.max_dim = max_dim, .field = field, .engine = engine, .collapse = collapse});
+        of, {.max_dim = max_dim, .field = field, .engine = engine, .collapse = collapse});
   };
-  EXPECT_EQ(first_difference(bars(Engine::standard, Collapse::off),
-                             bars(Engine::cohomology, Collapse::on)),
-            "");
+  const Rips all = without_merging(rips);
+  const Barcode oracle = bars(all, Engine::standard, Collapse::off);
+  EXPECT_EQ(first_difference(oracle, bars(all, Engine::cohomology, Collapse::on)), "");
+  if (rips.has_form(RipsForm::distinct_edges)) {
+    EXPECT_EQ(first_difference(oracle, bars(rips, Engine::cohomology, Collapse::on)), "");
+  }
+}
+
+/// Whatever form is planned, the pairs are those of all edges, cell by cell.
+inline void check_forms(const Rips& rips, int max_dim, std::int64_t field) {
+  const auto oracle = [&](int dim) {
+    return with_all_edges(rips, dim,
+                          [&](const auto& f) { return pairs_of(f, dim, field, Engine::standard); });
+  };
+  const auto planned = [&](int dim, double min_persistence) {
+    return pairs_of(persistence(rips, {.max_dim = dim,
+                                       .field = field,
+                                       .collapse = Collapse::off,
+                                       .min_persistence = min_persistence}));
+  };
+  const auto components = oracle(0), all = oracle(max_dim);
+  EXPECT_EQ(planned(0, -1), components);
+  EXPECT_EQ(planned(0, 0), of_positive_length(components));
+  EXPECT_EQ(planned(max_dim, -1), all);
+  EXPECT_EQ(planned(max_dim, 0), of_positive_length(all));
 }
 
 inline void check(const Rips& rips, int max_dim,
                   std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
-  rips.with_filtration(max_dim, [&](const auto& f) { check(f, max_dim, fields); });
-  for (const std::int64_t field : fields) check_collapse(rips, max_dim, field);
+  with_all_edges(rips, max_dim, [&](const auto& f) { check(f, max_dim, fields); });
+  for (const std::int64_t field : fields) {
+    check_forms(rips, max_dim, field);
+    check_collapse(rips, max_dim, field);
+  }
 }
 
 /// Every engine that takes the points alone against the oracle, which takes all cells.
 inline void check_points_alone(PointsView points, std::int64_t field) {
-  const Options task{.max_dim = 1, .field = field, .engine = Engine::standard};
-  const auto oracle = pairs_of(persistence(Rips(points), task));
-  const Rips alone(points, {.only_points = true});
-  alone.with_filtration(1, [&]<class F>(const F& f) {
+  const Rips rips(points);
+  const auto oracle = with_all_edges(rips, 1, [&](const auto& f) {
+    return of_positive_length(pairs_of(f, 1, field, Engine::standard));
+  });
+  with_rips_filtration(rips.graph(RipsForm::points), 1, [&]<class F>(const F& f) {
     for (const auto& engine : detail::engines<F>()) {
       if (!engine.can_run(f, Task{.max_dim = 1})) continue;
       SCOPED_TRACE(engine.id.name());
-      EXPECT_EQ(pairs_of(persistence(alone, {.max_dim = 1, .field = field, .engine = engine.id})),
-                oracle);
+      const Options task{.max_dim = 1, .field = field, .engine = engine.id};
+      EXPECT_EQ(plan(rips, task).form, RipsForm::points);
+      EXPECT_EQ(pairs_of(persistence(rips, task)), oracle);
+      EXPECT_EQ(pairs_of(persistence(f, task)), oracle);
     }
   });
 }

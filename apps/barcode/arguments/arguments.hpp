@@ -67,10 +67,7 @@ struct Arguments {
   const OwnComplex* own_complex = nullptr;  // of ComplexKind::own
   std::optional<double> threshold;
   RipsOptions rips;
-  std::optional<GreedyLimits> subsample;
   std::string vertex_weights;  // path; empty: none
-  std::optional<Index> dtm;    // neighbours
-  std::optional<WeightExponent> weight_exponent;
   std::optional<AlphaOptions::Unit> alpha_unit;
   std::string weights;         // path; empty: none
   std::vector<double> period;  // one for all axes, or one an axis; empty: none closes up

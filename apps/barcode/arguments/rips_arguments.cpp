@@ -45,8 +45,8 @@ void add_rips_options(CLI::App& app, Arguments& a) {
              "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
              [&a](std::size_t i) { a.rips.device = i == 0 ? Device::cpu : Device::gpu; });
   const auto limits = [&a]() -> GreedyLimits& {
-    if (!a.subsample) a.subsample.emplace();
-    return *a.subsample;
+    if (!a.rips.subsample) a.rips.subsample.emplace();
+    return *a.rips.subsample;
   };
   add_value(
       app, "--subsample", "N",
@@ -67,14 +67,14 @@ void add_rips_options(CLI::App& app, Arguments& a) {
   add_value(app, "--dtm", "K",
             "DTM filtration: points enter at twice their distance to the measure of their K "
             "nearest points, themselves included",
-            [&a](const std::string& text) { a.dtm = parse_integer("--dtm", text, 1); });
+            [&a](const std::string& text) { a.rips.dtm_neighbours = parse_integer("--dtm", text, 1); });
   add_choice(app, "--weight-exponent", {"1", "2", "inf"},
              "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
              "with --dtm 1)",
              [&a](std::size_t i) {
                constexpr std::array kExponents{WeightExponent::one, WeightExponent::two,
                                                WeightExponent::infinity};
-               a.weight_exponent = kExponents[i];
+               a.rips.weight_exponent = kExponents[i];
              });
 }
 
@@ -83,23 +83,21 @@ void check_rips_arguments(Arguments& a) {
   if (!a.vertex_weights.empty()) {
     sources.push_back("--vertex-weights");
   }
-  if (a.dtm) sources.push_back("--dtm");
+  if (a.rips.dtm_neighbours) sources.push_back("--dtm");
   if (a.read.diagonal == Diagonal::births) sources.push_back("--diagonal births");
   const auto exclude = [](std::string_view one, std::string_view other) {
     throw Error(ErrorKind::usage, fmt::format("{}: excludes {}", one, other));
   };
   if (sources.size() > 1) exclude(sources[0], sources[1]);
-  if (sources.empty() && a.weight_exponent)
+  if (sources.empty() && a.rips.weight_exponent)
     throw Error(ErrorKind::usage, "--weight-exponent needs --dtm or --vertex-weights");
   if (sources.empty()) return;
-  if (a.subsample) exclude(sources[0], "--subsample");
+  if (a.rips.subsample) exclude(sources[0], "--subsample");
   if (a.rips.approximation) exclude(sources[0], "--approximate");
   if (a.read.diagonal == Diagonal::births && a.read.from_correlation)
     exclude("--diagonal births", "--from-correlation");
   if (a.vertex_weights == "-" && std::ranges::count(a.inputs, "-") > 0)
     throw Error(ErrorKind::usage, "--vertex-weights: standard input can be read once only");
-  a.rips.weight_exponent =
-      a.weight_exponent.value_or(a.dtm ? WeightExponent::one : WeightExponent::infinity);
 }
 
 }  // namespace ph::barcode

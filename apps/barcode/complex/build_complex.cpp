@@ -15,7 +15,7 @@
 #include "common/arguments/numbers.hpp"
 #include "complex/listed_cubes.hpp"
 #include "core/system/files.hpp"
-#include "ph/distance_to_measure.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 #include "ph/explicit.hpp"
 #include "ph/voxel_image.hpp"
 
@@ -163,12 +163,6 @@ class Builder {
     RipsOptions options = arguments_.rips;
     const Options& wanted = arguments_.options;
     options.threshold = arguments_.threshold;
-    // The oracle checks the whole filtration; an engine asked for by name has its reasons.
-    options.only_components =
-        wanted.max_dim == 0 && !arguments_.check &&
-        (wanted.engine == Engine::automatic || wanted.engine == Engine::union_find);
-    options.merge_equal_points = !options.only_components && wanted.min_persistence >= 0 &&
-                                 wanted.representatives != Representatives::cocycles;
     if (options.threshold && *options.threshold < 0)
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
@@ -177,119 +171,35 @@ class Builder {
       throw Error(ErrorKind::usage, fmt::format("--min-dim: found {}, expected at most 1, the "
                                                 "highest of a Rips complex without --max-dim",
                                                 wanted.min_dim));
-    if (options.approximation) options.only_components = false;
-    std::vector<double> weights = read_births(size_of(data));
-    // Data that no reader can know to be wrong: a point without direction, distances that overflow.
-    try {
-      BuiltComplex built = weighted_or_sampled(data, options, std::move(weights));
-      built.empty = empty;
+    const Index size = size_of(data);
+    if (options.dtm_neighbours && size > 0 && *options.dtm_neighbours > size)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--dtm: found {}, expected at most the number of points, {}",
+                              *options.dtm_neighbours, size));
+    if (!std::same_as<Data, Points> && wanted.engine == Engine::beta_skeleton)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--engine: found {}, which needs points", wanted.engine.name()));
+    options.births = values_by_point(arguments_.vertex_weights, size, 0, "a finite number >= 0");
+    return in_name_of(name_, [&] {
+      BuiltComplex built{rips_of(data, std::move(options)),
+                         "rips",
+                         std::nullopt,
+                         empty,
+                         std::nullopt,
+                         weights_text()};
+      built.metric = std::same_as<Data, Points>
+                         ? metric_name(arguments_.rips.distance, arguments_.rips.minkowski_p)
+                         : "precomputed";
       return built;
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::bad_data) throw;
-      throw Error(error.kind(), fmt::format("{}: {}", name_, error.what()));
-    }
+    });
   }
-
-  template <class Data>
-  BuiltComplex weighted_or_sampled(const Data& data, RipsOptions options,
-                                   std::vector<double> births) const {
-    if (arguments_.dtm) births = births_by_measure(data);
-    options.births = births;  // a matrix may have its own
-    std::optional<GreedyPermutation> sample;
-    std::vector<std::uint32_t> vertices;
-    if constexpr (!std::same_as<Data, SparseDistances>) {
-      if (arguments_.subsample) {
-        sample = permutation_of(data, *arguments_.subsample);
-        vertices = sample->ascending();
-        options.vertices = vertices;
-      }
-    }
-    if constexpr (std::same_as<Data, Points>)
-      options.only_points = !options.only_components && !options.approximation &&
-                            (!arguments_.check || is_beta_skeleton()) &&
-                            holds_points_alone(data, options, arguments_.options);
-    else if (is_beta_skeleton())
-      throw Error(ErrorKind::usage, fmt::format("--engine: found {}, which needs points",
-                                                arguments_.options.engine.name()));
-    const Rips complex(data, options, context_);
-    const double threshold = complex.threshold();
-    BuiltComplex built{
-        complex, "rips",       std::isfinite(threshold) ? std::optional(threshold) : std::nullopt,
-        false,   std::nullopt, weights_text()};
-    if constexpr (std::same_as<Data, Points>)
-      if (options.only_points && arguments_.check) {
-        RipsOptions all = options;
-        all.only_points = false;
-        all.births = {};
-        built.by_definition = [data, all, vertices](const RunContext& context) mutable {
-          all.vertices = vertices;
-          return Rips(data, all, context);
-        };
-      }
-    built.metric = std::same_as<Data, Points>
-                       ? metric_name(arguments_.rips.distance, arguments_.rips.minkowski_p)
-                       : "precomputed";
-    if (sample)
-      built.subsample = {static_cast<Index>(vertices.size()), size_of(data),
-                         sample->covering_radius};
-    built.promise = promise_of(
-        complex, built.subsample,
-        std::same_as<Data, DistanceMatrix> || arguments_.rips.distance == PointDistance::cosine);
-    return built;
+  /// The points stay where they are, see build_complex.
+  Rips rips_of(const Points& points, RipsOptions options) const {
+    return Rips::borrowed(points, std::move(options), context_);
   }
-
-  /// 1 + x, with all digits of x where they would be lost in the sum.
-  static std::string one_and(double x) {
-    constexpr double least = 1e-6;
-    return x < least ? "1 + " + shortest(x) : shortest(1 + x);
-  }
-  /// What an approximation is worth, if there is one.
-  /// @param may_be_no_metric whether the triangle inequality is not certain.
-  std::optional<std::string> promise_of(const Rips& complex,
-                                        const std::optional<BarcodeInfo::Subsample>& sample,
-                                        bool may_be_no_metric) const {
-    std::string text;
-    if (sample) {
-      const double late = 2 * sample->covering_radius;
-      text = fmt::format(
-          "{} of {} points, covering radius {}: bars longer than {} are real and "
-          "come at most so much late",
-          sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
-    }
-    if (arguments_.rips.approximation) {
-      const double n = static_cast<double>(complex.size());
-      text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
-                          text.empty() ? "" : "; ", complex.edge_count(), n * (n - 1) / 2,
-                          one_and(*arguments_.rips.approximation));
-    }
-    if (text.empty()) return std::nullopt;
-    return name_ + ": " + text +
-           (may_be_no_metric ? ", if the triangle inequality holds" : std::string());
-  }
-
-  /// Births of the points by --dtm.
-  template <class Data>
-  std::vector<double> births_by_measure(const Data& data) const {
-    std::vector<double> births;
-    if constexpr (!std::same_as<Data, SparseDistances>) {
-      if (size_of(data) == 0) return births;
-      if (*arguments_.dtm > size_of(data))
-        throw Error(ErrorKind::usage,
-                    fmt::format("--dtm: found {}, expected at most the number of points, {}",
-                                *arguments_.dtm, size_of(data)));
-      if constexpr (std::same_as<Data, Points>)
-        births = distance_to_measure(data, *arguments_.dtm, arguments_.rips.distance,
-                                     arguments_.rips.minkowski_p, context_);
-      else
-        births = distance_to_measure(data, *arguments_.dtm, context_);
-      for (double& b : births) b *= 2;
-    }
-    return births;
-  }
-
-  /// The births of --vertex-weights, if it is there.
-  std::vector<double> read_births(Index points) const {
-    return values_by_point(arguments_.vertex_weights, points, 0, "a finite number >= 0");
+  template <class Distances>
+  Rips rips_of(const Distances& distances, RipsOptions options) const {
+    return Rips(distances, std::move(options), context_);
   }
 
   /// Numbers from a file that has one for each point of the input, those left out among them.
@@ -312,27 +222,19 @@ class Builder {
     return kept;
   }
 
-  bool is_beta_skeleton() const { return arguments_.options.engine == Engine::beta_skeleton; }
-
   std::string weights_text() const {
     std::string source = !arguments_.vertex_weights.empty()             ? "file"
                          : arguments_.read.diagonal == Diagonal::births ? "diagonal"
                                                                         : "";
-    if (arguments_.dtm) source = fmt::format("dtm {}", *arguments_.dtm);
+    const RipsOptions& rips = arguments_.rips;
+    if (rips.dtm_neighbours) source = fmt::format("dtm {}", *rips.dtm_neighbours);
     if (source.empty()) return source;
     constexpr std::string_view kExponents[] = {"1", "2", "inf"};
     return fmt::format("{}, exponent {}", source,
-                       kExponents[static_cast<int>(arguments_.rips.weight_exponent)]);
+                       kExponents[static_cast<int>(rips.weight_exponent.value_or(
+                           rips.dtm_neighbours ? WeightExponent::one : WeightExponent::infinity))]);
   }
 
-  GreedyPermutation permutation_of(const Points& points, const GreedyLimits& limits) const {
-    return greedy_permutation(points, limits, arguments_.rips.distance, arguments_.rips.minkowski_p,
-                              context_);
-  }
-  GreedyPermutation permutation_of(const DistanceMatrix& distances,
-                                   const GreedyLimits& limits) const {
-    return greedy_permutation(distances, limits, context_);
-  }
   static Index size_of(const Points& points) { return points.rows(); }
   template <class Distances>
   static Index size_of(const Distances& distances) {
@@ -394,7 +296,48 @@ class Builder {
   const std::size_t dropped_;
 };
 
+/// 1 + x, with all digits of x where they would be lost in the sum.
+std::string one_and(double x) {
+  constexpr double least = 1e-6;
+  return x < least ? "1 + " + shortest(x) : shortest(1 + x);
+}
+
 }  // namespace
+
+void take_facts(BuiltComplex& built, const RunFacts& facts) {
+  const auto* rips = std::get_if<Rips>(&built.complex);
+  if (!rips || !facts.vertices) return;
+  built.threshold = facts.threshold;
+  if (facts.covering_radius)
+    built.subsample = {*facts.vertices, rips->size(), *facts.covering_radius};
+}
+
+std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts& facts) {
+  const auto* rips = std::get_if<Rips>(&built.complex);
+  if (!rips || !facts.vertices) return std::nullopt;
+  std::string text;
+  if (const auto& sample = built.subsample) {
+    const double late = 2 * sample->covering_radius;
+    text = fmt::format(
+        "{} of {} points, covering radius {}: bars longer than {} are real and "
+        "come at most so much late",
+        sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
+  }
+  if (const auto& epsilon = rips->options().approximation; epsilon && facts.edges) {
+    const auto n = static_cast<double>(*facts.vertices);
+    text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
+                        text.empty() ? "" : "; ", *facts.edges, n * (n - 1) / 2, one_and(*epsilon));
+  }
+  if (text.empty()) return std::nullopt;
+  const bool may_be_no_metric =
+      !rips->points() || rips->options().distance == PointDistance::cosine;
+  return text + (may_be_no_metric ? ", if the triangle inequality holds" : "");
+}
+
+std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context) {
+  if (built.cut || built.empty) return std::nullopt;
+  return report::whole_tree(built.complex, context);
+}
 
 std::optional<std::string> hidden_points(const BuiltComplex& built) {
   constexpr std::size_t most_named = 10;

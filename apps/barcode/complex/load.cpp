@@ -130,8 +130,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   std::vector<Index> point_ids = read.point_ids;
   if (const std::string_view why = why_no_nan(read); is_given(arguments, "nan") && !why.empty())
     session.note(fmt::format("{}: --nan does nothing: {}", name, why));
-  const bool is_shown = (!job.report.empty() || !job.surfaces.empty() || arguments.draws_tree()) &&
-                        !arguments.dry_run;
+  const bool is_shown = (!job.report.empty() || !job.surfaces.empty()) && !arguments.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, arguments, session.context())
                : build_complex(std::move(data.read), name, dropped, arguments, session.context());
@@ -142,13 +141,13 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
       is_given(arguments, "construction") &&
       arguments.options.representatives == Representatives::none)
     session.note("--construction does nothing: of one axis both have the same bars");
-  if (built.promise) session.note(*built.promise);
   if (const auto hidden = hidden_points(built)) session.note(fmt::format("{}: {}", name, *hidden));
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", name));
-  Loaded loaded{std::move(built), std::move(description), std::move(point_ids)};
-  if (is_shown) {
+  const bool refers_to_data = std::holds_alternative<Rips>(built.complex);
+  Loaded loaded{std::move(built), name, std::move(description), std::move(point_ids)};
+  if (is_shown || refers_to_data) {
     loaded.data = std::move(data);
     loaded.claim = std::move(claim);
   }

@@ -31,9 +31,10 @@ class Stopwatch {
 /// All that is kept of an input: the complex, and what the results say about it.
 struct Loaded {
   BuiltComplex built;
+  std::string name;  ///< of the input, printable
   std::string description;
   std::vector<Index> point_ids;
-  // For a report or a tree: what is shown, counted in the budget.
+  // What the complex refers to, or what a report shows; counted in the budget.
   std::optional<NamedData> data = {};
   std::unique_ptr<MemoryClaim> claim = {};
 };

@@ -16,12 +16,13 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
   if (!built.vertex_weights.empty())
     text += fmt::format(", vertices enter late ({})", built.vertex_weights);
-  text += fmt::format("\nengine   {} ({})\n", estimate.engine.name(), estimate.reason);
+  text += fmt::format("\nengine   {} ({})\n", estimate.options.engine.name(), estimate.reason);
+  const bool is_collapsed = estimate.options.collapse == Collapse::on;
   if (!estimate.collapse_reason.empty())
-    text += fmt::format("collapse {} ({})\n", estimate.collapses ? "on" : "off",
-                        estimate.collapse_reason);
-  if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
-    text += fmt::format("edges    {} before the collapse\n", rips->edge_count());
+    text +=
+        fmt::format("collapse {} ({})\n", is_collapsed ? "on" : "off", estimate.collapse_reason);
+  if (is_collapsed && estimate.built.edges)
+    text += fmt::format("edges    {} before the collapse\n", *estimate.built.edges);
   for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim) {
     const bool is_counted = static_cast<int>(dim) < estimate.counted_dims;
     text += fmt::format("cells    dimension {}: {}{:.0f}\n", dim,
@@ -31,7 +32,7 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                         estimate.cells[dim]);
   }
   const int listed = static_cast<int>(estimate.cells.size()) - 1;
-  if (listed < estimate.max_dim + 1)
+  if (listed < *estimate.options.max_dim + 1)
     text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
   // Part of what was taken are pages of code, which any input takes.
   constexpr double code = 2 << 20;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/output/h0_tree.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/distances/distance_choice.hpp"
 #include "common/files/barcode_files.hpp"
@@ -46,7 +45,7 @@ bool has_axes_of_space(const ReadResult& read) {
 bool is_euclidean(const Shown& shown, const Arguments& arguments) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
          arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
-         arguments.rips.births.empty() && !arguments.dtm && arguments.vertex_weights.empty();
+         !arguments.rips.dtm_neighbours && arguments.vertex_weights.empty();
 }
 
 report::Provenance provenance_of(const Shown& shown, const Arguments& arguments) {
@@ -61,16 +60,16 @@ report::Provenance provenance_of(const Shown& shown, const Arguments& arguments)
   if (!shown.info.vertex_weights.empty())
     notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
   if (const auto hidden = hidden_points(shown.built)) notes.emplace_back("Hidden", *hidden);
-  if (shown.built.promise) notes.emplace_back("Approximation", *shown.built.promise);
+  if (shown.promise)
+    notes.emplace_back("Approximation", fmt::format("{}: {}", shown.data.name, *shown.promise));
   return provenance;
 }
 
 /// The barcode is there already: it is worth showing without its tree.
-std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& arguments,
-                                                 app::Session& session) {
+std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Session& session) {
   const RunContext& context = session.context();
   try {
-    std::optional<MergeTree> tree = whole_tree(shown.built, shown.data, arguments, context);
+    std::optional<MergeTree> tree = tree_of(shown.built, context);
     if (!tree) return std::nullopt;
     return report::shown_tree(std::move(*tree), shown.barcode, shown.built.complex, context);
   } catch (const Error& error) {
@@ -118,8 +117,9 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
 
 void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
                   app::Session& session) {
-  const auto tree = tree_if_it_fits(shown, arguments, session);
+  const auto tree = tree_if_it_fits(shown, session);
   report::BarcodePage page{report::title_of(shown.info.input), shown.barcode, &shown.built.complex};
+  page.form = shown.form;
   page.points = shown_points(shown);
   page.point_ids = shown.data.read.point_ids;
   page.is_euclidean = is_euclidean(shown, arguments);

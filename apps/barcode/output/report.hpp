@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Shown {
   const BarcodeInfo& info;
   const NamedData& data;
   const BuiltComplex& built;
+  std::optional<RipsForm> form;        ///< of a Rips complex
+  std::optional<std::string> promise;  ///< as promise_of
   std::vector<std::string> warnings;
 };
 

@@ -32,11 +32,7 @@ Barcode persistence(const F& filtration, const Options& options = {},
 template <Filtration F>
 RunPlan plan(const F& filtration, const Options& options = {}) {
   const auto [max_dim, choice] = detail::plan_for(filtration, options);
-  RunPlan plan;
-  plan.engine = choice.engine->id;
-  plan.reason = choice.reason;
-  plan.max_dim = max_dim;
-  return plan;
+  return detail::run_plan(options, max_dim, choice.engine->id, choice.reason);
 }
 
 /// The same complex cell by cell, for all that takes an ExplicitComplex: estimates, merge trees,
@@ -54,9 +50,10 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 //   listed_dim(max_dim)    the highest dimension whose cells it lists; -1: it lists none
 //   run(f, field, bars, context)   computes: tells `bars` each pair and each essential class
 //
-// and, where they are not false or absent, goes_by_edges, stops_early, is_oracle and
-// rips_bytes(vertices, edges), which EngineFacts explains. can_run, suitability and run are
-// templates of the filtration; detail/reduction/twist.hpp is a short one to look at.
+// and, where they are not false or absent, goes_by_edges, stops_early, is_oracle,
+// rips_bytes(vertices, edges), rips_forms, obstacle(input, task) and suitability(input, task),
+// which EngineFacts explains. can_run, suitability and run are templates of the filtration;
+// detail/reduction/twist.hpp is a short one to look at.
 
 /// Adds an engine of your own to all complexes of libph, for the rest of the program: Options can
 /// name it, `engine_names` lists it, and it is chosen where it suits best. Add engines before

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,24 @@ enum class ErrorKind {
   resource,       ///< memory or another limit would be exceeded
   cancelled,      ///< the caller asked to stop
   internal,       ///< a bug in libph
+};
+
+/// What can be set of a computation, whatever the programs and languages call it.
+enum class Setting : std::uint8_t {
+  none,
+  engine,
+  representatives,
+  max_dim,
+  threshold,
+  subsample,
+  collapse,
+};
+
+/// A change that helps: a setting with a value, as the programs write it ("engine", "auto").
+struct Remedy {
+  Setting setting = Setting::none;
+  std::string value;
+  friend bool operator==(const Remedy&, const Remedy&) = default;
 };
 
 /// The one exception type of libph. `what()` is one line: what, found, expected, hint.

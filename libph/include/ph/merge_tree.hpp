@@ -37,8 +37,8 @@ struct Merge {
 
 /// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
 /// the Rips filtration this is the single-linkage dendrogram and `u`, `v` are the edges of the
-/// Euclidean minimum spanning tree (Gower & Ross 1969); RipsOptions::only_components makes it for
-/// millions of points.
+/// Euclidean minimum spanning tree (Gower & Ross 1969), which takes near-linear time for millions
+/// of points.
 struct MergeTree {
   std::vector<double> births;  ///< by vertex; kInfinity for a vertex that never enters
   std::vector<Merge> merges;   ///< in the order of the filtration
@@ -79,9 +79,10 @@ std::vector<LinkageRow> linkage(const MergeTree& tree);
 
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
-/// @throws Error (usage) on a Rips that holds points alone, or has not all points as vertices (some
-///         were chosen, equal ones merged, or births lie beyond the threshold); on an Alpha of a
-///         periodic space.
+/// Of a Rips filtration a spanning forest is made, not all edges.
+/// @throws Error (usage) on a Rips that has not all points as vertices (some were chosen, equal ones
+///         were to be merged, or births lie beyond the threshold); on an Alpha of a periodic
+///         space.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
 MergeTree merge_tree(const Alpha& alpha, const RunContext& context = default_context());

@@ -40,11 +40,14 @@ struct Options {
   bool cells = true;  ///< whether bars know the cells of their birth and death: time and memory
 };
 
-/// The barcode of a filtered complex.
+/// The barcode of a filtered complex: `plan`, then `run`.
 /// @throws Error (usage) on a field that is not one, a negative dimension, a NaN, an engine that
 ///         cannot do the task or a collapse that would spoil it; Error (resource) beyond the memory
 ///         limit; Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
+                    const RunContext& context = default_context());
+/// Gives the input back once the form that was planned is there, unless there are other copies.
+Barcode persistence(Rips&& rips, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const Cubical& cubical, const Options& options = {},
                     const RunContext& context = default_context());
@@ -55,11 +58,6 @@ Barcode persistence(const Alpha& alpha, const Options& options = {},
 Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
 // For a complex of your own there is a template: ph/custom.hpp.
-
-/// Whether a Rips filtration of points had better hold them alone for a task: with
-/// RipsOptions::only_points, which is otherwise as given.
-/// @throws Error (usage) if Engine::beta_skeleton is asked for where it cannot do the task.
-bool holds_points_alone(PointsView points, const RipsOptions& rips, const Options& options);
 
 /// Data that no complex has been chosen for.
 template <class T>
@@ -78,6 +76,41 @@ Barcode persistence(const Data&, const Options& = {}, const RunContext& = defaul
 using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex, Alpha>;
 Barcode persistence(const AnyComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
+
+/// How a barcode will be computed. A function of complex and options alone: it depends neither on
+/// what was made before nor on threads or memory.
+struct RunPlan {
+  Options options;               ///< settled: engine, highest dimension, and collapse on or off
+  std::optional<RipsForm> form;  ///< of a Rips filtration, which it needs; none: another complex
+  std::string reason;            ///< why this engine was chosen, one phrase
+  std::string collapse_reason;   ///< why edges are collapsed, or not; empty: no Rips filtration
+};
+/// Decides as `persistence` does. Of most tasks of a Rips filtration no edge is made; where the
+/// choice depends on the edges they are made, and a sample of them is collapsed.
+/// @throws as `persistence`.
+RunPlan plan(const AnyComplex& complex, const Options& options = {},
+             const RunContext& context = default_context());
+/// Makes what the plan needs, which `run` would do otherwise. @throws Error (resource, cancelled);
+/// of a Rips filtration as Rips::graph.
+void build(const AnyComplex& complex, const RunPlan& plan,
+           const RunContext& context = default_context());
+/// Computes as planned. @param plan of this complex. @throws as `persistence`.
+Barcode run(const AnyComplex& complex, const RunPlan& plan,
+            const RunContext& context = default_context());
+/// Gives the input of a Rips filtration back once the form is there, unless there are other copies.
+Barcode run(AnyComplex&& complex, const RunPlan& plan,
+            const RunContext& context = default_context());
+
+/// What is known of a complex once it is built as planned.
+struct RunFacts {
+  std::optional<Index> vertices;          ///< of a Rips filtration, as all that follows
+  std::optional<std::size_t> edges;       ///< none: points alone are held
+  std::optional<double> threshold;        ///< none: there is no limit
+  std::optional<double> covering_radius;  ///< of the subsample, if there is one
+};
+/// Builds what is not there yet. @throws as `build`.
+RunFacts facts(const AnyComplex& complex, const RunPlan& plan,
+               const RunContext& context = default_context());
 
 /// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
 /// equal, else the first bar that one has and the other has not, in words.

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
+#include <vector>
 
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/distance_matrix.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 
@@ -17,7 +19,8 @@ namespace ph {
 /// The edges under a Vietoris-Rips filtration; see ph/custom.hpp.
 class RipsGraph;
 
-/// How a Vietoris-Rips filtration is built.
+/// Which Vietoris-Rips filtration is meant. How it is held while its homology is computed is
+/// planned: see RipsForm.
 struct RipsOptions {
   /// Largest distance at which two points are joined, inclusive. Default: the enclosing radius
   /// min_i max_j d(i,j) if all distances are known (beyond it nothing but one component is left,
@@ -25,39 +28,51 @@ struct RipsOptions {
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
-  /// Points that are vertices, ascending and named as in the input; empty: all. The rest is as if
-  /// it were not there. Read while the filtration is built, as are births.
-  std::span<const std::uint32_t> vertices = {};
+  /// The points that are vertices, ascending and named as in the input; empty: all. The filtration
+  /// is that of these points alone.
+  std::vector<std::uint32_t> vertices = {};
   /// The diameter at which each point enters, by point of the input: finite, >= 0; default: 0, or
-  /// those of a DistanceMatrix that has some. An edge enters when the balls of its ends meet, see
-  /// VertexWeights; who is born beyond the threshold is no vertex.
-  std::span<const double> births = {};
-  WeightExponent weight_exponent = WeightExponent::infinity;  ///< how balls grow from a birth on
-  /// Points only: equal ones become one vertex, named by the first of them; not where they have
-  /// births. All bars of positive length stay the same, those of length zero that the copies cause
-  /// are left out; many copies cost nothing, where each pair of them would be an edge. Cycles stay
-  /// cycles of all points; cocycles are those of the distinct points and say nothing about the
-  /// copies.
-  bool merge_equal_points = false;
+  /// the births of a DistanceMatrix that has some. An edge enters when the balls of its ends meet,
+  /// see VertexWeights. A point born after the threshold is left out.
+  std::vector<double> births = {};
+  /// K: each point is born at twice its distance to the measure of its K nearest points, itself
+  /// included (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp). From 1 to the
+  /// number of points; needs all distances, and takes the place of `births`.
+  std::optional<Index> dtm_neighbours = std::nullopt;
+  /// How balls grow from a birth on; default: WeightExponent::one with dtm_neighbours, else
+  /// WeightExponent::infinity.
+  std::optional<WeightExponent> weight_exponent = std::nullopt;
+  /// Farthest-point sampling chooses the vertices, in the place of `vertices`: see
+  /// greedy_permutation. Needs all distances.
+  std::optional<GreedyLimits> subsample = std::nullopt;
   /// Epsilon > 0: the sparse Rips filtration in its place, with fewer edges and bars that are born
-  /// and die later by a factor of 1 + epsilon at most, see SparseRips. Needs all distances and the
-  /// triangle inequality; neither births nor only_components. The default threshold is where one
-  /// component is left.
+  /// and die later by a factor of 1 + epsilon at most, see SparseRips. Needs all distances, the
+  /// triangle inequality and no births. The default threshold is where one component is left.
   std::optional<double> approximation = std::nullopt;
-  /// Only a minimum spanning forest is held: enough for H0, cell by cell, and for merge trees, and
-  /// nothing else can be computed. Points of few dimensions take near-linear time (Euclidean,
-  /// Manhattan, Chebyshev, Minkowski), all else O(n) memory beside the input. Without a threshold
-  /// there is none: no enclosing radius is looked for.
-  bool only_components = false;
-  /// Only the points are held, no edges: enough for bars of positive length of H0 and H1, without
-  /// representatives, by Engine::beta_skeleton, and nothing else can be computed. Euclidean points
-  /// of 1 to 4 coordinates, all zero or of a size from 1e-120 to 1e150, without births. Without a
-  /// threshold there is none. `holds_points_alone` in ph/persistence.hpp says where this pays.
-  bool only_points = false;
-  /// Device::gpu: the forest of only_components is found there, the same one, edge for edge. For
+  /// True: equal points become one vertex, named by the first of them, unless they have births.
+  /// All bars of positive length stay the same; the bars of length zero that copies cause are left
+  /// out. Cycles stay cycles of all points; cocycles are those of the distinct points. False: each
+  /// point is a vertex. Default: points are merged where that changes nothing that is asked for.
+  std::optional<bool> merge_equal_points = std::nullopt;
+  /// Device::gpu: the spanning forest of H0 is found there, the same one, edge for edge. For
   /// Euclidean points without births, whose largest coordinate is 0 or of a size from 1e-140 to
   /// 1e150.
   Device device = Device::cpu;
+};
+
+/// What an engine sees of a Rips filtration before any form of it is made.
+struct RipsInput {
+  Index size;                        ///< at most so many points become vertices
+  std::optional<PointsView> points;  ///< none: it is a filtration of distances
+  const RipsOptions& options;
+};
+
+/// What a sample of pairs of points says of the edges of a Rips filtration.
+struct RipsSample {
+  Index vertices = 0;             ///< at most so many, equal points counted one by one
+  double pairs = 0;               ///< of these vertices, or those whose distance is known
+  double edges = 0;               ///< about so many pairs are within the threshold
+  std::vector<double> distances;  ///< of pairs taken at random, ascending
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -65,53 +80,85 @@ struct RipsOptions {
 /// unless some points are no vertices or equal points are merged. Weighted Rips filtrations have
 /// births of vertices and edges at which balls meet in the place of 0 and distances.
 ///
-/// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
+/// It is a question: the constructor looks at options and coordinates and makes no edge. Forms are
+/// made when a computation needs them, each one once. A value: copies are cheap and share all that
+/// is made; const members may be called by several threads.
+///
+/// The context of the constructor counts the memory of the forms, and of points that were copied or
+/// moved in; it outlives all copies. The context of a call bounds, watches and stops what that call
+/// makes.
 class Rips {
  public:
-  /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean
-  /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
-  /// negative threshold; Error (usage, bad_data) as RipsVertices; Error (resource) if the context's
-  /// memory limit would be exceeded; with a device other than the CPU Error (usage) if it cannot do
-  /// what is asked for, Error (not_built_in) also if there is none, Error (resource) if its memory
-  /// is too small.
-  explicit Rips(PointsView points, const RipsOptions& options = {},
+  /// @param points one point a row; moved in, or copied: n * d numbers.
+  /// @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or negative threshold, an
+  /// epsilon that is not above 0, or births with an approximation; Error (usage, bad_data) as
+  /// RipsVertices; Error (resource) if the context's memory limit would be exceeded.
+  explicit Rips(Points points, RipsOptions options = {},
                 const RunContext& context = default_context());
-  explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},
+  explicit Rips(PointsView points, RipsOptions options = {},
                 const RunContext& context = default_context());
-  explicit Rips(const SparseDistances& distances, const RipsOptions& options = {},
+  /// The numbers are shared, not copied, here and with SparseDistances.
+  explicit Rips(DistanceMatrix distances, RipsOptions options = {},
                 const RunContext& context = default_context());
-  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`. Read here, not later.
+  /// @throws Error (usage) also on options that need all distances.
+  explicit Rips(SparseDistances distances, RipsOptions options = {},
+                const RunContext& context = default_context());
+  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`. A copy of the object is
+  /// kept; what it refers to has to live as long. A NaN or negative distance is an error once a
+  /// form is made.
   template <Metric M>
-  explicit Rips(const M& metric, const RipsOptions& options = {},
-                const RunContext& context = default_context())
-      : Rips(AnyMetric(metric), options, context) {}
-  explicit Rips(const AnyMetric& metric, const RipsOptions& options = {},
-                const RunContext& context = default_context());
-
-  /// The flag complex of any graph.
+  explicit Rips(M metric, RipsOptions options = {}, const RunContext& context = default_context())
+      : Rips(std::make_shared<const M>(std::move(metric)), std::move(options), context) {}
+  /// The flag complex of any graph, which is the only form that it has.
   explicit Rips(RipsGraph&& graph);
+  /// Of points that the caller keeps as they are while there is a copy of the filtration.
+  static Rips borrowed(PointsView points, RipsOptions options = {},
+                       const RunContext& context = default_context());
 
-  Index size() const;  ///< vertices
-  /// The largest distance at which two points are joined: the given one or the enclosing radius.
-  double threshold() const;
-  std::size_t edge_count() const;
-  /// As asked for in RipsOptions.
-  bool has_only_components() const;
-  bool has_only_points() const;
+  /// Another question about the same data, which are shared. @throws as the constructor; Error
+  /// (usage) if the data are not there any more.
+  Rips with(RipsOptions options, const RunContext& context = default_context()) const;
 
-  // With ph/custom.hpp: what engines see.
+  Index size() const;  ///< points of the input, or vertices of the graph that was given
+  const RipsOptions& options() const;
+  std::optional<PointsView> points() const;  ///< none: it is of distances or of a graph
+  bool has_input() const;                    ///< points or distances that were not given back
+  bool has_births() const;                   ///< vertices enter at births of their own
+  /// Each point is at most so far from a vertex that the subsample has chosen; nothing if there is
+  /// no subsample. Chooses them if need be. @throws Error (resource, cancelled).
+  std::optional<double> covering_radius(const RunContext& context = default_context()) const;
 
-  const RipsGraph& graph() const { return *graph_; }
-  /// Calls `use(filtration)` with the representation whose cells are small enough for homology up
-  /// to `max_dim`. @throws Error (resource) if simplices of dimension max_dim + 1 have too many
-  /// vertices for any representation.
-  template <class Use>
-  decltype(auto) with_filtration(int max_dim, Use&& use) const {
-    return with_rips_filtration(graph(), max_dim, std::forward<Use>(use));
-  }
+  /// Whether a form can be made of the input, or is the graph that was given.
+  bool has_form(RipsForm form) const;
+  /// The graph of a form, made if need be; lives as long as a copy of the filtration does. `edges`
+  /// evaluates O(n^2) distances, or the distances within reach for Euclidean points with a
+  /// threshold.
+  /// @throws Error (usage) if it does not have that form, or the input was forgotten before the
+  /// form was made; Error (bad_data) on a distance that is negative or NaN; Error (resource,
+  /// cancelled); for the forest of another device Error (usage) if that cannot do what is asked
+  /// for, Error (not_built_in) also if there is none, Error (resource) if its memory is too small.
+  const RipsGraph& graph(RipsForm form, const RunContext& context = default_context()) const;
+
+  /// Evaluates some 20 000 distances, and without a threshold all distances of 32 points.
+  /// @throws Error (usage) if there is no input any more; Error (bad_data) as a metric.
+  RipsSample sample(const RunContext& context = default_context()) const;
+
+  /// Gives the input back: only what was made is left, of this and of all copies. No other thread
+  /// uses one of them at the time.
+  void forget_input();
+  /// Whether nobody else holds the input.
+  bool is_only_copy() const;
 
  private:
-  std::shared_ptr<const RipsGraph> graph_;
+  struct State;
+  explicit Rips(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  Rips(std::shared_ptr<const void> owner, const AnyMetric& metric, RipsOptions options,
+       const RunContext& context);
+  template <Metric M>
+  Rips(const std::shared_ptr<const M>& metric, RipsOptions options, const RunContext& context)
+      : Rips(metric, AnyMetric(*metric), std::move(options), context) {}
+
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace ph

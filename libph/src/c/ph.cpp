@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 
@@ -197,16 +196,6 @@ RipsOptions rips_options(const ph_options& given) {
   return options;
 }
 
-Rips rips_of(PointsView points, const ph_options& options, const RunContext& context) {
-  RipsGraph::check_size(points.rows());  // before any is looked at
-  RipsOptions rips = rips_options(options);
-  const Options task = task_of(options);
-  rips.only_components = task.max_dim == 0;
-  rips.merge_equal_points = !rips.only_components && task.min_persistence >= 0;
-  rips.only_points = !rips.only_components && holds_points_alone(points, rips, task);
-  return Rips(points, rips, context);
-}
-
 PointsView points_of(const double* data, std::int64_t rows, std::int64_t columns,
                      std::int64_t row_stride, std::int64_t column_stride) {
   if (rows < 0 || columns < 0)
@@ -285,7 +274,8 @@ void ph_options_init_sized(ph_options* options, size_t size) {
 ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns, int64_t row_stride,
                          int64_t column_stride, const ph_options* options, ph_barcode** out) {
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
-    return rips_of(points_of(data, rows, columns, row_stride, column_stride), o, context);
+    return Rips::borrowed(points_of(data, rows, columns, row_stride, column_stride),
+                          rips_options(o), context);
   });
 }
 
@@ -294,7 +284,8 @@ ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
   return barcodes_of(
       options, count, out, [&](std::size_t i, const ph_options& o, const RunContext& context) {
         require(clouds != nullptr && rows != nullptr, "clouds or rows: found NULL");
-        return rips_of(points_of(clouds[i], rows[i], columns, columns, 1), o, context);
+        return Rips::borrowed(points_of(clouds[i], rows[i], columns, columns, 1), rips_options(o),
+                              context);
       });
 }
 

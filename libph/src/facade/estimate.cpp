@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "ph/estimate.hpp"
-#include "ph/detail/rips/rips_filtration.hpp"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 
+#include "core/system/machine_memory.hpp"
 #include "cubical/pair_voxels.hpp"
 #include "facade/memory_forecast.hpp"
+#include "facade/rips_plan.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
 #include "rips/clique_count.hpp"
 #include "rips/collapse/edge_collapse.hpp"
@@ -76,17 +78,17 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
 }
 
 template <class Complex>
-Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Options& options,
-                      const RunContext& context) {
+Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
   Estimate e;
-  static_cast<RunPlan&>(e) = planned;
-  const int listed_dim = facts_of(e.engine).listed_dim(e.max_dim);
+  static_cast<RunPlan&>(e) = plan(complex, options, context);
+  const int max_dim = *e.options.max_dim;
+  const int listed_dim = facts_of(e.options.engine).listed_dim(max_dim);
   e.bytes_held = stored_bytes(complex, listed_dim >= 0);
   e.cells = cells_of(complex, listed_dim, context);
   detail::MemoryForecast forecast = detail::forecast_cells(e.bytes_held, e.cells);
   if constexpr (std::same_as<Complex, Cubical>)
     if (listed_dim < 0)
-      forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
+      forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, max_dim},
                                  options.representatives != Representatives::none, context);
   if constexpr (std::same_as<Complex, Alpha>)
     if (listed_dim < 0)
@@ -99,40 +101,43 @@ Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Opti
   return e;
 }
 
-Estimate estimate_one(const Rips& rips, const RunPlan& planned, const Options& options,
-                      const RunContext& context) {
+/// Of a filtration whose form is there or can be made.
+Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = planned;
-  if (rips.has_only_points()) {
-    e.bytes_held = 8 * static_cast<double>(rips.graph().points_alone()->size());
-    Options settled = with_plan(options, e);
-    settled.collapse = Collapse::off;
-    const auto [low, high] = detail::forecast_points_alone(rips, settled, context);
+  const RipsGraph& graph = rips.graph(*planned.form, context);
+  e.built = facts(rips, planned, context);
+  Options settled = planned.options;
+  settled.collapse = Collapse::off;
+  if (const PointsView* points = graph.points_alone()) {
+    e.bytes_held = 8 * static_cast<double>(points->size());
+    const auto [low, high] =
+        detail::forecast_points(*points, rips.options().threshold, settled, context);
     e.bytes_low = low;
     e.bytes_high = high;
     return e;
   }
-  const double edges = e.bytes_held = 16 * static_cast<double>(rips.edge_count());
+  const double edges = e.bytes_held = 16 * static_cast<double>(graph.edge_count());
   double collapse = 0;
-  std::optional<Rips> collapsed;
-  if (e.collapses) {
-    collapse = collapse_bytes(rips.graph()) + edges;
-    if (rips.edge_count() <= kFewEdges) {
-      collapsed = collapse_edges(rips, context);
+  std::optional<RipsGraph> collapsed;
+  if (planned.options.collapse == Collapse::on) {
+    collapse = collapse_bytes(graph) + edges;
+    if (graph.edge_count() <= kFewEdges) {
+      collapsed = collapse_edges(graph, context);
       collapse += 64 * static_cast<double>(collapsed->edge_count());
     } else {
       e.cells_at_most = true;
     }
   }
-  const Rips& complex = collapsed ? *collapsed : rips;
+  const RipsGraph& complex = collapsed ? *collapsed : graph;
+  int& max_dim = *settled.max_dim;
   const CliqueCounts cliques =
-      count_cliques(complex.graph(), detail::listed_rips_dim(e.engine, e.max_dim), context);
+      count_cliques(complex, detail::listed_rips_dim(settled.engine, max_dim), context);
   e.cells = cliques.counts;
   e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
   if (collapsed)  // no cells, no homology
-    e.max_dim = std::min(e.max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
-  Options settled = with_plan(options, e);
-  settled.collapse = Collapse::off;
+    max_dim = std::min(max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
+  e.options.max_dim = max_dim;
   const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);
   // The edges before a collapse stay until the end.
   const double before = collapsed ? edges : 0;
@@ -141,12 +146,49 @@ Estimate estimate_one(const Rips& rips, const RunPlan& planned, const Options& o
   return e;
 }
 
+/// Of a filtration whose edges do not fit the memory: as many as a sample of pairs says.
+Estimate estimate_sampled(const Rips& rips, const Options& options, const RunContext& context) {
+  Estimate e;
+  static_cast<RunPlan&>(e) = detail::plan_without_edges(rips, options);
+  const RipsSample sample = rips.sample(context);
+  e.cells = {static_cast<double>(sample.vertices), sample.edges};
+  e.counted_dims = 1;
+  const auto [low, high] = detail::forecast_edges(sample.vertices, sample.edges, e.options);
+  e.bytes_low = low;
+  e.bytes_high = high;
+  return e;
+}
+
+/// True unless the edges would take long to make, and a sample says that they do not fit.
+bool can_be_tried(const Rips& rips, const RunContext& context) {
+  constexpr double bytes_of_edge = 16;
+  constexpr Index few_points = 60'000;  // whose distances take seconds
+  return rips.size() <= few_points || !rips.has_input() || rips.options().approximation ||
+         bytes_of_edge * rips.sample(context).edges < static_cast<double>(context.memory.left());
+}
+
+Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
+  // Without a limit the machine's memory is one: an estimate does not fill it.
+  RunContext within(context.memory);
+  within.memory.set_limit(std::min(context.memory.left(), machine_memory()));
+  within.stop = context.stop;
+  within.on_progress = context.on_progress;
+  within.threads = context.threads;
+  try {
+    if (detail::form_without_edges(rips, options) || can_be_tried(rips, within))
+      return estimate_built(rips, detail::plan_rips(rips, options, within), within);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource || !rips.has_input()) throw;
+  } catch (const std::bad_alloc&) {
+    if (!rips.has_input()) throw;
+  }
+  return estimate_sampled(rips, options, within);
+}
+
 }  // namespace
 
 Estimate estimate(const AnyComplex& complex, const Options& options, const RunContext& context) {
-  const RunPlan planned = plan(complex, options, context);
-  return std::visit([&](const auto& c) { return estimate_one(c, planned, options, context); },
-                    complex);
+  return std::visit([&](const auto& c) { return estimate_one(c, options, context); }, complex);
 }
 
 }  // namespace ph

@@ -35,23 +35,28 @@ double sum(std::span<const double> counts) {
 }
 
 /// What does not depend on how the homology turns out, but for the edges: bit rows, adjacency.
-double structure(const Rips& rips, Engine engine) {
-  const auto vertices = static_cast<double>(rips.size());
-  const auto edges = static_cast<double>(rips.edge_count());
+double structure(std::size_t size, std::size_t edge_count, Engine engine) {
   if (const auto bytes_of_engine = facts_of(engine).rips_bytes)
-    return bytes_of_engine(static_cast<std::size_t>(rips.size()), rips.edge_count());
-  return rips.graph().is_dense() ? 4 * vertices * vertices : 16 * edges + 8 * vertices;
+    return bytes_of_engine(size, edge_count);
+  const auto vertices = static_cast<double>(size);
+  return RipsAdjacency::is_dense(size, edge_count)
+             ? 4 * vertices * vertices
+             : 16 * static_cast<double>(edge_count) + 8 * vertices;
+}
+double structure(const RipsGraph& graph, Engine engine) {
+  return structure(static_cast<std::size_t>(graph.size()), graph.edge_count(), engine);
 }
 
 /// A part of a complex: the vertices chosen, all edges between them.
-Rips induced(const Rips& rips, std::span<const std::uint32_t> vertices, const RunContext& context) {
+RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertices,
+                  const RunContext& context) {
   constexpr std::uint32_t none = UINT32_MAX;
-  std::pmr::vector<std::uint32_t> number(static_cast<std::size_t>(rips.size()), none,
+  std::pmr::vector<std::uint32_t> number(static_cast<std::size_t>(graph.size()), none,
                                          &context.memory);
   for (std::size_t i = 0; i < vertices.size(); ++i)
     number[vertices[i]] = static_cast<std::uint32_t>(i);
   std::pmr::vector<WeightedEdge> edges(&context.memory);
-  const BinnedEdges& all = rips.graph().binned_edges();
+  const BinnedEdges& all = graph.binned_edges();
   all.with_bins(0, all.bin_count(), [&](std::span<const FlagEdge> unsorted) {
     for (const FlagEdge& e : unsorted) {
       const std::uint32_t u = number[e.u], v = number[e.v];
@@ -59,19 +64,19 @@ Rips induced(const Rips& rips, std::span<const std::uint32_t> vertices, const Ru
     }
   });
   std::vector<double> births;
-  if (!rips.graph().births().empty())
-    for (const std::uint32_t v : vertices) births.push_back(rips.graph().birth(v));
+  if (!graph.births().empty())
+    for (const std::uint32_t v : vertices) births.push_back(graph.birth(v));
   // The values of the edges know the births already.
   const VertexWeights weights(births, WeightExponent::infinity);
-  return Rips(RipsGraph::of_edges(static_cast<Index>(vertices.size()), edges, std::nullopt, context,
-                                  weights));
+  return RipsGraph::of_edges(static_cast<Index>(vertices.size()), edges, std::nullopt, context,
+                             weights);
 }
 
 /// What the engine took in a part beyond `structure` and the bars of H0, and how much it listed.
 struct Pilot {
   double listed = 0, extra = 0;
 };
-Pilot run_pilot(const Rips& part, double listed, const Options& options,
+Pilot run_pilot(const RipsGraph& part, double listed, const Options& options,
                 const RunContext& context) {
   RunContext own;
   own.stop = context.stop;
@@ -79,32 +84,31 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
   own.threads = 1;
   own.memory.set_limit(context.memory.limit() -
                        std::min(context.memory.used(), context.memory.limit()));
-  const Rips copy(RipsGraph::with_edges(
-      part.graph(),
-      FlagEdges(part.graph().edges().begin(), part.graph().edges().end(), &own.memory), own));
-  const Barcode barcode = persistence(copy, options, own);
-  double bars = 0;
-  for (std::size_t i = 0; i < barcode.size(); ++i) bars += barcode[i].dim > 0 ? 1 : 0;
+  RipsGraph copy = RipsGraph::with_edges(
+      part, FlagEdges(part.edges().begin(), part.edges().end(), &own.memory), own);
   const double known =
       16 * static_cast<double>(copy.edge_count()) + structure(copy, options.engine);
+  const Barcode barcode = persistence(Rips(std::move(copy)), options, own);
+  double bars = 0;
+  for (std::size_t i = 0; i < barcode.size(); ++i) bars += barcode[i].dim > 0 ? 1 : 0;
   return {listed, std::max(0.0, static_cast<double>(own.memory.peak()) - known) +
                       bytes_per_bar(options) * bars};
 }
 
-double listed_of(const Rips& part, const Options& options, const RunContext& context) {
-  return sum(count_cliques(part.graph(), listed_rips_dim(options.engine, *options.max_dim), context)
-                 .counts);
+double listed_of(const RipsGraph& part, const Options& options, const RunContext& context) {
+  return sum(
+      count_cliques(part, listed_rips_dim(options.engine, *options.max_dim), context).counts);
 }
 
 /// Orders the vertices so that each beginning of the order is a part like the whole: at random
 /// where most pairs are edges, else around a vertex, breadth first.
-std::vector<std::uint32_t> order_of(const Rips& rips, std::uint64_t seed) {
-  std::vector<std::uint32_t> order(static_cast<std::size_t>(rips.size()));
+std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
+  std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);
   std::mt19937_64 random(seed);
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-  if (rips.graph().is_dense()) return order;
-  const RipsAdjacency& adjacency = rips.graph().adjacency();
+  if (graph.is_dense()) return order;
+  const RipsAdjacency& adjacency = graph.adjacency();
   std::vector<std::uint32_t> ball;
   std::vector<bool> is_in(order.size(), false);
   std::size_t next = 0;
@@ -123,7 +127,7 @@ std::vector<std::uint32_t> order_of(const Rips& rips, std::uint64_t seed) {
 }
 
 /// A beginning of the order in which the engine lists about `wanted` cells, `listed` in all.
-std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, double listed,
+std::size_t pilot_size(const RipsGraph& graph, std::span<const std::uint32_t> order, double listed,
                        double wanted, const Options& options, const RunContext& context) {
   std::size_t size = order.size();
   const int vertices_of_cell = 1 + listed_rips_dim(options.engine, *options.max_dim);
@@ -131,7 +135,7 @@ std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, d
     const double step = std::pow(wanted / listed, 1.0 / vertices_of_cell);
     size = std::max<std::size_t>(
         8, static_cast<std::size_t>(static_cast<double>(size) * std::clamp(step, 0.1, 0.9)));
-    const Rips part = induced(rips, order.first(size), context);
+    const RipsGraph part = induced(graph, order.first(size), context);
     listed = listed_of(part, options, context);
   }
   return size;
@@ -143,23 +147,23 @@ int listed_rips_dim(Engine engine, int max_dim) {
   return std::max(0, facts_of(engine).listed_dim(max_dim));
 }
 
-MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
+MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context) {
   const double listed = sum(cells);
-  const double edges = 16 * static_cast<double>(rips.edge_count());
-  const double known = edges + structure(rips, options.engine);
-  const double most = known + bytes_per_bar(options) * static_cast<double>(rips.size()) + kAlways;
+  const double edges = 16 * static_cast<double>(graph.edge_count());
+  const double known = edges + structure(graph, options.engine);
+  const double most = known + bytes_per_bar(options) * static_cast<double>(graph.size()) + kAlways;
   // The link sweep stops where nothing happens any more; lists are not full by then.
   const double least = options.engine == Engine::edge_links ? edges : known;
-  if (rips.has_only_components() || rips.size() < 2) return {least, most};
+  if (graph.is_forest() || graph.size() < 2) return {least, most};
   const bool lists_edges_only = listed_rips_dim(options.engine, *options.max_dim) < 2;
   const double wanted = lists_edges_only
                             ? std::clamp(kPilotShare * listed, kPilotEdges, kMostPilotEdges)
                             : std::clamp(kPilotShare * listed, kPilotCells, kMostPilotCells);
   const auto pilot = [&](std::uint64_t seed, double cells_wanted) {
-    const auto order = order_of(rips, seed);
-    const std::size_t size = pilot_size(rips, order, listed, cells_wanted, options, context);
-    const Rips part = induced(rips, std::span(order).first(size), context);
+    const auto order = order_of(graph, seed);
+    const std::size_t size = pilot_size(graph, order, listed, cells_wanted, options, context);
+    const RipsGraph part = induced(graph, std::span(order).first(size), context);
     return run_pilot(part, listed_of(part, options, context), options, context);
   };
   const Pilot large = pilot(1, wanted);
@@ -174,15 +178,23 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   double power = 1;
   if (small.extra > 0 && large.listed > small.listed && small.listed > 0)
     power = std::log(large.extra / small.extra) / std::log(large.listed / small.listed);
-  power =
-      std::clamp(power, 0.8, 1.6) + (rips.graph().is_dense() ? kPowerMargin : kPowerMarginOfLocal);
+  power = std::clamp(power, 0.8, 1.6) + (graph.is_dense() ? kPowerMargin : kPowerMarginOfLocal);
   const double factor = listed / std::max(1.0, large.listed);
   return {least, most + kMargin * large.extra * std::pow(factor, power)};
 }
 
-MemoryForecast forecast_points_alone(const Rips& rips, const Options& options,
-                                     const RunContext& context) {
-  const Points& points = *rips.graph().points_alone();
+MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {
+  // A sample says how many edges there are, not what becomes of them.
+  constexpr double fewer = 0.9, margin = 3;
+  const double held = 16 * edges;
+  const double known = held + structure(static_cast<std::size_t>(vertices),
+                                        static_cast<std::size_t>(edges), options.engine);
+  return {fewer * held,
+          margin * known + bytes_per_bar(options) * static_cast<double>(vertices) + kAlways};
+}
+
+MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
+                               const Options& options, const RunContext& context) {
   const double held = 8 * static_cast<double>(points.size());
   constexpr Index kLarge = 8'000, kSmall = 2'000;
   std::mt19937_64 random(1);
@@ -191,18 +203,15 @@ MemoryForecast forecast_points_alone(const Rips& rips, const Options& options,
     for (Index i = 0; i < count; ++i) {
       const auto from = static_cast<Index>(
           random() % static_cast<std::uint64_t>(std::max<Index>(1, points.rows())));
-      std::ranges::copy(points.row(from), sample.row(i).begin());
+      for (Index k = 0; k < points.cols(); ++k) sample(i, k) = points(from, k);
     }
     RunContext own;
     own.stop = context.stop;
     own.on_progress = context.on_progress;
     own.threads = 1;
     own.memory.set_limit(context.memory.left());
-    const RipsOptions rips_options{.threshold = std::isfinite(rips.threshold())
-                                                    ? std::optional(rips.threshold())
-                                                    : std::nullopt,
-                                   .only_points = true};
-    const Barcode barcode = persistence(Rips(sample, rips_options, own), options, own);
+    const RipsOptions rips_options{.threshold = threshold, .merge_equal_points = false};
+    const Barcode barcode = persistence(Rips(std::move(sample), rips_options, own), options, own);
     return static_cast<double>(own.memory.peak());
   };
   const double least = 2.5 * held;  // the tree has a copy, and boxes

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph::detail {
@@ -18,12 +19,16 @@ int listed_rips_dim(Engine engine, int max_dim);
 /// parts of the complex; what it takes there beyond its bit rows or adjacency is extrapolated.
 /// @param cells by dimension, up to listed_rips_dim. @param options with engine and dimension; no
 /// collapse.
-MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
+MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
-/// The same for one that holds points alone: the engine computes two samples of them.
-MemoryForecast forecast_points_alone(const Rips& rips, const Options& options,
-                                     const RunContext& context);
+/// The same with the edges, which are too many to be made, from about how many there are.
+MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
+
+/// The same for an engine that takes the points alone: it computes two samples of them.
+/// @param points not too few of which the engine takes by name. @param options with engine.
+MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
+                               const Options& options, const RunContext& context);
 
 /// The same for an image that is paired voxel by voxel: between a smooth one, with next to no
 /// critical cells, and noise. @param stored with what is kept of each voxel.

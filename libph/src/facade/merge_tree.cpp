@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "facade/adjust.hpp"
+#include "facade/rips_plan.hpp"
 #include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
@@ -141,11 +142,12 @@ std::vector<LinkageRow> linkage(const MergeTree& tree) {
 }
 
 MergeTree merge_tree(const Rips& rips, const RunContext& context) {
-  if (rips.graph().has_names())
+  const RipsGraph& graph = rips.graph(detail::form_of_tree(rips), context);
+  if (graph.has_names())
     throw Error(ErrorKind::usage,
                 "merge tree: found vertices that were chosen, equal points that were merged, or a "
                 "threshold below the births (weights) of some points, expected all points");
-  return rips.with_filtration(0, [&](const auto& f) { return tree_of(f, context); });
+  return with_rips_filtration(graph, 0, [&](const auto& f) { return tree_of(f, context); });
 }
 
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {

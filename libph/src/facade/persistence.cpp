@@ -7,10 +7,9 @@
 #include <tuple>
 #include <vector>
 
-#include "facade/collapse_choice.hpp"
+#include "facade/rips_plan.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
-#include "ph/detail/rips/rips_filtration.hpp"
-#include "rips/collapse/edge_collapse.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
 
 namespace ph {
 namespace {
@@ -22,18 +21,14 @@ std::string describe(const Bar& bar) {
 }  // namespace
 
 Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
-  Options rips_options = options;
-  rips_options.max_dim = detail::rips_max_dim(rips, options);
-  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
-  rips_options.collapse = Collapse::off;  // done here or not at all
-  const auto compute = [&](const Rips& complex) {
-    return complex.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
-      return detail::compute(filtration, rips_options, context);
-    });
-  };
-  if (!choice.collapses) return compute(rips);
-  rips_options.engine = choice.engine;
-  return compute(collapse_edges(rips, context));
+  return detail::run_rips(rips, detail::plan_rips(rips, options, context), context);
+}
+
+Barcode persistence(Rips&& rips, const Options& options, const RunContext& context) {
+  const RunPlan plan = detail::plan_rips(rips, options, context);
+  detail::build_rips(rips, plan, context);
+  if (rips.is_only_copy()) rips.forget_input();
+  return detail::run_rips(rips, plan, context);
 }
 
 Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {

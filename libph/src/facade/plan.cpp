@@ -1,57 +1,96 @@
 // SPDX-License-Identifier: MIT
-#include "facade/collapse_choice.hpp"
-#include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/estimate.hpp"
+#include <cmath>
+
+#include "facade/rips_plan.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/persistence.hpp"
+#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph {
 namespace {
 
-template <Filtration F>
-RunPlan plan_of(const detail::Plan<F>& plan) {
-  RunPlan result;
-  result.engine = plan.choice.engine->id;
-  result.reason = plan.choice.reason;
-  result.max_dim = plan.max_dim;
-  return result;
+/// The form of a Rips filtration. @throws Error (usage) on the plan of another complex.
+const RipsGraph& graph_of(const Rips& rips, const RunPlan& plan, const RunContext& context) {
+  if (!plan.form)
+    throw Error(ErrorKind::usage, "run: found the plan of another complex than a Rips filtration");
+  return rips.graph(*plan.form, context);
 }
 
 template <class Complex>
 RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
-  return plan_of(detail::plan_for(complex, options));
+  const auto plan = detail::plan_for(complex, options);
+  return detail::run_plan(options, plan.max_dim, plan.choice.engine->id, plan.choice.reason);
 }
 RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
-  Options rips_options = options;
-  rips_options.max_dim = detail::rips_max_dim(rips, options);
-  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
-  rips_options.collapse = Collapse::off;  // done before or not at all
-  RunPlan result;
-  if (choice.collapses) {
-    result.engine = choice.engine;
-    result.reason = choice.engine_reason;
-    result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
-  } else {
-    result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-      return plan_of(detail::plan_for(f, rips_options));
-    });
-  }
-  if (rips.has_only_components()) result.reason += "; a spanning forest knows them";
-  result.collapses = choice.collapses;
-  result.collapse_reason = choice.reason;
-  return result;
+  return detail::plan_rips(rips, options, context);
+}
+
+template <class Complex>
+void build_one(const Complex& complex, const RunPlan& plan, const RunContext& context) {
+  if (facts_of(plan.options.engine).listed_dim(*plan.options.max_dim) >= 0)
+    prepare_cells(complex, context);
+}
+void build_one(const Rips& rips, const RunPlan& plan, const RunContext& context) {
+  detail::build_rips(rips, plan, context);
+}
+
+template <class Complex>
+Barcode run_one(const Complex& complex, const RunPlan& plan, const RunContext& context) {
+  return detail::compute(complex, plan.options, context);
+}
+Barcode run_one(const Rips& rips, const RunPlan& plan, const RunContext& context) {
+  return detail::run_rips(rips, plan, context);
 }
 
 }  // namespace
+
+void detail::build_rips(const Rips& rips, const RunPlan& plan, const RunContext& context) {
+  graph_of(rips, plan, context);
+}
+
+Barcode detail::run_rips(const Rips& rips, const RunPlan& plan, const RunContext& context) {
+  Options options = plan.options;
+  options.collapse = Collapse::off;  // done here or not at all
+  const auto compute_graph = [&](const RipsGraph& graph) {
+    return with_rips_filtration(graph, *options.max_dim, [&](const auto& filtration) {
+      return compute(filtration, options, context);
+    });
+  };
+  const RipsGraph& graph = graph_of(rips, plan, context);
+  return plan.options.collapse == Collapse::on ? compute_graph(collapse_edges(graph, context))
+                                               : compute_graph(graph);
+}
 
 RunPlan plan(const AnyComplex& complex, const Options& options, const RunContext& context) {
   return std::visit([&](const auto& c) { return plan_one(c, options, context); }, complex);
 }
 
-Options with_plan(const Options& options, const RunPlan& plan) {
-  Options settled = options;
-  settled.engine = plan.engine;
-  settled.max_dim = plan.max_dim;
-  settled.collapse = plan.collapses ? Collapse::on : Collapse::off;
-  return settled;
+void build(const AnyComplex& complex, const RunPlan& plan, const RunContext& context) {
+  std::visit([&](const auto& c) { build_one(c, plan, context); }, complex);
+}
+
+Barcode run(const AnyComplex& complex, const RunPlan& plan, const RunContext& context) {
+  return std::visit([&](const auto& c) { return run_one(c, plan, context); }, complex);
+}
+
+Barcode run(AnyComplex&& complex, const RunPlan& plan, const RunContext& context) {
+  build(complex, plan, context);
+  if (auto* rips = std::get_if<Rips>(&complex); rips && rips->is_only_copy()) rips->forget_input();
+  return run(std::as_const(complex), plan, context);
+}
+
+RunFacts facts(const AnyComplex& complex, const RunPlan& plan, const RunContext& context) {
+  const auto* rips = std::get_if<Rips>(&complex);
+  if (!rips) return {};
+  const RipsGraph& graph = graph_of(*rips, plan, context);
+  RunFacts facts;
+  facts.vertices = graph.size();
+  if (!graph.points_alone()) facts.edges = graph.edge_count();
+  if (std::isfinite(graph.threshold())) facts.threshold = graph.threshold();
+  facts.covering_radius = rips->covering_radius(context);
+  return facts;
 }
 
 }  // namespace ph

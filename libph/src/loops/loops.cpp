@@ -38,7 +38,9 @@ std::vector<BarLoops> loops(const Rips& rips, const Barcode& cycles, const Optio
                             bool tighten, const RunContext& context) {
   std::vector<BarLoops> found = plain_loops(cycles, options, {}, context);
   const MemoryClaim claim(context.memory, bytes_of(found));
-  detail::measure_and_tighten(rips, cycles, options, tighten, found, context);
+  const RunPlan planned = plan(rips, options, context);
+  const RipsGraph& graph = rips.graph(*planned.form, context);
+  detail::measure_and_tighten(graph, cycles, options, tighten, found, context);
   return found;
 }
 

@@ -52,13 +52,13 @@ std::optional<double> last_birth(const Barcode& cycles, const std::vector<BarLoo
 
 class Tightener {
  public:
-  Tightener(const Rips& rips, const Barcode& cycles, double last, const Options& options,
+  Tightener(const RipsGraph& graph, const Barcode& cycles, double last, const Options& options,
             const RunContext& context)
-      : rips_(rips),
+      : all_(graph),
         cycles_(cycles),
         options_(options),
         context_(context),
-        graph_(rips.graph(), last, context),
+        graph_(graph, last, context),
         elders_(options.collapse != Collapse::off) {}
 
   void measure(std::vector<Loop>& loops) const {
@@ -190,23 +190,21 @@ class Tightener {
 
   /// The complex below this value has few enough triangles.
   double last_affordable_value() const {
-    const RipsGraph& graph = rips_.graph();
-    std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(graph.size()), 0,
+    std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
     double cofacets = 0;  // at most: an edge has as many as its ends have neighbours
-    for (Key key = 1; key <= graph.edge_count(); ++key) {
-      const FlagEdge& e = graph.edge(key);
+    for (Key key = 1; key <= all_.edge_count(); ++key) {
+      const FlagEdge& e = all_.edge(key);
       cofacets += 2.0 * degrees[e.u]++ + 2.0 * degrees[e.v]++ + 2;
       if (cofacets > kMostCofacets) return e.value;
     }
     return kInfinity;
   }
   Rips rips_until(double value) const {
-    const RipsGraph& graph = rips_.graph();
     FlagEdges edges(&context_.memory);
-    for (Key key = 1; key <= graph.edge_count() && graph.value(key) < value; ++key)
-      edges.push_back(graph.edge(key));
-    return Rips(RipsGraph::with_edges(graph, std::move(edges), context_));
+    for (Key key = 1; key <= all_.edge_count() && all_.value(key) < value; ++key)
+      edges.push_back(all_.edge(key));
+    return Rips(RipsGraph::with_edges(all_, std::move(edges), context_));
   }
 
   void tighten_one(const Candidate& c, bool is_decided, const EdgeCocycles& cocycles,
@@ -314,7 +312,7 @@ class Tightener {
     });
   }
 
-  const Rips& rips_;
+  const RipsGraph& all_;
   const Barcode& cycles_;
   const Options& options_;
   const RunContext& context_;
@@ -324,12 +322,12 @@ class Tightener {
 
 }  // namespace
 
-void measure_and_tighten(const Rips& rips, const Barcode& cycles, const Options& options,
+void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Options& options,
                          bool tighten, std::vector<BarLoops>& loops, const RunContext& context) {
   const std::optional<double> last = last_birth(cycles, loops);
   if (!last) return;
   try {
-    Tightener tightener(rips, cycles, *last, options, context);
+    Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
   } catch (const Error& error) {  // each bar's loops are old or new, and right

@@ -2,13 +2,14 @@
 #pragma once
 #include <vector>
 
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/loops.hpp"
 
 namespace ph::detail {
 
 /// Gives the loops of a Rips filtration, which are the chains taken apart, their lengths, and
 /// shorter ones in their place where that is asked for and memory allows it.
-void measure_and_tighten(const Rips& rips, const Barcode& cycles, const Options& options,
+void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Options& options,
                          bool tighten, std::vector<BarLoops>& loops, const RunContext& context);
 
 }  // namespace ph::detail

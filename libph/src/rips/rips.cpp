@@ -3,202 +3,301 @@
 
 #include <fmt/format.h>
 
-#include "metric/distinct_points.hpp"
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
 #include "ph/detail/rips/rips_graph.hpp"
-#include "ph/detail/rips/rips_vertices.hpp"
-#include "ph/detail/rips/sparse_rips.hpp"
+#include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
-#include "rips/beta_skeleton/points_alone.hpp"
+#include "rips/make_graph.hpp"
+#include "rips/sample.hpp"
 
 namespace ph {
 namespace {
 
-Points rows_of(PointsView points, std::span<const std::uint32_t> rows) {
-  Points chosen(static_cast<Index>(rows.size()), points.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::copy_n(points.row(rows[i]), points.cols(), chosen.row(static_cast<Index>(i)).data());
-  return chosen;
+/// Bytes of numbers that nobody else holds.
+std::size_t bytes_of(const RipsData& data) {
+  const auto* points = std::get_if<HeldPoints>(&data);
+  return points && points->owner ? static_cast<std::size_t>(points->view.size()) * sizeof(double)
+                                 : 0;
 }
 
-/// @param weights of the points, which all become vertices.
-RipsGraph graph_of_all_points(PointsView points, const RipsOptions& options,
-                              const VertexWeights& weights, const RunContext& context) {
-  const bool is_weighted = !weights.births().empty();
-  if (options.device == Device::gpu)
-    return RipsGraph::forest_on_gpu(points, options.threshold, context);
-  if (options.approximation) {
-    const GreedyPermutation order =
-        greedy_permutation(points, {}, options.distance, options.minkowski_p, context);
-    return sparse_rips_graph(PointMetric(points, options.distance, options.minkowski_p), order,
-                             *options.approximation, options.threshold, context);
-  }
-  if (options.only_points) return RipsGraph::of_points_alone(points, options.threshold, context);
-  if (options.only_components && !is_weighted &&
-      has_fast_spanning_forest(points, options.distance)) {
-    return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
-                                       options.threshold, context);
-  }
-  if (!options.only_components && options.distance == PointDistance::euclidean &&
-      options.threshold && points.cols() <= 32) {
-    return RipsGraph::of_points_within(points, *options.threshold, context, weights);
-  }
-  const PointMetric metric(points, options.distance, options.minkowski_p);
-  return options.only_components
-             ? RipsGraph::forest_of_metric(metric, options.threshold, context, weights)
-             : RipsGraph::of_metric(metric, options.threshold, context, weights);
+HeldPoints held(Points points) {
+  auto owner = std::make_shared<const Points>(std::move(points));
+  const PointsView view = *owner;
+  return {view, std::move(owner)};
 }
 
-RipsGraph graph_of_distinct_points(PointsView points, const RipsOptions& options,
-                                   const VertexWeights& weights, const RunContext& context) {
-  // Copies with births would be one vertex with the first of them: not worth the code.
-  if (options.merge_equal_points && weights.births().empty()) {
-    const PointMetric checked(points, options.distance, options.minkowski_p);
-    const std::pmr::vector<std::uint32_t> firsts =
-        distinct_points(first_equal_points(checked.points(), context), context);
-    if (static_cast<Index>(firsts.size()) < points.rows()) {
-      const Points distinct = rows_of(checked.points(), firsts);
-      RipsGraph graph = graph_of_all_points(distinct, options, weights, context);
-      graph.name_vertices(firsts, context);
-      return graph;
-    }
-  }
-  return graph_of_all_points(points, options, weights, context);
-}
-
-/// What is asked for that a GPU does not do; empty: nothing.
-std::string_view beyond_gpu(const RipsOptions& options) {
-  if (options.distance != PointDistance::euclidean) return "another distance";
-  if (!options.births.empty()) return "births of vertices";
-  if (!options.only_components || options.only_points)
-    return "more than components; max_dim 0 asks for them alone, without an approximation, a check "
-           "or an engine by name";
-  return "";
-}
-
-/// @param data what the filtration is of, if not of points.
-void check_device(const RipsOptions& options, std::string_view data = "") {
-  if (options.device == Device::cpu) return;
-  const std::string_view found = data.empty() ? beyond_gpu(options) : data;
-  if (!found.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("device gpu: computes components (H0) of points with Euclidean "
-                            "distances, found {}",
-                            found));
-}
-
-void check_together(const RipsOptions& options) {
-  if (options.only_points)
-    throw Error(ErrorKind::usage,
-                "a Rips filtration of points alone needs points, found distances");
-  if (!options.approximation) return;
-  if (options.only_components || !options.births.empty()) {
-    throw Error(ErrorKind::usage,
-                fmt::format("sparse Rips filtrations have no {}",
-                            options.only_components ? "spanning forest" : "births of vertices"));
-  }
-}
-
-void check_points_alone(PointsView points, const RipsOptions& options) {
-  const std::string_view obstacle = obstacle_to_points_alone(points, options);
-  if (!obstacle.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("a Rips filtration of points alone needs {}", obstacle));
-}
-
-RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
-                          const RunContext& context) {
-  RipsGraph::check_arguments(points.rows(), options.threshold);
-  check_device(options);
-  if (options.only_points)
-    check_points_alone(points, options);
-  else
-    check_together(options);
-  const RipsVertices vertices(points.rows(), options.vertices, options.births,
-                              options.weight_exponent, options.threshold, context);
-  if (vertices.are_all())
-    return graph_of_distinct_points(points, options, vertices.weights(), context);
-  const PointMetric checked(points, options.distance, options.minkowski_p);
-  const Points chosen = rows_of(checked.points(), vertices.members());
-  RipsGraph graph = graph_of_distinct_points(chosen, options, vertices.weights(), context);
-  graph.name_vertices(vertices.members(), context);
-  return graph;
-}
-
-RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& options,
-                          const RunContext& context) {
-  check_device(options, "some distances");
-  if (options.only_points) check_together(options);
-  if (options.approximation)
-    throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found some of them");
-  const auto build = options.only_components ? RipsGraph::forest_of_edges : RipsGraph::of_edges;
-  const RipsVertices vertices(distances.size(), options.vertices, options.births,
-                              options.weight_exponent, options.threshold, context);
-  if (vertices.are_all())
-    return build(distances.size(), distances.edges(), options.threshold, context,
-                 vertices.weights());
-  const std::pmr::vector<std::uint32_t>& members = vertices.members();
-  std::pmr::vector<Index> number(static_cast<std::size_t>(distances.size()), -1, &context.memory);
-  for (std::size_t v = 0; v < members.size(); ++v) number[members[v]] = static_cast<Index>(v);
-  std::pmr::vector<WeightedEdge> edges(&context.memory);
-  for (const WeightedEdge& e : distances.edges()) {
-    const Index u = number[static_cast<std::size_t>(e.u)],
-                v = number[static_cast<std::size_t>(e.v)];
-    if (u >= 0 && v >= 0) edges.push_back({u, v, e.value});
-  }
-  RipsGraph graph = build(static_cast<Index>(members.size()), edges, options.threshold, context,
-                          vertices.weights());
-  graph.name_vertices(members, context);
-  return graph;
-}
-
-template <Metric M>
-RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, const RunContext& context) {
-  RipsGraph::check_arguments(metric.size(), options.threshold);
-  check_device(options, "distances");
-  check_together(options);
-  const RipsVertices vertices(metric.size(), options.vertices, options.births,
-                              options.weight_exponent, options.threshold, context);
-  const auto build = [&](const auto& distances) {
-    if (options.approximation)
-      return sparse_rips_graph(distances, greedy_permutation(distances, {}, context),
-                               *options.approximation, options.threshold, context);
-    return options.only_components
-               ? RipsGraph::forest_of_metric(distances, options.threshold, context,
-                                             vertices.weights())
-               : RipsGraph::of_metric(distances, options.threshold, context, vertices.weights());
-  };
-  if (vertices.are_all()) return build(metric);
-  RipsGraph graph = build(SubsetMetric(metric, vertices.members()));
-  graph.name_vertices(vertices.members(), context);
-  return graph;
-}
-
-RipsOptions with_births_of(const DistanceMatrix& distances, RipsOptions options) {
-  if (options.births.empty()) options.births = distances.births();
-  return options;
+HeldPoints copied(PointsView points, const RunContext& context) {
+  context.memory.require(static_cast<std::size_t>(points.size()) * sizeof(double));
+  return held(Points(points));
 }
 
 }  // namespace
 
-Rips::Rips(PointsView points, const RipsOptions& options, const RunContext& context)
-    : graph_(std::make_shared<const RipsGraph>(graph_of_points(points, options, context))) {}
+namespace detail {
 
-Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const RunContext& context)
-    : graph_(std::make_shared<const RipsGraph>(
-          graph_of_metric(distances, with_births_of(distances, options), context))) {}
+/// The data of a filtration, counted for as long as a copy or a form holds them.
+struct HeldInput {
+  HeldInput(RipsData data_held, const RunContext& context)
+      : data(std::move(data_held)), claim(context.memory, bytes_of(data)) {}
+  RipsData data;
+  MemoryClaim claim;
+};
 
-Rips::Rips(const SparseDistances& distances, const RipsOptions& options, const RunContext& context)
-    : graph_(std::make_shared<const RipsGraph>(graph_of_sparse(distances, options, context))) {}
+/// What is made once, by the first thread that asks for it; the others wait. Nothing stays of what
+/// was stopped or found no memory. (Not std::call_once: an exception that passes it ends the
+/// process where memory has run out, since glibc then loads what it needs to unwind.)
+template <class T>
+class Once {
+ public:
+  const T* made() const { return made_.load(std::memory_order_acquire); }
+  /// @param make returns a std::unique_ptr<const T>. @param context of whoever waits.
+  template <class Make>
+  const T& get(const RunContext& context, Make&& make) {
+    if (const T* there = made()) return *there;
+    std::unique_lock lock(mutex_, std::defer_lock);
+    while (!lock.try_lock()) {
+      context.poll();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (!value_) {
+      value_ = make();
+      made_.store(value_.get(), std::memory_order_release);
+    }
+    return *value_;
+  }
 
-Rips::Rips(const AnyMetric& metric, const RipsOptions& options, const RunContext& context)
-    : graph_(std::make_shared<const RipsGraph>(graph_of_metric(metric, options, context))) {}
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<const T> value_;
+  std::atomic<const T*> made_{nullptr};
+};
 
-Rips::Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
+/// What a subsample or a distance to a measure decides.
+struct VertexChoice {
+  std::vector<std::uint32_t> vertices;
+  std::vector<double> births;
+  std::optional<double> covering_radius;
+};
 
-Index Rips::size() const { return graph_->size(); }
-double Rips::threshold() const { return graph_->threshold(); }
-std::size_t Rips::edge_count() const { return graph_->edge_count(); }
-bool Rips::has_only_components() const { return graph_->is_forest(); }
-bool Rips::has_only_points() const { return graph_->points_alone() != nullptr; }
+/// A form with the context that it was made with: that of the call may end before the form does.
+struct MadeForm {
+  /// @param counts outlives the form.
+  MadeForm(const RunContext& counts, const RunContext& call) : context(counts.memory) {
+    if (&counts != &call) context.memory.set_limit(call.memory.left());
+    context.stop = call.stop;
+    context.on_progress = call.on_progress;
+    context.threads = call.threads;
+  }
+  /// From now on the form is bounded by the context that counts it, and nobody stops it.
+  void settle() {
+    context.memory.set_limit(MemoryBudget::kUnlimited);
+    context.stop = {};
+    context.on_progress = nullptr;
+  }
+  RunContext context;
+  std::shared_ptr<const HeldInput> input;  // whose points the graph may refer to
+  std::optional<RipsGraph> graph;
+};
+
+}  // namespace detail
+
+namespace {
+
+using detail::VertexChoice;
+
+std::unique_ptr<const VertexChoice> choose(const RipsData& data, const RipsOptions& options,
+                                           const RunContext& context) {
+  auto choice = std::make_unique<VertexChoice>();
+  if (size_of(data) == 0) return choice;
+  const auto choose_from = [&](const auto& set, const auto&... how) {
+    if (options.dtm_neighbours) {
+      choice->births = distance_to_measure(set, *options.dtm_neighbours, how..., context);
+      for (double& birth : choice->births) birth *= 2;  // diameters
+    }
+    if (options.subsample) {
+      const GreedyPermutation sample = greedy_permutation(set, *options.subsample, how..., context);
+      choice->vertices = sample.ascending();
+      choice->covering_radius = sample.covering_radius;
+    }
+  };
+  if (const auto* points = std::get_if<HeldPoints>(&data))
+    choose_from(points->view, options.distance, options.minkowski_p);
+  else if (const auto* matrix = std::get_if<DistanceMatrix>(&data))
+    choose_from(*matrix);
+  else
+    choose_from(std::get<HeldMetric>(data).metric);
+  return choice;
+}
+
+std::string_view name_of(RipsForm form) {
+  switch (form) {
+    case RipsForm::edges:
+      return "all edges";
+    case RipsForm::distinct_edges:
+      return "the edges of distinct points";
+    case RipsForm::forest:
+      return "a spanning forest";
+    case RipsForm::points:
+      break;
+  }
+  return "points alone";
+}
+
+RipsForm form_of(const RipsGraph& graph) {
+  return graph.is_forest() ? RipsForm::forest : RipsForm::edges;
+}
+
+}  // namespace
+
+struct Rips::State {
+  State(RipsData data, RipsOptions wanted, const RunContext& counting)
+      : State(std::make_shared<const detail::HeldInput>(std::move(data), counting),
+              std::move(wanted), counting) {}
+  State(std::shared_ptr<const detail::HeldInput> shared, RipsOptions wanted,
+        const RunContext& counting)
+      : input(std::move(shared)),
+        size(size_of(input->data)),
+        options(std::move(wanted)),
+        context(&counting) {
+    check_options(input->data, options, counting);
+  }
+  explicit State(RipsGraph&& graph) : size(graph.size()), given(std::move(graph)) {}
+
+  const RipsData& data() const {
+    if (given)
+      throw Error(ErrorKind::usage,
+                  "Rips: found a filtration of a graph, expected one of points or distances");
+    if (!input)
+      throw Error(ErrorKind::usage,
+                  "Rips: the input was given back; what is asked for now needs it");
+    return input->data;
+  }
+  const VertexChoice& choice(const RunContext& call) const {
+    return chosen.get(call, [&] { return choose(data(), options, call); });
+  }
+  std::unique_ptr<const detail::MadeForm> make(RipsForm form, const RunContext& call) const {
+    ChosenVertices vertices{options.vertices, options.births};
+    if (options.subsample) vertices.vertices = choice(call).vertices;
+    if (options.dtm_neighbours) vertices.births = choice(call).births;
+    if (const auto* matrix = std::get_if<DistanceMatrix>(&data());
+        matrix && vertices.births.empty())
+      vertices.births = matrix->births();
+    auto made = std::make_unique<detail::MadeForm>(*context, call);
+    if (form == RipsForm::points) made->input = input;
+    made->graph.emplace(make_graph(data(), options, form, vertices, made->context));
+    made->settle();
+    return made;
+  }
+
+  std::shared_ptr<const detail::HeldInput>
+      input;  // null: a graph was given, or the input was given back
+  Index size;
+  RipsOptions options;
+  const RunContext* context = &default_context();
+  std::optional<RipsGraph> given;
+  mutable detail::Once<VertexChoice> chosen;
+  mutable std::array<detail::Once<detail::MadeForm>, 4> forms;
+};
+
+Rips::Rips(Points points, RipsOptions options, const RunContext& context)
+    : state_(std::make_shared<State>(held(std::move(points)), std::move(options), context)) {}
+
+Rips::Rips(PointsView points, RipsOptions options, const RunContext& context)
+    : state_(std::make_shared<State>(copied(points, context), std::move(options), context)) {}
+
+Rips::Rips(DistanceMatrix distances, RipsOptions options, const RunContext& context)
+    : state_(std::make_shared<State>(std::move(distances), std::move(options), context)) {}
+
+Rips::Rips(SparseDistances distances, RipsOptions options, const RunContext& context)
+    : state_(std::make_shared<State>(std::move(distances), std::move(options), context)) {}
+
+Rips::Rips(std::shared_ptr<const void> owner, const AnyMetric& metric, RipsOptions options,
+           const RunContext& context)
+    : state_(std::make_shared<State>(HeldMetric{metric, std::move(owner)}, std::move(options),
+                                     context)) {}
+
+Rips::Rips(RipsGraph&& graph) : state_(std::make_shared<State>(std::move(graph))) {}
+
+Rips Rips::borrowed(PointsView points, RipsOptions options, const RunContext& context) {
+  return Rips(std::make_shared<State>(HeldPoints{points, nullptr}, std::move(options), context));
+}
+
+Rips Rips::with(RipsOptions options, const RunContext& context) const {
+  static_cast<void>(state_->data());
+  return Rips(std::make_shared<State>(state_->input, std::move(options), context));
+}
+
+Index Rips::size() const { return state_->size; }
+const RipsOptions& Rips::options() const { return state_->options; }
+
+std::optional<PointsView> Rips::points() const {
+  if (!state_->input) return std::nullopt;
+  const auto* points = std::get_if<HeldPoints>(&state_->input->data);
+  return points ? std::optional(points->view) : std::nullopt;
+}
+
+bool Rips::has_input() const { return state_->input != nullptr; }
+
+bool Rips::has_births() const {
+  if (state_->given) return !state_->given->births().empty();
+  const auto* matrix = state_->input ? std::get_if<DistanceMatrix>(&state_->input->data) : nullptr;
+  return !state_->options.births.empty() || state_->options.dtm_neighbours ||
+         (matrix && !matrix->births().empty());
+}
+
+std::optional<double> Rips::covering_radius(const RunContext& context) const {
+  if (!state_->options.subsample) return std::nullopt;
+  return state_->choice(context).covering_radius;
+}
+
+bool Rips::has_form(RipsForm form) const {
+  const State& state = *state_;
+  if (state.given) return form == form_of(*state.given);
+  if (state.forms[static_cast<std::size_t>(form)].made()) return true;
+  if (!state.input) return false;
+  const bool has_points = std::holds_alternative<HeldPoints>(state.input->data);
+  switch (form) {
+    case RipsForm::edges:
+      return true;
+    case RipsForm::distinct_edges:
+      return has_points;
+    case RipsForm::forest:
+      return !state.options.approximation;
+    case RipsForm::points:
+      break;
+  }
+  return has_points && !state.options.approximation;
+}
+
+const RipsGraph& Rips::graph(RipsForm form, const RunContext& context) const {
+  const State& state = *state_;
+  if (state.given && form == form_of(*state.given)) return *state.given;
+  detail::Once<detail::MadeForm>& once = state.forms[static_cast<std::size_t>(form)];
+  if (const detail::MadeForm* made = once.made()) return *made->graph;
+  if (!state.given) static_cast<void>(state.data());
+  if (!has_form(form))
+    throw Error(ErrorKind::usage,
+                fmt::format("Rips: found a filtration {}, which has no form of {}",
+                            state.given                   ? "of a graph"
+                            : state.options.approximation ? "that is approximated"
+                                                          : "of distances",
+                            name_of(form)));
+  return *once.get(context, [&] { return state.make(form, context); }).graph;
+}
+
+RipsSample Rips::sample(const RunContext& context) const {
+  return sample_of(state_->data(), state_->options, context);
+}
+
+void Rips::forget_input() { state_->input.reset(); }
+
+bool Rips::is_only_copy() const {
+  return state_.use_count() == 1 && state_->input.use_count() <= 1;
+}
 
 }  // namespace ph

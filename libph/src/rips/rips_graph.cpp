@@ -59,14 +59,12 @@ RipsGraph RipsGraph::of_points_within(PointsView points, double threshold,
                    weights.births());
 }
 
-RipsGraph RipsGraph::of_points_alone(PointsView points, std::optional<double> threshold,
-                                     const RunContext& context) {
+RipsGraph RipsGraph::of_points_alone(PointsView points, std::shared_ptr<const Points> owner,
+                                     std::optional<double> threshold, const RunContext& context) {
   check_arguments(points.rows(), threshold);
   RipsGraph graph(points.rows(), threshold.value_or(kNoLimit),
                   BinnedEdges(FlagEdges(&context.memory)), context);
-  const auto bytes = static_cast<std::size_t>(points.size()) * sizeof(double);
-  context.memory.require(bytes);
-  graph.points_.reset(new PointsAlone{Points(points), MemoryClaim(context.memory, bytes)});
+  graph.points_ = PointsAlone{points, std::move(owner)};
   return graph;
 }
 

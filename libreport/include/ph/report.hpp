@@ -18,6 +18,8 @@ struct BarcodePage {
   /// What it is the barcode of. Null: the bars are all that is shown, without cells, for these are
   /// cells of data that are not here.
   const AnyComplex* complex = nullptr;
+  /// Of a Rips filtration the form whose bars they are.
+  std::optional<RipsForm> form = {};
   /// The vertices of the complex in space, at least one, unless they are those of a grid.
   std::optional<PointsView> points = {};
   /// The numbers that the points have in the cells of the barcode; empty: their own.

@@ -99,10 +99,12 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, std::span<con
 
 }  // namespace
 
-ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
-                             std::span<const Index> ids, const RunContext& context) {
+ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> form,
+                             std::size_t count, std::span<const Index> ids,
+                             const RunContext& context) {
   const MemoryClaim claim(context.memory, count * sizeof(float) + 16 * kMostEdges);
-  if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
+  if (const auto* rips = std::get_if<Rips>(&complex))
+    return arrays_of(rips->graph(form.value_or(RipsForm::edges), context), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, ids, context);
   // Edges that go round a periodic space would be drawn across it.

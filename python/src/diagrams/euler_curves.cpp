@@ -41,7 +41,7 @@ const Cubical& image_in(const Built& built) { return std::get<Cubical>(built.com
 
 Steps curve_of_image(const Recipe& recipe, const RunOptions& options) {
   return steps_of(run(options, recipe.is_short({}), [&](const RunContext& context) {
-    const Built built = recipe.build({}, context);
+    const Built built = recipe.build(context);
     return euler_curve(image_in(built), context);
   }));
 }
@@ -49,7 +49,7 @@ Steps curve_of_image(const Recipe& recipe, const RunOptions& options) {
 Block values_of_image(const Recipe& recipe, std::pair<double, double> ends, std::size_t points,
                       const RunOptions& options) {
   return Block::of(run(options, recipe.is_short({}), [&](const RunContext& context) {
-    const Built built = recipe.build({}, context);
+    const Built built = recipe.build(context);
     std::vector<double> values(points);
     euler_curve(image_in(built), {ends.first, ends.second, points}, values, context);
     return values;

@@ -21,7 +21,7 @@ MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::si
   components.max_dim = 0;
   components.min_persistence = -1;  // equal points stay apart
   return run(options, recipe.is_short(components), [&](const RunContext& context) {
-    const Built built = recipe.build(components, context);
+    const Built built = recipe.build(context);
     MergeTree tree = std::visit([&](const auto& complex) { return merge_tree(complex, context); },
                                 built.complex);
     if (tree.births.size() >= size) return tree;

@@ -57,8 +57,9 @@ TEST(CInterface, GivesTheBarsOfPoints) {
     ASSERT_EQ(ph_rips_points(by_columns.data(), points.rows(), points.cols(), 1, points.rows(),
                              &options, &bars),
               PH_OK);
+    rips.merge_equal_points = false;
     const Barcode of_all = persistence(Rips(points, rips), task);
-    rips.merge_equal_points = options.max_dim != 0;  // what is asked for cells: the first copies'
+    rips.merge_equal_points = std::nullopt;
     const Barcode expected = persistence(Rips(points, rips), task);
     ASSERT_EQ(expected.size(), of_all.size());
     for (std::size_t i = 0; i < of_all.size(); ++i) EXPECT_EQ(expected[i], of_all[i]);

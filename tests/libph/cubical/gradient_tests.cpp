@@ -262,15 +262,15 @@ TEST(Gradient, AKnotAndWhatIsAroundIt) {
 
 TEST(Gradient, AreTakenWhereTheyCan) {
   const Image flat{{2, 3}, {1, 2, 3, 4, 5, 6}};
-  EXPECT_EQ(plan(Cubical(flat), {}).engine, Engine::gradient);
-  EXPECT_EQ(plan(Cubical(flat), {.max_dim = 0}).engine, Engine::gradient);
+  EXPECT_EQ(plan(Cubical(flat), {}).options.engine, Engine::gradient);
+  EXPECT_EQ(plan(Cubical(flat), {.max_dim = 0}).options.engine, Engine::gradient);
   // Axes of one voxel do not count.
   const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
-  EXPECT_EQ(plan(Cubical(thin), {}).engine, Engine::gradient);
+  EXPECT_EQ(plan(Cubical(thin), {}).options.engine, Engine::gradient);
   const Options cycles{.representatives = Representatives::cycles};
-  EXPECT_EQ(plan(Cubical(flat), cycles).engine, Engine::gradient);
+  EXPECT_EQ(plan(Cubical(flat), cycles).options.engine, Engine::gradient);
   const Options cocycles{.representatives = Representatives::cocycles};
-  EXPECT_EQ(plan(Cubical(flat), cocycles).engine, Engine::cohomology);
+  EXPECT_EQ(plan(Cubical(flat), cocycles).options.engine, Engine::cohomology);
 }
 
 TEST(Gradient, ThreadsDoNotMatter) {

@@ -113,9 +113,9 @@ TEST(ManyAxes, KnownSpaces) {
 
 TEST(ManyAxes, AreTakenWhereTheyCan) {
   const Cubical deep(Image{{2, 2, 2, 2}, std::vector<double>(16, 0.0)});
-  EXPECT_EQ(plan(deep, {}).engine, Engine::gradient);
-  EXPECT_EQ(plan(deep, {.max_dim = 1}).engine, Engine::gradient);
-  EXPECT_EQ(plan(deep, {.min_persistence = -1}).engine, Engine::twist);
+  EXPECT_EQ(plan(deep, {}).options.engine, Engine::gradient);
+  EXPECT_EQ(plan(deep, {.max_dim = 1}).options.engine, Engine::gradient);
+  EXPECT_EQ(plan(deep, {.min_persistence = -1}).options.engine, Engine::twist);
   CubicalImage grid = deep.cubical_image();
   grid.periodic.assign(8, false);
   grid.extents.assign(8, 8);  // 15^8 cells
@@ -176,7 +176,7 @@ TEST(ManyAxes, EstimatesHold) {
     const Cubical cubical(Image{{12, 12, 12, 12}, std::move(noise)}, {.construction = construction},
                           context);
     const Estimate said = estimate(cubical, {}, context);
-    EXPECT_EQ(said.engine, Engine::gradient);
+    EXPECT_EQ(said.options.engine, Engine::gradient);
     persistence(cubical, {}, context);
     const auto peak = static_cast<double>(context.memory.peak());
     EXPECT_GE(peak, said.bytes_low);

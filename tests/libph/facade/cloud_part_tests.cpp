@@ -138,12 +138,11 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
     const CloudPartOptions options = random_options(random, points.rows(), ties);
     const RipsOptions as_one{.threshold = options.threshold};
     const auto expected = deaths_by_all_pairs(points, options.threshold.value_or(kInfinity));
-    const Barcode bars = persistence(Rips(points, as_one), {.max_dim = 0});
-    RipsOptions as_forest = as_one;
-    as_forest.only_components = true;
-    const Rips forest(points, as_forest);
-    const auto pairs = all_pairs(forest);
-    const MergeTree tree = merge_tree(forest);
+    const Rips all(points, as_one);
+    const Barcode bars =
+        with_all_edges(all, 0, [](const auto& f) { return persistence(f, {.max_dim = 0}); });
+    const auto pairs = all_pairs(all);
+    const MergeTree tree = merge_tree(all);
     ASSERT_EQ(deaths_of(bars), expected);
     const int count = random.integer(1, 9);
     parts += static_cast<std::size_t>(count);
@@ -173,7 +172,7 @@ TEST(CloudPart, OfManyPoints) {
     if (random.coin()) options.blocks = random.integer(1, 3);
     if (random.coin()) options.sample = std::max<Index>(1, points.rows() / random.integer(2, 500));
     if (random.integer(0, 3) == 0) options.threshold = random.real() / 10;
-    const RipsOptions as_one{.threshold = options.threshold, .only_components = true};
+    const RipsOptions as_one{.threshold = options.threshold};
     const auto expected = all_pairs(Rips(points, as_one));
     const CloudPart whole = joined(random, parts_of(points, random.integer(1, 9), options));
     ASSERT_EQ(all_pairs(whole.rips()), expected);
@@ -185,7 +184,8 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   Generator random(1);
   const Points points = random.points(200000, 2, false);
   RunContext of_one, of_part;
-  const Rips one(points, {.only_components = true}, of_one);
+  const Rips one = Rips::borrowed(points, {}, of_one);
+  one.graph(RipsForm::forest, of_one);
   const CloudPart part(points, 3, 16, {}, of_part);
   EXPECT_LT(of_part.memory.peak(), of_one.memory.peak() / 6);
   // About 16 bytes and a little for each of its points.
@@ -200,7 +200,7 @@ TEST(CloudPart, OfCoordinatesOfAnySize) {
     for (Index i = 0; i < points.rows(); ++i)
       scale(points.row(i), std::ldexp(1, exponents[random.integer(0, 4)]));
     if (random.coin()) points(0, 0) = 1;
-    const auto expected = all_pairs(Rips(points, {.only_components = true}));
+    const auto expected = all_pairs(Rips(points));
     const auto options = CloudPartOptions{.sample = random.integer(1, int(points.rows()))};
     const int count = random.integer(1, 5);
     ASSERT_EQ(all_pairs(joined(random, parts_of(points, count, options)).rips()), expected);
@@ -225,7 +225,7 @@ TEST(CloudPart, OfFewOrNone) {
       for (const int count : {1, 2, 7}) {
         const Points points = random.points(n, d, false);
         const CloudPart whole = joined(random, parts_of(points, count, {}));
-        EXPECT_EQ(all_pairs(whole.rips()), all_pairs(Rips(points, {.only_components = true})));
+        EXPECT_EQ(all_pairs(whole.rips()), all_pairs(Rips(points)));
       }
 }
 

@@ -9,6 +9,7 @@
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -127,7 +128,7 @@ TEST(MergeTrees, OfPoints) {
     const PointMetric metric(points);
     for (Index i = 0; i < points.rows(); ++i)
       for (Index j = i + 1; j < points.rows(); ++j)
-        if (metric(i, j) <= rips.threshold()) edges.push_back({i, j, metric(i, j)});
+        if (metric(i, j) <= all_edges(rips).threshold()) edges.push_back({i, j, metric(i, j)});
     const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
     check_tree(merge_tree(rips), births, edges, oracle_of(rips));
   }
@@ -230,10 +231,10 @@ TEST(MergeTrees, ThePointsEdgesAreAMinimumSpanningTree) {
 
 TEST(MergeTrees, LinkageNumbersClustersAsTheyAreMade) {
   const Points points{{0}, {1}, {10}, {12}, {1.5}, {30}};
-  const auto rows = linkage(merge_tree(Rips(points, {.only_components = true})));
+  const auto rows = linkage(merge_tree(Rips(points)));
   EXPECT_EQ(rows, (std::vector<LinkageRow>{
                       {1, 4, 0.5, 2}, {0, 6, 1, 3}, {2, 3, 2, 2}, {7, 8, 8.5, 5}, {5, 9, 18, 6}}));
-  EXPECT_EQ(linkage(merge_tree(Rips(points, {.threshold = 1, .only_components = true}))),
+  EXPECT_EQ(linkage(merge_tree(Rips(points, {.threshold = 1}))),
             std::vector<LinkageRow>(rows.begin(), rows.begin() + 2));
 }
 
@@ -243,9 +244,14 @@ TEST(MergeTrees, ASpanningForestGivesTheSameTree) {
     const Points points = random.points(random.integer(0, 20), random.integer(1, 3), random.coin());
     RipsOptions options;
     if (random.coin()) options.threshold = random.value(true);
-    const MergeTree whole = merge_tree(Rips(points, options));
-    options.only_components = true;
-    EXPECT_EQ(merge_tree(Rips(points, options)).merges, whole.merges) << "seed " << seed;
+    const Rips rips(points, options);
+    const RipsGraph& edges = all_edges(rips);
+    std::vector<WeightedEdge> listed;
+    for (const FlagEdge& e : edges.edges()) listed.push_back({e.u, e.v, e.value});
+    const Rips whole(
+        RipsGraph::of_edges(edges.size(), listed, edges.threshold(), default_context()));
+    ASSERT_FALSE(whole.has_form(RipsForm::forest));
+    EXPECT_EQ(merge_tree(rips).merges, merge_tree(whole).merges) << "seed " << seed;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -142,7 +143,7 @@ TEST(Estimates, CountTheCells) {
     for (const auto& [engine, top] : {std::pair(Engine::cohomology, 2), {Engine::twist, 3}}) {
       const Estimate e =
           estimate(rips, {.max_dim = 2, .engine = engine, .collapse = Collapse::off});
-      rips.with_filtration(2, [&](const auto& f) { EXPECT_EQ(e.cells, count_cells(f, top)); });
+      with_all_edges(rips, 2, [&](const auto& f) { EXPECT_EQ(e.cells, count_cells(f, top)); });
       EXPECT_EQ(e.counted_dims, static_cast<int>(e.cells.size()));
       EXPECT_GE(e.bytes_high, e.bytes_low);
       EXPECT_GE(e.bytes_low, 0);
@@ -160,7 +161,7 @@ TEST(Estimates, SampleTheCellsWhereTheyAreMany) {
     const Estimate e = estimate(
         rips, {.max_dim = max_dim, .engine = Engine::cohomology, .collapse = Collapse::off});
     EXPECT_LT(e.counted_dims, static_cast<int>(e.cells.size()));
-    rips.with_filtration(max_dim, [&](const auto& f) {
+    with_all_edges(rips, max_dim, [&](const auto& f) {
       const auto exact = count_cells(f, max_dim);
       ASSERT_EQ(e.cells.size(), exact.size());
       for (std::size_t dim = 0; dim < exact.size(); ++dim) {
@@ -190,8 +191,8 @@ TEST(Estimates, HoldThePeak) {
     const Rips again(input, {}, own);
     persistence(again, options, own);
     const auto peak = static_cast<double>(own.memory.peak());
-    EXPECT_GE(peak, 0.9 * e.bytes_low) << e.engine.name();
-    EXPECT_LE(peak, e.bytes_high) << e.engine.name();
+    EXPECT_GE(peak, 0.9 * e.bytes_low) << e.options.engine.name();
+    EXPECT_LE(peak, e.bytes_high) << e.options.engine.name();
   };
   const Points cloud = random.points(100, 3, false);
   const DistanceMatrix noise = random.distances(60, false);
@@ -210,18 +211,18 @@ TEST(Estimates, HoldThePeak) {
 
 TEST(Estimates, NameTheEngineThatWillRun) {
   const Rips rips(circle(6));
-  EXPECT_EQ(estimate(rips).engine, Engine::edge_links);
-  EXPECT_EQ(estimate(rips, {.max_dim = 2}).engine, Engine::edge_links);
-  EXPECT_EQ(estimate(rips, {.max_dim = 3}).engine, Engine::edge_links);
-  EXPECT_EQ(estimate(rips, {.max_dim = 4}).engine, Engine::cohomology);
-  EXPECT_EQ(estimate(rips).max_dim, 1);
-  EXPECT_EQ(estimate(rips, {.max_dim = 0}).engine, Engine::union_find);
-  EXPECT_EQ(estimate(rips, {.engine = Engine::standard}).engine, Engine::standard);
+  EXPECT_EQ(estimate(rips).options.engine, Engine::edge_links);
+  EXPECT_EQ(estimate(rips, {.max_dim = 2}).options.engine, Engine::edge_links);
+  EXPECT_EQ(estimate(rips, {.max_dim = 3}).options.engine, Engine::edge_links);
+  EXPECT_EQ(estimate(rips, {.max_dim = 4}).options.engine, Engine::cohomology);
+  EXPECT_EQ(*estimate(rips).options.max_dim, 1);
+  EXPECT_EQ(estimate(rips, {.max_dim = 0}).options.engine, Engine::union_find);
+  EXPECT_EQ(estimate(rips, {.engine = Engine::standard}).options.engine, Engine::standard);
   EXPECT_FALSE(estimate(rips).reason.empty());
-  EXPECT_EQ(estimate(rips, {.max_dim = 100, .collapse = Collapse::off}).max_dim, 4)
+  EXPECT_EQ(*estimate(rips, {.max_dim = 100, .collapse = Collapse::off}).options.max_dim, 4)
       << "a triangle short of six: 5 vertices";
   const ExplicitComplex torus = all_at_once(torus_of_seven_vertices());
-  EXPECT_EQ(estimate(torus).max_dim, 2);
+  EXPECT_EQ(*estimate(torus).options.max_dim, 2);
   expect_error(ErrorKind::usage, "found -1", [&] { estimate(rips, {.max_dim = -1}); });
   expect_error(ErrorKind::usage, "union-find",
                [&] { estimate(torus, {.engine = Engine::union_find}); });
@@ -233,17 +234,18 @@ TEST(Estimates, SayWhetherEdgesAreCollapsed) {
   const auto says = [](const Rips& rips, const Options& options, bool collapses,
                        const std::string& reason) {
     const Estimate e = estimate(rips, options);
-    EXPECT_EQ(e.collapses, collapses) << e.collapse_reason;
+    EXPECT_EQ(e.options.collapse == Collapse::on, collapses) << e.collapse_reason;
     EXPECT_NE(e.collapse_reason.find(reason), std::string::npos) << e.collapse_reason;
     EXPECT_GE(e.bytes_high, e.bytes_low);
     return e;
   };
   const Estimate e =
       says(solid, {.max_dim = 2, .engine = Engine::cohomology}, true, "% of a sample");
-  EXPECT_EQ(e.engine, Engine::cohomology);
-  EXPECT_EQ(e.cells,
-            count_cells(RipsFiltration<RipsLayout::sparse, 1>(collapse_edges(solid.graph())), 2));
-  EXPECT_LT(e.cells[1], static_cast<double>(solid.edge_count()));
+  EXPECT_EQ(e.options.engine, Engine::cohomology);
+  EXPECT_EQ(
+      e.cells,
+      count_cells(RipsFiltration<RipsLayout::sparse, 1>(collapse_edges(all_edges(solid))), 2));
+  EXPECT_LT(e.cells[1], static_cast<double>(all_edges(solid).edge_count()));
   says(ring, {.max_dim = 2, .engine = Engine::cohomology}, false, "% of a sample");
   says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
   says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");

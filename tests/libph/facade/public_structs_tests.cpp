@@ -194,10 +194,11 @@ TEST(PublicStructs, PointsAndRipsOptions) {
   const std::vector<double> few{0}, below{0, 0, 0, -1}, nan{0, kNan, 0, 0};
   expect_errors({
       {"NaN coordinate", kBad, "nan", [&] { Rips graph(odd); }},
-      {"NaN coordinate, forest", kBad, "nan", [&] { Rips(odd, {.only_components = true}); }},
+      {"NaN coordinate, forest", kBad, "nan", [&] { Rips(odd, {}).graph(RipsForm::forest); }},
       {"NaN threshold", kUsage, "nan", rips({.threshold = kNan})},
       {"negative threshold", kUsage, "-1", rips({.threshold = -1})},
-      {"NaN threshold, forest", kUsage, "nan", rips({.threshold = kNan, .only_components = true})},
+      {"NaN threshold, forest", kUsage, "nan",
+       [&] { Rips(square, {.threshold = kNan}).graph(RipsForm::forest); }},
       {"NaN threshold, sparse", kUsage, "nan",
        [] {
          Rips(SparseDistances(2, {{0, 1, 1}}), {.threshold = kNan});

@@ -11,16 +11,15 @@
 namespace ph::test {
 namespace {
 
-constexpr RipsOptions kForest{.only_components = true};
-
-std::vector<FlagEdge> edges_of(const Points& points, RipsOptions options) {
+std::vector<FlagEdge> edges_of(const Points& points, const RipsOptions& options) {
   const Rips rips(points, options);
-  EXPECT_TRUE(rips.has_only_components());
-  const std::span<const FlagEdge> edges = rips.graph().edges();
+  const RipsGraph& forest = rips.graph(RipsForm::forest);
+  EXPECT_TRUE(forest.is_forest());
+  const std::span<const FlagEdge> edges = forest.edges();
   return {edges.begin(), edges.end()};
 }
 
-void expect_same(const Points& points, RipsOptions options = kForest) {
+void expect_same(const Points& points, RipsOptions options = {}) {
   options.device = Device::cpu;
   const auto expected = edges_of(points, options);
   options.device = Device::gpu;
@@ -36,10 +35,10 @@ void expect_same(const Points& points, RipsOptions options = kForest) {
 class GpuForest : public ::testing::Test {
  protected:
   void SetUp() override {
-    RipsOptions options = kForest;
+    RipsOptions options;
     options.device = Device::gpu;
     try {
-      Rips(Points{{0.0}}, options);
+      Rips(Points{{0.0}}, options).graph(RipsForm::forest);
     } catch (const Error& error) {
       GTEST_SKIP() << "NOT TESTED: " << error.what();
     }
@@ -80,8 +79,8 @@ TEST_F(GpuForest, IsThatOfTheCpu) {
                  " points of " + std::to_string(d) + " coordinates");
     const Points points = points_of(random, kind, n, d);
     expect_same(points);
-    RipsOptions options = kForest;
-    const auto edges = edges_of(points, kForest);
+    RipsOptions options;
+    const auto edges = edges_of(points, {});
     if (edges.empty()) return;  // the threshold: at an edge, and the last number before
     options.threshold = edges[static_cast<std::size_t>(random.real() * double(edges.size()))].value;
     expect_same(points, options);
@@ -111,7 +110,7 @@ TEST_F(GpuForest, OfSomeOfThePoints) {
   const Points points = random.points(300, 2, true);
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t i = 0; i < 300; i += 3) chosen.push_back(i);
-  RipsOptions options = kForest;
+  RipsOptions options;
   options.vertices = chosen;
   expect_same(points, options);
   options.merge_equal_points = true;
@@ -126,11 +125,11 @@ TEST_F(GpuForest, OfNoPoints) {
 }
 
 TEST_F(GpuForest, RefusesSquaresOutOfRange) {
-  RipsOptions options = kForest;
+  RipsOptions options;
   options.device = Device::gpu;
   for (const double x : {1e151, 1e-141})
     expect_error(ErrorKind::usage, "from 1e-140 to 1e150", [&] {
-      Rips(Points{{x}, {0.0}}, options);
+      Rips(Points{{x}, {0.0}}, options).graph(RipsForm::forest);
     });
 }
 
@@ -139,11 +138,11 @@ TEST_F(GpuForest, StopsWhenAskedTo) {
   stop.request_stop();
   RunContext context;
   context.stop = stop.get_token();
-  RipsOptions options = kForest;
+  RipsOptions options;
   options.device = Device::gpu;
   Generator random(1);
   expect_error(ErrorKind::cancelled, "",
-               [&] { Rips(random.points(9, 2, false), options, context); });
+               [&] { Rips(random.points(9, 2, false), options).graph(RipsForm::forest, context); });
 }
 
 }  // namespace

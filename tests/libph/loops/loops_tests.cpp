@@ -12,6 +12,7 @@
 #include "libph/loops/loop_oracle.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -36,7 +37,7 @@ void check_loops(const Rips& rips, const Options& asked, Counts& counts) {
   const auto tight = loops(rips, bars, options, true);
   ASSERT_EQ(plain.size(), bars.size());
   ASSERT_EQ(tight.size(), bars.size());
-  const FlagComplex complex(rips.graph(), p);
+  const FlagComplex complex(planned_graph(rips, options), p);
   for (std::size_t i = 0; i < bars.size(); ++i) {
     SCOPED_TRACE("bar " + std::to_string(i));
     if (bars[i].dim != 1) {

@@ -9,33 +9,38 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/points.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
 
 constexpr double kInf = kInfinity;
 
-template <class Data>
-std::vector<Pair> components_of(const Data& data, RipsOptions options, Engine engine,
+/// The pairs of a form, those of length zero as well.
+std::vector<Pair> components_of(const Rips& rips, RipsForm form, Engine engine,
                                 const RunContext& context = default_context()) {
-  return pairs_of(persistence(Rips(data, options, context),
-                              {.max_dim = 0, .engine = engine, .min_persistence = -1}));
+  return with_rips_filtration(rips.graph(form, context), 0,
+                              [&](const auto& f) { return pairs_of(f, 0, 2, engine); });
 }
 
 // The oracle has the whole filtration, every engine the forest.
 template <class Data>
-void expect_components_of_the_whole(const Data& data, RipsOptions options) {
-  const std::vector<Pair> expected = components_of(data, options, Engine::standard);
-  options.only_components = true;
-  const Rips forest(data, options);
-  EXPECT_TRUE(forest.has_only_components());
+void expect_components_of_the_whole(const Data& data, const RipsOptions& options) {
+  const Rips rips(data, options);
+  const std::vector<Pair> expected = components_of(rips, RipsForm::edges, Engine::standard);
+  const RipsGraph& forest = rips.graph(RipsForm::forest);
+  EXPECT_TRUE(forest.is_forest());
+  EXPECT_EQ(forest.size(), rips.size());
   EXPECT_LE(forest.edge_count(), static_cast<std::size_t>(std::max<Index>(forest.size() - 1, 0)));
   for (const auto& engine : detail::engine_facts()) {
     if (engine.id == Engine::standard || engine.id == Engine::gradient ||  // images only
         engine.id == Engine::beta_skeleton)                                // points alone
       continue;
-    EXPECT_EQ(components_of(data, options, engine.id), expected) << engine.id.name();
+    EXPECT_EQ(components_of(rips, RipsForm::forest, engine.id), expected) << engine.id.name();
   }
+  const Options task{.max_dim = 0, .min_persistence = -1};
+  EXPECT_EQ(plan(rips, task).form, RipsForm::forest);
+  EXPECT_EQ(pairs_of(persistence(rips, task)), expected);
 }
 
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
@@ -112,25 +117,30 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
     if (kind == 2)
       for (Index k = 1; k < d; ++k) as_matrix(points).col(k) = as_matrix(points).col(0);
     RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
-    options.only_components = true;
     if (random.coin()) options.threshold = random.real() / 2;
     const PointMetric metric(points, options.distance, options.minkowski_p);
-    const auto expected = components_of(AnyDistance{metric}, options, Engine::union_find);
+    const auto expected =
+        components_of(Rips(AnyDistance{metric}, options), RipsForm::forest, Engine::union_find);
     for (const int threads : {1, 2, 5}) {
       RunContext context;
       context.threads = threads;
-      EXPECT_EQ(components_of(points, options, Engine::union_find, context), expected);
+      const Rips rips(points, options, context);
+      EXPECT_EQ(components_of(rips, RipsForm::forest, Engine::union_find, context), expected);
     }
   });
 }
 
+// Of the forest that was given nothing else is there.
 TEST(Components, NothingElseIsThere) {
-  const Rips rips(to_points(PointMatrix::Random(9, 2)), {.only_components = true});
+  const Points points = to_points(PointMatrix::Random(9, 2));
+  const Rips rips(RipsGraph::forest_of_metric(PointMetric(points), {}, default_context()));
   EXPECT_EQ(persistence(rips).size(), 9U);
   expect_error(ErrorKind::usage, "only the components", [&] { persistence(rips, {.max_dim = 1}); });
   expect_error(ErrorKind::usage, "only the components", [&] { estimate(rips, {.max_dim = 2}); });
   EXPECT_EQ(estimate(rips).cells, (std::vector<double>{9, 8}));
-  EXPECT_EQ(rips.threshold(), kInf);
+  EXPECT_EQ(rips.graph(RipsForm::forest).threshold(), kInf);
+  for (const RipsForm form : {RipsForm::edges, RipsForm::distinct_edges, RipsForm::points})
+    expect_error(ErrorKind::usage, "of a graph", [&] { rips.graph(form); });
 }
 
 }  // namespace

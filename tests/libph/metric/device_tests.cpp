@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 // What a device is asked for and cannot do is refused; what it does: gpu/gpu_forest_tests.cpp.
-#include "ph/barcode.hpp"
-#include "ph/rips.hpp"
+#include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 
 namespace ph::test {
 namespace {
 
 const Points kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-constexpr RipsOptions kForest{.only_components = true, .device = Device::gpu};
+const RipsOptions kForest{.device = Device::gpu};
 
 TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
   const std::string can = "device gpu: computes components (H0) of points with Euclidean distances";
   const auto refused = [&](const std::string& found, const auto& data, const RipsOptions& options) {
     expect_error(ErrorKind::usage, can + ", found " + found, [&] { Rips(data, options); });
   };
-  refused("more than components", kSquare, {.device = Device::gpu});
-  refused("more than components", kSquare, {.only_points = true, .device = Device::gpu});
-  refused("more than components", kSquare, {.approximation = 0.5, .device = Device::gpu});
+  const auto refused_task = [&](const RipsOptions& options, const Options& task) {
+    expect_error(ErrorKind::usage, can + ", found more than components",
+                 [&] { plan(Rips(kSquare, options), task); });
+    expect_error(ErrorKind::usage, can + ", found more than components",
+                 [&] { persistence(Rips(kSquare, options), task); });
+  };
+  refused_task(kForest, {});
+  refused_task(kForest, {.engine = Engine::beta_skeleton});
+  refused_task(kForest, {.max_dim = 0, .engine = Engine::standard});
+  refused_task({.approximation = 0.5, .device = Device::gpu}, {.max_dim = 0});
   RipsOptions options = kForest;
   options.distance = PointDistance::manhattan;
   refused("another distance", kSquare, options);
@@ -41,9 +47,13 @@ TEST(Device, ArgumentsAreCheckedFirst) {
 
 #ifndef PH_WITH_CUDA  // else the driver says what is missing
 TEST(Device, IsSaidToBeMissing) {
+  const Options task{.max_dim = 0};
   expect_error(ErrorKind::not_built_in, "device gpu: not built in: it needs CUDA 12 or later",
-               [] { Rips(kSquare, kForest); });
-  expect_error(ErrorKind::not_built_in, "-DPH_WITH_CUDA=ON", [] { Rips(Points(), kForest); });
+               [&] { persistence(Rips(kSquare, kForest), task); });
+  expect_error(ErrorKind::not_built_in, "-DPH_WITH_CUDA=ON",
+               [&] { persistence(Rips(Points(), kForest), task); });
+  expect_error(ErrorKind::not_built_in, "-DPH_WITH_CUDA=ON",
+               [&] { Rips(kSquare, kForest).graph(RipsForm::forest); });
 }
 #endif
 

@@ -70,8 +70,7 @@ void expect_same_from(PointsView view, const Points& points, std::int64_t field)
     const auto bars = [&](PointsView p) {
       const Barcode all = persistence(Rips(p, {.distance = distance}), {.field = field});
       const Barcode few = persistence(Rips(p, {.threshold = 0.5, .distance = distance}));
-      const Barcode tree =
-          persistence(Rips(p, {.distance = distance, .only_components = true}), {.max_dim = 0});
+      const Barcode tree = persistence(Rips(p, {.distance = distance}), {.max_dim = 0});
       return std::array{all, few, tree};
     };
     const auto expected = bars(points), found = bars(view);

@@ -14,6 +14,7 @@
 #include "support/known_spaces.hpp"
 #include "support/matching.hpp"
 #include "support/points.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -171,7 +172,7 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
       EXPECT_EQ(late_matching_fault(early, late, dim, [&](double x) { return x * (1 + epsilon); }),
                 "")
           << "epsilon " << epsilon;
-    fewer += sparse.edge_count() < exact.edge_count() ? 1 : 0;
+    fewer += all_edges(sparse).edge_count() < all_edges(exact).edge_count() ? 1 : 0;
   });
   EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test is about something
 }
@@ -190,19 +191,20 @@ TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
     for (std::size_t k = 0; k < order.points.size(); ++k)
       largest[order.points[k]] = 2 * order.radii[k] * (1 + epsilon) / epsilon;
     const Rips sparse(points, {.threshold = kInf, .approximation = epsilon});
+    const RipsGraph& graph = all_edges(sparse);
     for (std::uint32_t u = 0; u < points.rows(); ++u) {
       for (std::uint32_t v = 0; v < u; ++v) {
         const double d = metric(u, v), last = (1 + epsilon) * std::min(largest[u], largest[v]);
         const auto meet_at = [&](double t) {
           return std::min(t, largest[u]) / 2 + std::min(t, largest[v]) / 2 >= d;
         };
-        const auto key = sparse.graph().adjacency().key_of(u, v);
+        const auto key = graph.adjacency().key_of(u, v);
         if (key == RipsAdjacency::kNever) {
           EXPECT_FALSE(d > 0 && meet_at(last * (1 - 1e-9)));
           ++missing;
           continue;
         }
-        const double value = sparse.graph().value(key);
+        const double value = graph.value(key);
         EXPECT_TRUE(meet_at(value * (1 + 1e-9)));
         EXPECT_FALSE(d > 0 && meet_at(value * (1 - 1e-9)));
         EXPECT_LE(value, last * (1 + 1e-9));
@@ -244,9 +246,9 @@ TEST(SparseRipsFiltrations, AreExactForASmallEpsilon) {
 TEST(SparseRipsFiltrations, HaveFewEdges) {
   Generator random(5);
   const Points points = random.points(3000, 2, false);
-  const std::size_t one = Rips(points, {.approximation = 1}).edge_count();
+  const std::size_t one = all_edges(Rips(points, {.approximation = 1})).edge_count();
   EXPECT_LT(one, 3000U * 2999 / 2 / 10);
-  EXPECT_GT(one, Rips(points, {.approximation = 2}).edge_count());
+  EXPECT_GT(one, all_edges(Rips(points, {.approximation = 2})).edge_count());
 }
 
 TEST(SparseRipsFiltrations, PassTheSuite) {
@@ -264,7 +266,7 @@ TEST(SparseRipsFiltrations, RefuseWhatMakesNoSense) {
   expect_error(ErrorKind::usage, "births",
                [&] { Rips(points, {.births = births, .approximation = 1}); });
   expect_error(ErrorKind::usage, "spanning forest",
-               [&] { Rips(points, {.approximation = 1, .only_components = true}); });
+               [&] { Rips(points, {.approximation = 1}).graph(RipsForm::forest); });
   expect_error(ErrorKind::usage, "all distances",
                [&] { Rips(SparseDistances(2, {}), {.approximation = 1}); });
   EXPECT_EQ(Rips(Points(0, 2), {.approximation = 1}).size(), 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Points alone against all edges: the same pairs, cell by cell, whatever the ties.
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stop_token>
@@ -57,17 +56,21 @@ Points shaped_points(Generator& random, Index n, Index d, bool ties) {
 void expect_same(const Points& points, RipsOptions rips, const Options& task, int threads) {
   Options by_edges = task;
   by_edges.engine = points.rows() <= 16 ? Engine::standard : Engine::edge_links;
-  const auto expected = pairs_of(persistence(Rips(points, rips), by_edges));
+  rips.merge_equal_points = false;
+  const Rips all(points, rips);
+  ASSERT_EQ(plan(all, by_edges).form, RipsForm::edges);
+  const auto expected = pairs_of(persistence(all, by_edges));
   RunContext context;
   context.threads = threads;
-  rips.only_points = true;
+  rips.merge_equal_points = std::nullopt;
   const Rips alone(points, rips, context);
-  ASSERT_TRUE(alone.has_only_points());
-  const Barcode found = persistence(alone, task, context);
+  Options by_points = task;
+  by_points.engine = Engine::beta_skeleton;
+  ASSERT_EQ(plan(alone, by_points).form, RipsForm::points);
+  const Barcode found = persistence(alone, by_points, context);
   EXPECT_EQ(pairs_of(found), expected);
-  Options without_cells = task;
-  without_cells.cells = false;
-  EXPECT_TRUE(std::ranges::equal(persistence(alone, without_cells, context), found));
+  by_points.cells = false;
+  EXPECT_TRUE(std::ranges::equal(persistence(alone, by_points, context), found));
 }
 
 void check_random(Generator& random, bool ties, std::int64_t field, Index n) {
@@ -151,64 +154,81 @@ TEST(BetaSkeleton, RegularPolygons) {
 
 TEST(BetaSkeleton, Refuses) {
   const Points points{{0, 0}, {1, 0}, {0, 1}};
-  const auto alone = [](PointsView p, RipsOptions options = {}) {
-    options.only_points = true;
-    return Rips(p, options);
+  const auto refused = [](const std::string& why, const Rips& rips, Options task = {}) {
+    task.engine = Engine::beta_skeleton;
+    const std::string what = "engine beta-skeleton: expected " + why;
+    expect_error(ErrorKind::usage, what, [&] { plan(rips, task); });
+    expect_error(ErrorKind::usage, what, [&] { persistence(rips, task); });
+    expect_error(ErrorKind::usage, what, [&] { estimate(rips, task); });
   };
-  expect_error(ErrorKind::usage, "Euclidean",
-               [&] { alone(points, {.distance = PointDistance::manhattan}); });
-  expect_error(ErrorKind::usage, "1 to 4 coordinates", [&] { alone(Points(3, 5)); });
-  expect_error(ErrorKind::usage, "enter at 0", [&] {
-    alone(points, {.births = std::array{0.0, 0.5, 1.0}});
+  refused("the Euclidean distance", Rips(points, {.distance = PointDistance::manhattan}));
+  refused("points of 1 to 4 coordinates", Rips(Points(3, 5)));
+  refused("vertices that all enter at 0", Rips(points, {.births = {0.0, 0.5, 1.0}}));
+  refused("vertices that all enter at 0", Rips(points, {.dtm_neighbours = 2}));
+  refused("the whole filtration, no sparse one", Rips(points, {.approximation = 0.5}));
+  refused("coordinates that are 0 or from 1e-120", Rips(Points{{0, 1e-130}, {0, 0}}));
+  const Rips distances(DistanceMatrix(2, std::vector<double>{1}));
+  refused("points", distances);
+  expect_error(ErrorKind::usage, "of distances", [&] { distances.graph(RipsForm::points); });
+  const Rips rips(points);
+  refused("H0 and H1", rips, {.max_dim = 2});
+  refused("bars of positive length", rips, {.min_persistence = -1});
+  refused("bars without representatives", rips, {.representatives = Representatives::cycles});
+  refused("what needs no edges to collapse", rips, {.collapse = Collapse::on});
+  refused("points", Rips(RipsGraph::of_edges(3, {}, {}, default_context())));
+  const RipsGraph& alone = rips.graph(RipsForm::points);
+  with_rips_filtration(alone, 1, [&](const auto& f) {
+    expect_error(ErrorKind::usage, "engine edge-links",
+                 [&] { persistence(f, {.max_dim = 1, .engine = Engine::edge_links}); });
   });
-  expect_error(ErrorKind::usage, "sparse", [&] { alone(points, {.approximation = 0.5}); });
-  expect_error(ErrorKind::usage, "1e-120", [&] { alone(Points{{0, 1e-130}, {0, 0}}); });
-  expect_error(ErrorKind::usage, "found distances",
-               [&] { Rips(DistanceMatrix(2, std::vector<double>{1}), {.only_points = true}); });
-  const Rips rips = alone(points);
-  expect_error(ErrorKind::usage, "H0 and H1", [&] { persistence(rips, {.max_dim = 2}); });
-  expect_error(ErrorKind::usage, "positive length",
-               [&] { persistence(rips, {.min_persistence = -1}); });
-  expect_error(ErrorKind::usage, "without representatives",
-               [&] { persistence(rips, {.representatives = Representatives::cycles}); });
-  expect_error(ErrorKind::usage, "engine edge-links",
-               [&] { persistence(rips, {.engine = Engine::edge_links}); });
-  expect_error(ErrorKind::usage, "engine beta-skeleton",
-               [&] { persistence(Rips(points), {.engine = Engine::beta_skeleton}); });
-  expect_error(ErrorKind::usage, "needs edges", [&] { rips.graph().edges(); });
-  EXPECT_EQ(estimate(rips).engine, Engine::beta_skeleton);
+  with_all_edges(rips, 1, [&](const auto& f) {
+    expect_error(ErrorKind::usage, "engine beta-skeleton",
+                 [&] { persistence(f, {.max_dim = 1, .engine = Engine::beta_skeleton}); });
+  });
+  expect_error(ErrorKind::usage, "needs edges", [&] { alone.edges(); });
+  EXPECT_EQ(estimate(rips, {.engine = Engine::beta_skeleton}).options.engine,
+            Engine::beta_skeleton);
 }
 
 TEST(BetaSkeleton, IsChosenWhereItPays) {
   const Options task{.max_dim = 1};
   Points many(6'000, 2);
   for (Index i = 0; i < many.rows(); ++i) many(i, 0) = static_cast<double>(i);
-  EXPECT_TRUE(holds_points_alone(many, {}, task));
-  EXPECT_FALSE(holds_points_alone(many, {}, {.max_dim = 2}));
-  EXPECT_FALSE(holds_points_alone(many, {}, {.max_dim = 0}));
-  EXPECT_FALSE(holds_points_alone(many, {.threshold = 5}, task));
-  EXPECT_TRUE(holds_points_alone(many, {.threshold = 5'000}, task));
-  EXPECT_FALSE(holds_points_alone(many, {}, {.representatives = Representatives::cycles}));
-  EXPECT_FALSE(holds_points_alone(Points(100, 2), {}, task));
-  EXPECT_TRUE(holds_points_alone(Points(100, 2), {}, {.engine = Engine::beta_skeleton}));
-  EXPECT_FALSE(holds_points_alone(many, {}, {.engine = Engine::edge_links}));
-  expect_error(ErrorKind::usage, "H0 and H1", [&] {
-    holds_points_alone(many, {}, {.max_dim = 2, .engine = Engine::beta_skeleton});
-  });
+  const auto by_points = [](const Points& points, const RipsOptions& options,
+                            const Options& wanted) {
+    RunContext context;
+    const RunPlan found = plan(Rips::borrowed(points, options, context), wanted, context);
+    EXPECT_LT(context.memory.peak(), 100'000U) << "an edge was made";
+    EXPECT_EQ(found.form == RipsForm::points, found.options.engine == Engine::beta_skeleton);
+    return found.form == RipsForm::points;
+  };
+  EXPECT_TRUE(by_points(many, {}, task));
+  EXPECT_FALSE(by_points(many, {}, {.max_dim = 2}));
+  EXPECT_FALSE(by_points(many, {}, {.max_dim = 0}));
+  EXPECT_FALSE(by_points(many, {.threshold = 5}, task));
+  EXPECT_TRUE(by_points(many, {.threshold = 5'000}, task));
+  EXPECT_FALSE(by_points(many, {}, {.representatives = Representatives::cycles}));
+  EXPECT_FALSE(by_points(Points(100, 2), {}, task));
+  EXPECT_TRUE(by_points(Points(100, 2), {}, {.engine = Engine::beta_skeleton}));
+  EXPECT_FALSE(by_points(many, {}, {.engine = Engine::edge_links}));
+  expect_error(ErrorKind::usage, "H0 and H1",
+               [&] { by_points(many, {}, {.max_dim = 2, .engine = Engine::beta_skeleton}); });
 }
 
 TEST(BetaSkeleton, EndsAtTheMemoryLimitAndOnRequest) {
   Generator random(1);
   const Points points = random.points(20'000, 3, false);
   RunContext context;
-  const Rips rips(points, {.only_points = true}, context);
+  const Rips rips(points, {}, context);
+  const Options task{.engine = Engine::beta_skeleton};
+  rips.graph(RipsForm::points, context);
   context.memory.set_limit(context.memory.used() + 200'000);
-  expect_error(ErrorKind::resource, "", [&] { persistence(rips, {}, context); });
+  expect_error(ErrorKind::resource, "", [&] { persistence(rips, task, context); });
   std::stop_source source;
   RunContext stopped;
   stopped.stop = source.get_token();
   source.request_stop();
-  expect_error(ErrorKind::cancelled, "", [&] { persistence(rips, {}, stopped); });
+  expect_error(ErrorKind::cancelled, "", [&] { persistence(rips, task, stopped); });
 }
 
 }  // namespace

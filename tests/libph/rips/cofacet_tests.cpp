@@ -38,11 +38,11 @@ std::map<std::vector<Index>, Key> cofacets_of(const std::vector<Index>& simplex,
 template <class F>
 void expect_cofacets(const F& f, const Rips& rips, Generator& random) {
   std::map<std::set<Index>, Key> key_of;
-  for (Key key = 1; key <= rips.edge_count(); ++key) {
-    const FlagEdge& e = rips.graph().edge(key);
+  for (Key key = 1; key <= all_edges(rips).edge_count(); ++key) {
+    const FlagEdge& e = all_edges(rips).edge(key);
     key_of[{Index{e.u}, Index{e.v}}] = key;
   }
-  const auto last_key = static_cast<int>(rips.edge_count());
+  const auto last_key = static_cast<int>(all_edges(rips).edge_count());
   for (int dim = 0; dim <= (rips.size() < 20 ? 7 : 2); ++dim) {
     int number = 0;
     f.for_each_cell(dim, [&](const auto& cell) {
@@ -73,8 +73,8 @@ TEST(RipsCofacets, AreThoseOfTheRange) {
       SCOPED_TRACE(std::to_string(size) + " points, " + std::to_string(density));
       Generator random(static_cast<std::uint64_t>(size));
       const Rips rips(random.sparse(size, random.coin(), density));
-      if (rips.edge_count() == 0) continue;
-      with_rips_filtration(rips.graph(), size < 20 ? 7 : 2,
+      if (all_edges(rips).edge_count() == 0) continue;
+      with_rips_filtration(all_edges(rips), size < 20 ? 7 : 2,
                            [&](const auto& f) { expect_cofacets(f, rips, random); });
     }
   }

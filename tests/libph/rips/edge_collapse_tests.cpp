@@ -12,6 +12,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/representatives.hpp"
+#include "support/rips_graphs.hpp"
 #include "support/test_data.hpp"
 
 namespace ph::test {
@@ -37,6 +38,11 @@ Rips random_rips(Generator& random, Index most_points, bool ties) {
     default:
       return Rips(random.sparse(n, ties, random.real()), options);
   }
+}
+
+/// The edges that would be collapsed.
+const RipsGraph& graph_of(const Rips& rips) {
+  return planned_graph(rips, {.max_dim = 1, .engine = Engine::cohomology});
 }
 
 TEST(EdgeCollapse, LeavesTheBarsAsTheyAre) {
@@ -76,16 +82,16 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
   std::size_t moved = 0;
   for_each_seed(2000, [&](Generator& random, bool ties, std::int64_t) {
     const Rips rips = random_rips(random, 12, ties);
-    const RipsGraph collapsed = collapse_edges(rips.graph());
+    const RipsGraph& graph = graph_of(rips);
+    const RipsGraph collapsed = collapse_edges(graph);
     EXPECT_EQ(edges_of(collapsed),
-              edges_of(collapse_edges(rips.graph(), default_context(), CollapseLayout::lists)));
-    EXPECT_EQ(collapsed.size(), rips.size());
-    EXPECT_EQ(collapsed.threshold(), rips.threshold());
-    for (std::uint32_t v = 0; v < rips.size(); ++v)
-      EXPECT_EQ(collapsed.name(v), rips.graph().name(v));
+              edges_of(collapse_edges(graph, default_context(), CollapseLayout::lists)));
+    EXPECT_EQ(collapsed.size(), graph.size());
+    EXPECT_EQ(collapsed.threshold(), graph.threshold());
+    for (std::uint32_t v = 0; v < graph.size(); ++v) EXPECT_EQ(collapsed.name(v), graph.name(v));
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> value_of;
     std::set<double> values;
-    for (const FlagEdge& e : rips.graph().edges()) {
+    for (const FlagEdge& e : graph.edges()) {
       value_of[{e.u, e.v}] = e.value;
       values.insert(e.value);
     }
@@ -108,7 +114,7 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
       before = &e;
     }
     for (const FlagEdge& e : collapsed.edges()) value_of.erase({e.u, e.v});
-    EXPECT_EQ(collapsed.edge_count() + value_of.size(), rips.edge_count());
+    EXPECT_EQ(collapsed.edge_count() + value_of.size(), graph.edge_count());
   });
   EXPECT_TRUE(is_enough(moved, std::size_t{1000})) << moved;
 }
@@ -117,17 +123,18 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
 TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   for_each_seed(6, [](Generator& random, bool, std::int64_t) {
     const Rips rips(random.points(120, 3, false));
-    EXPECT_GT(dominated_share(rips.graph()), 0.9);
-    EXPECT_LT(dominated_share(collapse_edges(rips.graph())), 0.1);
+    EXPECT_GT(dominated_share(all_edges(rips)), 0.9);
+    EXPECT_LT(dominated_share(collapse_edges(all_edges(rips))), 0.1);
   });
 }
 
 /// The diameter of a simplex of the input.
 double diameter(const Rips& rips, const InputCell& cell) {
+  const RipsGraph& graph = all_edges(rips);
   double largest = 0;
   for (std::size_t i = 0; i < cell.numbers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      largest = std::max(largest, rips.graph().value(rips.graph().adjacency().key_of(
+      largest = std::max(largest, graph.value(graph.adjacency().key_of(
                                       static_cast<std::uint32_t>(cell.numbers[i]),
                                       static_cast<std::uint32_t>(cell.numbers[j]))));
   return largest;
@@ -180,7 +187,7 @@ TEST(EdgeCollapse, CyclesAreThoseOfTheWholeComplex) {
                                               .engine = engine,
                                               .collapse = Collapse::on,
                                               .representatives = Representatives::cycles});
-      rips.with_filtration(max_dim, [&](const auto& f) {
+      with_rips_filtration(graph_of(rips), max_dim, [&](const auto& f) {
         const OrderedCells cells(f, max_dim + 1, field);
         for (std::size_t i = 0; i < bars.size(); ++i) check_cycle_by_value(f, cells, bars, i);
       });
@@ -189,7 +196,7 @@ TEST(EdgeCollapse, CyclesAreThoseOfTheWholeComplex) {
 }
 
 TEST(EdgeCollapse, KeepsWhatItMust) {
-  const auto kept = [](const Rips& rips) { return collapse_edges(rips).edge_count(); };
+  const auto kept = [](const Rips& rips) { return collapse_edges(all_edges(rips)).edge_count(); };
   // A simplex collapses to a tree, whatever its edges' lengths.
   EXPECT_EQ(kept(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0)))), 8U);
   EXPECT_EQ(kept(Rips(DistanceMatrix(3, {1, 2, 3}))), 2U);
@@ -231,11 +238,11 @@ TEST(EdgeCollapse, CountsOfTestData) {
   const auto klein = points_of(folder / "klein_400.txt");
   if (!orthogonal || !klein) GTEST_SKIP() << "skipped: o3_1024.txt or klein_400.txt is missing";
   const Rips o3(*orthogonal, {.threshold = 1.8});
-  EXPECT_EQ(o3.edge_count(), 33189U);
-  EXPECT_EQ(collapse_edges(o3).edge_count(), 7227U);
+  EXPECT_EQ(all_edges(o3).edge_count(), 33189U);
+  EXPECT_EQ(collapse_edges(all_edges(o3)).edge_count(), 7227U);
   const Rips bottle(*klein);
-  EXPECT_EQ(bottle.edge_count(), 66799U);
-  EXPECT_EQ(collapse_edges(bottle).edge_count(), 1830U);
+  EXPECT_EQ(all_edges(bottle).edge_count(), 66799U);
+  EXPECT_EQ(collapse_edges(all_edges(bottle)).edge_count(), 1830U);
 }
 
 TEST(EdgeCollapse, RefusesWhatItWouldSpoil) {
@@ -258,7 +265,8 @@ TEST(EdgeCollapse, StopsWhenAsked) {
     source.request_stop();
     RunContext context;
     context.stop = source.get_token();
-    expect_error(ErrorKind::cancelled, "", [&] { collapse_edges(rips.graph(), context, layout); });
+    expect_error(ErrorKind::cancelled, "",
+                 [&] { collapse_edges(all_edges(rips), context, layout); });
   }
 }
 
@@ -269,19 +277,19 @@ TEST(EdgeCollapse, KeepsToTheMemoryLimit) {
     RunContext context;
     context.memory.set_limit(20000);
     expect_error(ErrorKind::resource, "memory limit",
-                 [&] { collapse_edges(rips.graph(), context, layout); });
+                 [&] { collapse_edges(all_edges(rips), context, layout); });
     EXPECT_EQ(context.memory.used(), 0U);
   }
 }
 
 TEST(EdgeCollapse, TheSampleTellsSpheresFromSolids) {
-  EXPECT_EQ(dominated_share(Rips(Points(0, 2)).graph()), 0);
-  EXPECT_EQ(dominated_share(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0))).graph()), 1);
-  EXPECT_EQ(dominated_share(Rips(circle(9), {.threshold = chord(9, 1) * 1.01}).graph()), 0);
+  EXPECT_EQ(dominated_share(all_edges(Rips(Points(0, 2)))), 0);
+  EXPECT_EQ(dominated_share(all_edges(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0))))), 1);
+  EXPECT_EQ(dominated_share(all_edges(Rips(circle(9), {.threshold = chord(9, 1) * 1.01}))), 0);
   Generator random(3);
   const Points solid = random.points(300, 2, false);
-  EXPECT_GT(dominated_share(Rips(solid).graph()), 0.8);
-  EXPECT_LT(dominated_share(Rips(random.distances(100, false)).graph()), 0.3);
+  EXPECT_GT(dominated_share(all_edges(Rips(solid))), 0.8);
+  EXPECT_LT(dominated_share(all_edges(Rips(random.distances(100, false)))), 0.3);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ std::size_t count_of_h3(const std::vector<Pair>& pairs) {
 /// @return how many classes of H3 there are.
 std::size_t check_volumes(const Rips& rips, std::int64_t field, Engine expected_by) {
   std::size_t count = 0;
-  rips.with_filtration(3, [&](const auto& f) {
+  with_all_edges(rips, 3, [&](const auto& f) {
     const auto expected = of_positive_length(pairs_of(f, 3, field, expected_by));
     for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
       EXPECT_EQ(pairs_of_edge_links(f, 3, field, {.layout = layout}, 0), expected);

@@ -8,6 +8,7 @@
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -27,7 +28,7 @@ TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
       radius = std::min(radius, farthest);
     }
     const Rips rips(d);
-    EXPECT_EQ(rips.threshold(), radius);
+    EXPECT_EQ(all_edges(rips).threshold(), radius);
     // Beyond the radius nothing changes, whatever the distances.
     EXPECT_EQ(bars_of(persistence(rips, {.max_dim = 3})),
               bars_of(persistence(Rips(d, {.threshold = kInf}), {.max_dim = 3})));
@@ -36,13 +37,17 @@ TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
 
 TEST(RipsGraphs, TheThresholdIsInclusive) {
   const DistanceMatrix d(3, {1, 2, 3});
-  EXPECT_EQ(Rips(d, {.threshold = 2}).edge_count(), 2U);
-  EXPECT_EQ(Rips(d, {.threshold = std::nextafter(2.0, 0.0)}).edge_count(), 1U);
-  EXPECT_EQ(Rips(d, {.threshold = 0}).edge_count(), 0U);
-  EXPECT_EQ(Rips(SparseDistances(3, {{0, 1, 2}, {1, 2, 3}}), {.threshold = 2}).edge_count(), 1U);
+  EXPECT_EQ(all_edges(Rips(d, {.threshold = 2})).edge_count(), 2U);
+  EXPECT_EQ(all_edges(Rips(d, {.threshold = std::nextafter(2.0, 0.0)})).edge_count(), 1U);
+  EXPECT_EQ(all_edges(Rips(d, {.threshold = 0})).edge_count(), 0U);
+  EXPECT_EQ(
+      all_edges(Rips(SparseDistances(3, {{0, 1, 2}, {1, 2, 3}}), {.threshold = 2})).edge_count(),
+      1U);
   const Points line{{0}, {1}, {3}};
-  EXPECT_EQ(Rips(line, {.threshold = 2}).edge_count(), 2U) << "by the k-d tree";
-  EXPECT_EQ(Rips(line, {.threshold = 2, .distance = PointDistance::manhattan}).edge_count(), 2U);
+  EXPECT_EQ(all_edges(Rips(line, {.threshold = 2})).edge_count(), 2U) << "by the k-d tree";
+  EXPECT_EQ(
+      all_edges(Rips(line, {.threshold = 2, .distance = PointDistance::manhattan})).edge_count(),
+      2U);
   for (const double bad : {-1.0, kNan, -kInf}) {
     expect_error(ErrorKind::usage, "threshold", [&] { Rips(d, {.threshold = bad}); });
     expect_error(ErrorKind::usage, "threshold",
@@ -54,19 +59,19 @@ TEST(RipsGraphs, TheThresholdIsInclusive) {
 // Keys 1, 2, … are the edges by (distance, larger end, smaller end).
 void expect_keys_ascend(const Rips& rips) {
   std::vector<std::array<double, 3>> edges;
-  for (RipsGraph::Key key = 1; key <= rips.edge_count(); ++key) {
-    const auto edge = rips.graph().edge(key);
+  for (RipsGraph::Key key = 1; key <= all_edges(rips).edge_count(); ++key) {
+    const auto edge = all_edges(rips).edge(key);
     EXPECT_GT(edge.u, edge.v);
-    EXPECT_EQ(rips.graph().adjacency().key_of(edge.u, edge.v), key);
-    EXPECT_EQ(rips.graph().adjacency().key_of(edge.v, edge.u), key);
-    edges.push_back({rips.graph().value(key), double(edge.u), double(edge.v)});
+    EXPECT_EQ(all_edges(rips).adjacency().key_of(edge.u, edge.v), key);
+    EXPECT_EQ(all_edges(rips).adjacency().key_of(edge.v, edge.u), key);
+    edges.push_back({all_edges(rips).value(key), double(edge.u), double(edge.v)});
   }
   EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
 }
 
 TEST(RipsGraphs, KeysAscendWithDistanceAndVertices) {
   const Rips small(DistanceMatrix(4, {1, 1, 1, 0, 2, 1}), {.threshold = 2});
-  EXPECT_EQ(small.edge_count(), 6U);
+  EXPECT_EQ(all_edges(small).edge_count(), 6U);
   expect_keys_ascend(small);
   for (const bool ties : {true, false}) {
     Generator random(5);
@@ -102,7 +107,7 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
           expected.push_back({distances(u, v), double(u), double(v)});
     std::sort(expected.begin(), expected.end());
     const Rips rips(distances, {.threshold = threshold});
-    for (const FlagEdge& e : rips.graph().edges())
+    for (const FlagEdge& e : all_edges(rips).edges())
       found.push_back({e.value, double(e.u), double(e.v)});
     EXPECT_EQ(found, expected) << "seed " << seed;
   }
@@ -116,7 +121,7 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   one.threads = 1;
   three.threads = 3;
   const Rips expected(points, {}, one), found(points, {}, three);
-  const BinnedEdges& bins = found.graph().binned_edges();
+  const BinnedEdges& bins = found.graph(RipsForm::edges, three).binned_edges();
   ASSERT_GT(bins.bin_count(), 10U);
   const auto is_sorted = [](std::span<const FlagEdge> edges) {
     return std::ranges::is_sorted(edges,
@@ -126,10 +131,10 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   EXPECT_EQ(bins.sorted_bins(half).size(), bins.bin_begin(half));
   EXPECT_TRUE(is_sorted(bins.sorted_bins(half)));
   EXPECT_FALSE(bins.with_bins(half, bins.bin_count(), is_sorted));
-  const auto all = found.graph().edges();
-  ASSERT_EQ(all.size(), expected.edge_count());
+  const auto all = all_edges(found).edges();
+  ASSERT_EQ(all.size(), expected.graph(RipsForm::edges, one).edge_count());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const FlagEdge& e = expected.graph().edges()[i];
+    const FlagEdge& e = all_edges(expected).edges()[i];
     ASSERT_TRUE(all[i].value == e.value && all[i].u == e.u && all[i].v == e.v) << i;
   }
 }
@@ -153,25 +158,25 @@ TEST(RipsGraphs, ThreadsAgreeOnManyEdges) {
 TEST(RipsGraphs, ZeroHasOneSign) {
   const Rips rips(NegativeZeros{});
   expect_keys_ascend(rips);
-  for (RipsGraph::Key key = 1; key <= rips.edge_count(); ++key)
-    EXPECT_FALSE(std::signbit(rips.graph().value(key)));
+  for (RipsGraph::Key key = 1; key <= all_edges(rips).edge_count(); ++key)
+    EXPECT_FALSE(std::signbit(all_edges(rips).value(key)));
 }
 
 TEST(RipsGraphs, InfiniteDistancesAreNoEdges) {
   const Rips matrix(DistanceMatrix(3, {1, kInf, kInf}), {.threshold = kInf});
-  EXPECT_EQ(matrix.edge_count(), 1U);
+  EXPECT_EQ(all_edges(matrix).edge_count(), 1U);
   const Rips no_radius(DistanceMatrix(3, {1, kInf, kInf}));
-  EXPECT_EQ(no_radius.edge_count(), 1U);
+  EXPECT_EQ(all_edges(no_radius).edge_count(), 1U);
   EXPECT_EQ(bars_of(persistence(no_radius)),
             (std::vector<Bar>{{0, 0, 1}, {0, 0, kInf}, {0, 0, kInf}}));
-  EXPECT_EQ(Rips(SparseDistances(2, {{0, 1, kInf}})).edge_count(), 0U);
+  EXPECT_EQ(all_edges(Rips(SparseDistances(2, {{0, 1, kInf}}))).edge_count(), 0U);
 }
 
 TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
   const Points far{{-1.7e308}, {1.7e308}};
   for (const std::optional<double> threshold : {std::optional<double>(), std::optional(kInf)})
     expect_error(ErrorKind::bad_data, "largest double",
-                 [&] { Rips(far, {.threshold = threshold}); });
+                 [&] { all_edges(Rips(far, {.threshold = threshold})); });
 }
 
 // Vertices without edges make the graph sparse and change nothing else.
@@ -181,23 +186,23 @@ TEST(RipsGraphs, LayoutsAgree) {
     const SparseDistances few = random.sparse(random.integer(4, 9), random.coin(), 0.8);
     const SparseDistances many(few.size() + 40, few.edges());
     const Rips dense(few), sparse(many);
-    EXPECT_FALSE(sparse.graph().is_dense());
+    EXPECT_FALSE(all_edges(sparse).is_dense());
     const auto expected = pairs_of(persistence(dense, {.max_dim = 3, .min_persistence = -1}));
     std::vector<Pair> found;
     for (Pair& p : pairs_of(persistence(sparse, {.max_dim = 3, .min_persistence = -1})))
       if (p.birth_cell[0] < few.size()) found.push_back(std::move(p));
     EXPECT_EQ(found, expected);
   }
-  EXPECT_TRUE(Rips(DistanceMatrix(3, {1, 1, 1})).graph().is_dense());
+  EXPECT_TRUE(all_edges(Rips(DistanceMatrix(3, {1, 1, 1}))).is_dense());
 }
 
 TEST(RipsGraphs, CliqueBoundsHold) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator random(seed);
     const Rips rips(random.sparse(random.integer(0, 12), true, random.real()));
-    const Index bound = rips.graph().adjacency().clique_bound();
+    const Index bound = all_edges(rips).adjacency().clique_bound();
     EXPECT_LE(bound, rips.size());
-    rips.with_filtration(20, [&](const auto& f) {
+    with_all_edges(rips, 20, [&](const auto& f) {
       EXPECT_EQ(f.top_dim(), static_cast<int>(bound) - 1);
       for (int dim = 0; dim <= f.top_dim() + 1; ++dim) f.for_each_cell(dim, [](const auto&) {});
     });
@@ -243,8 +248,10 @@ struct Broken {
 TEST(RipsInputs, ABrokenMetricIsRefused) {
   for (const double bad : {-1.0, kNan, -kInf}) {
     expect_error(ErrorKind::bad_data, "distance (2, 1)",
-                 [&] { Rips rips(Broken{bad}, {.threshold = 5}); });
-    expect_error(ErrorKind::bad_data, "distance", [&] { Rips rips(Broken{bad}); });
+                 [&] { all_edges(Rips(Broken{bad}, {.threshold = 5})); });
+    expect_error(ErrorKind::bad_data, "distance", [&] { all_edges(Rips(Broken{bad})); });
+    expect_error(ErrorKind::bad_data, "distance (2, 1)",
+                 [&] { Rips(Broken{bad}).graph(RipsForm::forest); });
   }
 }
 
@@ -269,6 +276,7 @@ TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
       if (x == 0 && random.coin()) x = -0.0;
     RipsOptions options;
     if (random.coin()) options.threshold = random.integer(0, 3);
+    options.merge_equal_points = false;
     const Rips all(points, options);
     options.merge_equal_points = true;
     const Rips merged(points, options);
@@ -282,7 +290,8 @@ TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
 TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
   Points points{{3}, {3}, {0}, {3}, {0}};
   const Rips merged(points, {.merge_equal_points = true});
-  EXPECT_EQ(merged.size(), 2);
+  EXPECT_EQ(merged.size(), 5);
+  EXPECT_EQ(merged.graph(RipsForm::distinct_edges).size(), 2);
   const Barcode barcode = persistence(merged);
   ASSERT_EQ(barcode.size(), 2U);
   EXPECT_EQ(barcode[0], (Bar{0, 0, 3}));
@@ -298,9 +307,9 @@ TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   for (Index i = 0; i < points.rows(); ++i)
     points.set_row(i, {static_cast<double>(i % 7), static_cast<double>(i % 3), 1e300});
   const Rips rips(points, {.merge_equal_points = true});
-  EXPECT_EQ(rips.size(), 21);
+  EXPECT_EQ(rips.graph(RipsForm::distinct_edges).size(), 21);
   const Rips near(points, {.threshold = 1, .merge_equal_points = true});
-  EXPECT_EQ(near.edge_count(), 32U) << "a grid of 7 x 3";
+  EXPECT_EQ(near.graph(RipsForm::distinct_edges).edge_count(), 32U) << "a grid of 7 x 3";
 }
 
 TEST(RipsInputs, WideCellsWhereOneWordIsNotEnough) {
@@ -343,7 +352,7 @@ TEST(RipsFiltrations, CellsInNoApparentPair) {
                           ? Rips(random.points(70, 3, ties), {.threshold = ties ? 1 : 0.4})
                       : seed % 3 == 1 ? Rips(random.sparse(140, ties, 0.15))
                                       : Rips(random.distances(20, ties));
-    rips.with_filtration(4, [&](const auto& f) {
+    with_all_edges(rips, 4, [&](const auto& f) {
       check_apparent_pairs(f, 2);
       for (const int dim : {1, 2, 3, 4})
         EXPECT_EQ(unmatched_cells(f, dim, true), unmatched_cells(f, dim, false)) << seed;

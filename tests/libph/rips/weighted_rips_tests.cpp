@@ -10,6 +10,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
+#include "support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {
@@ -71,7 +72,7 @@ TEST(VertexWeights, EdgesEnterWhenBallsMeet) {
 
 /// The same filtration from a list of simplices, numbered as in the input.
 ExplicitComplex listed(const DistanceMatrix& distances, const RipsOptions& options, int top) {
-  const VertexWeights weights(options.births, options.weight_exponent);
+  const VertexWeights weights(options.births, *options.weight_exponent);
   const double limit = options.threshold.value_or(kInf);
   std::vector<Index> chosen(options.vertices.begin(), options.vertices.end());
   if (chosen.empty()) {
@@ -123,9 +124,13 @@ TEST(WeightedRips, IsTheFiltrationThatItSays) {
       for (Index v = 0; v < u; ++v) edges.push_back({u, v, distances(u, v)});
     EXPECT_EQ(bars(Rips(SparseDistances(n, edges), options)), expected);
     if (max_dim == 0) {
-      options.only_components = true;
-      EXPECT_EQ(bars(Rips(distances, options)), expected);
-      EXPECT_EQ(bars(Rips(SparseDistances(n, edges), options)), expected);
+      const auto components = [&](const Rips& rips) {
+        const RunPlan of_forest = plan(rips, {.max_dim = 0, .field = field});
+        EXPECT_EQ(of_forest.form, RipsForm::forest);
+        return bars_of(run(rips, of_forest));
+      };
+      EXPECT_EQ(components(Rips(distances, options)), expected);
+      EXPECT_EQ(components(Rips(SparseDistances(n, edges), options)), expected);
     }
   });
 }
@@ -157,9 +162,9 @@ TEST(WeightedRips, CollapseLeavesTheBarsAsTheyAre) {
     if (random.coin()) options.threshold = random.value(ties);
     const Rips rips = random.coin() ? Rips(random.distances(n, ties), options)
                                     : Rips(random.sparse(n, ties, random.real()), options);
-    const Rips fewer = collapse_edges(rips);
-    for (const FlagEdge& e : fewer.graph().edges())
-      EXPECT_GE(e.value, std::max(rips.graph().birth(e.u), rips.graph().birth(e.v)));
+    const RipsGraph fewer = collapse_edges(all_edges(rips));
+    for (const FlagEdge& e : fewer.edges())
+      EXPECT_GE(e.value, std::max(all_edges(rips).birth(e.u), all_edges(rips).birth(e.v)));
     check_collapse(rips, random.integer(0, 2), field);
   });
 }
@@ -172,7 +177,7 @@ TEST(WeightedRips, TheDefaultThresholdIsEnough) {
     const std::vector<double> births = random_births(random, n, ties);
     RipsOptions options{.births = births, .weight_exponent = kExponents[random.integer(0, 2)]};
     const Rips rips(distances, options);
-    EXPECT_GE(rips.threshold(), *std::ranges::max_element(births));
+    EXPECT_GE(all_edges(rips).threshold(), *std::ranges::max_element(births));
     options.threshold = kInf;
     const Options wanted{.max_dim = 2, .field = field};
     EXPECT_EQ(bars_of(persistence(rips, wanted)),
@@ -189,21 +194,21 @@ TEST(WeightedRips, PointsAndTheirMatrixAreOne) {
     RipsOptions options{
         .vertices = chosen, .births = births, .weight_exponent = kExponents[random.integer(0, 2)]};
     if (random.coin()) options.threshold = random.value(ties);
-    options.only_components = random.integer(0, 3) == 0;
+    const RipsForm form = random.integer(0, 3) == 0 ? RipsForm::forest : RipsForm::edges;
     const PointMetric metric(points);
-    const Rips of_points(points, options), of_metric(metric, options);
-    const auto edges = [](const Rips& rips) {
+    const Rips rips_of_points(points, options), rips_of_metric(metric, options);
+    const RipsGraph& of_points = rips_of_points.graph(form);
+    const RipsGraph& of_metric = rips_of_metric.graph(form);
+    const auto edges = [](const RipsGraph& graph) {
       std::vector<std::array<double, 3>> list;
-      for (const FlagEdge& e : rips.graph().edges())
-        list.push_back({e.value, double(e.u), double(e.v)});
+      for (const FlagEdge& e : graph.edges()) list.push_back({e.value, double(e.u), double(e.v)});
       return list;
     };
     EXPECT_EQ(edges(of_points), edges(of_metric));
     ASSERT_EQ(of_points.size(), of_metric.size());
     for (std::uint32_t v = 0; v < of_points.size(); ++v) {
-      EXPECT_EQ(of_points.graph().name(v), of_metric.graph().name(v));
-      EXPECT_EQ(of_points.graph().birth(v),
-                births[static_cast<std::size_t>(of_points.graph().name(v))]);
+      EXPECT_EQ(of_points.name(v), of_metric.name(v));
+      EXPECT_EQ(of_points.birth(v), births[static_cast<std::size_t>(of_points.name(v))]);
     }
   });
 }

@@ -42,7 +42,7 @@ struct CloudPartForecast {
 /// The components of a point cloud, as far as they are known from some blocks of it and what is
 /// near these: edges of its minimum spanning tree. Parts are computed apart, by any processes that
 /// can read the cloud, on any machines, and joined in any grouping and order: what comes of all of
-/// them is, bit by bit, what Rips has of the whole cloud with RipsOptions::only_components. See
+/// them is, bit by bit, the spanning forest of Rips of the whole cloud. See
 /// docs/explanation/engines/cloud-parts.md.
 ///
 /// Points of at most eight coordinates, with Euclidean distances. A cloud has any number of points;

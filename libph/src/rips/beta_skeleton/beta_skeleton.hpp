@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/engine.hpp"
 #include "ph/filtration.hpp"
+#include "ph/rips.hpp"
 #include "rips/beta_skeleton/pair_points.hpp"
 
 namespace ph {
 
-/// H0 and H1 of the Vietoris-Rips filtration of points of few coordinates that holds the points
-/// alone, see pair_points.hpp: no edges are listed.
+/// H0 and H1 of the Vietoris-Rips filtration of points of few coordinates, from the points alone:
+/// no edges are listed, see pair_points.hpp.
 struct BetaSkeletonEngine {
   static constexpr Engine id = Engine::beta_skeleton;
-  static constexpr bool takes_points_alone = true;
+  static constexpr std::array rips_forms{RipsForm::points};
+  /// What the points or the task would need to be; empty: nothing more.
+  static std::string_view obstacle(const RipsInput& input, const Task& task);
+  static Suitability suitability(const RipsInput& input, const Task& task);
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     if constexpr (requires { f.points_alone(); })
-      return f.points_alone() && task.max_dim <= 1 && !task.zero_length &&
-             task.representatives == Representatives::none;
+      return f.points_alone() && obstacle(task).empty();
     else
       return false;
   }
   template <Filtration F>
   static Suitability suitability(const F&, const Task&) {
-    return {5, "H0 and H1 of points of few coordinates need no edges"};
+    return kSuits;
   }
   static constexpr int listed_dim(int) { return -1; }
   static constexpr bool goes_by_edges = true;
@@ -43,6 +47,9 @@ struct BetaSkeletonEngine {
   }
 
  private:
+  static constexpr Suitability kSuits{5, "H0 and H1 of points of few coordinates need no edges"};
+  static std::string_view obstacle(const Task& task);
+
   /// Turns pairs of points into bars.
   template <class F>
   class Reporter final : public PointPairObserver {

@@ -174,10 +174,6 @@ RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context, Coll
   return collapsed;
 }
 
-Rips collapse_edges(const Rips& rips, const RunContext& context) {
-  return Rips(collapse_edges(rips.graph(), context));
-}
-
 double dominated_share(const RipsGraph& graph, const RunContext& context) {
   return collapse::with_collapse(graph, context, CollapseLayout::automatic,
                                  [](auto&& c) { return c.dominated_share(collapse::kSample); });

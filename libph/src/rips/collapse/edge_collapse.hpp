@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/rips.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -32,7 +32,6 @@ enum class CollapseLayout {
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.
 RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context = default_context(),
                          CollapseLayout layout = CollapseLayout::automatic);
-Rips collapse_edges(const Rips& rips, const RunContext& context = default_context());
 
 /// What a collapse takes at least, in bytes: n^2/8, or where that is too much 16 bytes an edge.
 double collapse_bytes(const RipsGraph& graph);

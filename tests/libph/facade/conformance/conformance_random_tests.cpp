@@ -39,7 +39,7 @@ TEST(RandomConformance, WideRipsCells) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.sparse(random.integer(1, 8), ties, 0.7));
     const int max_dim = random.integer(0, 3);
-    check(RipsFiltration<RipsLayout::any, 4>(rips.graph()), max_dim, {field});
+    check(RipsFiltration<RipsLayout::any, 4>(all_edges(rips)), max_dim, {field});
   });
 }
 
@@ -76,7 +76,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
     const int max_dim = random.integer(1, 3);
     const Rips rips = random.coin() ? Rips(random.points(n, random.integer(2, 5), ties))
                                     : Rips(random.distances(n, ties));
-    rips.with_filtration(max_dim, [&](const auto& f) { check_threads(f, max_dim); });
+    with_all_edges(rips, max_dim, [&](const auto& f) { check_threads(f, max_dim); });
   });
 }
 
@@ -85,7 +85,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
 TEST(RandomConformance, ThreadsOnManyColumns) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(26, ties));
-    rips.with_filtration(2, [&](const auto& f) {
+    with_all_edges(rips, 2, [&](const auto& f) {
       const auto alone = pairs_of_threads(f, 2, field, 1);
       EXPECT_EQ(alone, pairs_of(f, 2, field, Engine::edge_links));
       for (const int threads : {2, 3, 8}) EXPECT_EQ(pairs_of_threads(f, 2, field, threads), alone);
@@ -101,7 +101,7 @@ TEST(RandomConformance, LinkStopsWhereNothingHappens) {
     std::vector<WeightedEdge> edges = random.sparse(n, ties, 0.6 + random.real() / 2).edges();
     for (WeightedEdge& e : edges) e.value *= std::pow(1e60, random.integer(-2, 2));
     const Rips rips(SparseDistances(n, edges));
-    rips.with_filtration(1, [&](const auto& f) {
+    with_all_edges(rips, 1, [&](const auto& f) {
       std::vector<Pair> found;
       for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists}) {
         found = pairs_of_edge_links(f, 1, field, {.layout = layout}, 0);
@@ -117,7 +117,7 @@ TEST(RandomConformance, LinkStopsWhereNothingHappens) {
 TEST(RandomConformance, LinkOfWideClasses) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(24, 34), ties));
-    rips.with_filtration(1, [&](const auto& f) {
+    with_all_edges(rips, 1, [&](const auto& f) {
       const auto oracle = pairs_of(f, 1, field, Engine::standard);
       for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
         EXPECT_EQ(pairs_of_edge_links(f, 1, field, {.layout = layout}, -1), oracle);
@@ -131,7 +131,7 @@ TEST(RandomConformance, LinkOfManyVertices) {
     const Index n = random.integer(65, 200);
     const Rips rips = random.coin() ? Rips(random.points(n, random.integer(2, 4), ties))
                                     : Rips(random.sparse(n, ties, 6 * random.real() / 20));
-    rips.with_filtration(1, [&](const auto& f) {
+    with_all_edges(rips, 1, [&](const auto& f) {
       const auto expected = pairs_of(f, 1, field, Engine::cohomology);
       for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
         for (const std::size_t active_rows : {0, 500})
@@ -150,7 +150,7 @@ TEST(RandomConformance, LinkFormally) {
     const Index n = random.integer(4, random.integer(0, 9) == 0 ? 24 : 12);
     const Rips rips = random.coin() ? Rips(random.distances(n, ties))
                                     : Rips(random.sparse(n, ties, random.real()));
-    rips.with_filtration(1, [&](const auto& f) {
+    with_all_edges(rips, 1, [&](const auto& f) {
       const auto oracle = pairs_of(f, 1, 2, Engine::standard);
       for (const std::size_t classes : {1, 4})
         for (const std::size_t relations : {1, 5}) {
@@ -170,7 +170,7 @@ TEST(RandomConformance, LinkFormally) {
 TEST(RandomConformance, LinkFormallyOfManyPoints) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
     const Rips rips(random.distances(random.integer(60, 150), ties));
-    rips.with_filtration(1, [&](const auto& f) {
+    with_all_edges(rips, 1, [&](const auto& f) {
       const SweepTuning plain{.layout = LinkLayout::rows, .classes_for_formal = SIZE_MAX};
       const auto expected = pairs_of_edge_links(f, 1, 2, plain, -1);
       for (const std::size_t relations : {1, 50, 1000}) {
@@ -198,7 +198,7 @@ TEST(RandomConformance, LinkSurfaces) {
           return Rips(random.sparse(n, ties, 0.5 + random.real() / 2));
       }
     }();
-    rips.with_filtration(2, [&](const auto& f) {
+    with_all_edges(rips, 2, [&](const auto& f) {
       const auto oracle = pairs_of(f, 2, field, Engine::standard);
       EXPECT_EQ(pairs_of(f, 2, field, Engine::edge_links), oracle);
       for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists}) {
@@ -229,7 +229,7 @@ Points random_sphere(Generator& random, Index n) {
 TEST(RandomConformance, LinkSurfacesOfSpheres) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random_sphere(random, 100));
-    rips.with_filtration(2, [&](const auto& f) {
+    with_all_edges(rips, 2, [&](const auto& f) {
       const auto expected = pairs_of(f, 2, field, Engine::cohomology);
       for (const std::size_t most_terms : {0, 64})
         for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})

@@ -118,7 +118,7 @@ TEST(Invariance, ARipsComplexIsTheListOfItsSimplices) {
   for_each_cloud([](Generator&, const Points& points) {
     const Rips rips(points);
     SimplexList list;
-    rips.with_filtration(2, [&](const auto& f) {
+    with_all_edges(rips, 2, [&](const auto& f) {
       std::vector<Index> numbers;
       for (int dim = 0; dim <= std::min(3, f.top_dim()); ++dim) {
         f.for_each_cell(dim, [&](const auto& c) {

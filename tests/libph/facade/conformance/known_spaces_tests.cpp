@@ -115,7 +115,7 @@ TEST(KnownSpaces, RipsOfCrossPolytopes) {
       points(2 * k + 1, k) = -1;
     }
     const Rips rips(points);
-    EXPECT_EQ(rips.threshold(), 2);
+    EXPECT_EQ(all_edges(rips).threshold(), 2);
     check(rips, dim, {2, 3});
     const Barcode barcode = persistence(rips, {.max_dim = dim});
     const Intervals sphere{{std::sqrt(2.0), 2.0}};

@@ -14,14 +14,14 @@ TEST(RandomRepresentatives, Rips) {
     RipsOptions options;
     if (random.coin()) options.threshold = ties ? random.integer(1, 3) : random.real();
     const Rips rips(random.distances(random.integer(1, 8), ties), options);
-    rips.with_filtration(max_dim, [&](const auto& f) { check_representatives(f, max_dim, field); });
+    with_all_edges(rips, max_dim, [&](const auto& f) { check_representatives(f, max_dim, field); });
   });
 }
 
 TEST(RandomRepresentatives, RipsSurfaces) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(8, 11), ties));
-    rips.with_filtration(2, [&](const auto& f) { check_representatives(f, 2, field); });
+    with_all_edges(rips, 2, [&](const auto& f) { check_representatives(f, 2, field); });
   });
 }
 
@@ -29,7 +29,7 @@ TEST(RandomRepresentatives, RipsSurfaces) {
 TEST(RandomRepresentatives, RipsOfWideClasses) {
   for_each_seed(16, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random.distances(34, false));
-    rips.with_filtration(1, [&]<class F>(const F& f) {
+    with_all_edges(rips, 1, [&]<class F>(const F& f) {
       const OrderedCells<F> cells(f, 2, field);
       for (const auto wanted : {Representatives::cycles, Representatives::cocycles}) {
         const Barcode bars = persistence(rips, {.field = field, .representatives = wanted});
@@ -46,14 +46,15 @@ TEST(RandomRepresentatives, ComponentsOfAForestAreThoseOfTheWholeFiltration) {
     const Points points = random.points(random.integer(1, 9), random.integer(1, 3), ties);
     RipsOptions options;
     if (random.coin()) options.threshold = ties ? random.integer(1, 3) : random.real();
-    const Rips whole(points, options);
-    options.only_components = true;
-    const Rips forest(points, options);
-    whole.with_filtration(0, [&]<class F>(const F& f) {
+    const Rips rips(points, options);
+    with_all_edges(rips, 0, [&]<class F>(const F& f) {
       const OrderedCells<F> cells(f, 1, field);
       for (const auto wanted : {Representatives::cycles, Representatives::cocycles}) {
-        const Barcode bars =
-            persistence(forest, {.field = field, .min_persistence = -1, .representatives = wanted});
+        const Options task{
+            .max_dim = 0, .field = field, .min_persistence = -1, .representatives = wanted};
+        const RunPlan of_forest = plan(rips, task);
+        ASSERT_EQ(of_forest.form, RipsForm::forest);
+        const Barcode bars = run(rips, of_forest);
         for (std::size_t i = 0; i < bars.size(); ++i)
           wanted == Representatives::cycles ? check_cycle(cells, bars, i)
                                             : check_cocycle(cells, bars, i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <memory_resource>
 #include <vector>
 
@@ -47,6 +48,7 @@ void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const 
 /// H0 by union-find with the elder rule. See merge_tree.hpp for the whole tree.
 struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
+  static constexpr std::array rips_forms{RipsForm::forest, RipsForm::edges};
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     return task.max_dim == 0 && is_graph_like(f) && task.wants_no_sets();

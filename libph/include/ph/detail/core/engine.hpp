@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +28,7 @@ class Engine {
   static const Engine union_find;     ///< H0 only
   static const Engine edge_links;     ///< Rips, H0 to H3: edge by edge
   static const Engine beta_skeleton;  ///< Rips of points of few coordinates, H0 and H1: no edges
-  static const Engine gradient;       ///< images: voxel by voxel
+  static const Engine gradient;       ///< images voxel by voxel, alpha complexes by intervals
 
  private:
   std::string_view name_ = "auto";
@@ -47,11 +49,24 @@ std::optional<Engine> engine_named(std::string_view name);
 /// The names of all engines, "auto" first, those that the program added last.
 std::vector<std::string_view> engine_names();
 
+/// How a Rips filtration is held while something is computed of it. Each form is enough for some
+/// tasks; `plan` chooses one (ph/persistence.hpp).
+enum class RipsForm : std::uint8_t {
+  edges,           ///< all edges up to the threshold: enough for everything
+  distinct_edges,  ///< the edges of the distinct points, see RipsOptions::merge_equal_points
+  forest,          ///< a minimum spanning forest: enough for H0, cell by cell, and merge trees
+  points,          ///< the distinct points alone: enough for Engine::beta_skeleton
+};
+
+/// A Rips filtration of which no form was made yet; see ph/rips.hpp.
+struct RipsInput;
+
 /// What an engine is asked for.
 struct Task {
   int max_dim = 0;  ///< highest dimension of homology
   Representatives representatives = Representatives::none;
-  bool zero_length = false;  ///< pairs of one value, too
+  bool zero_length = false;  ///< pairs of one value are asked for as well
+  bool collapses = false;    ///< an edge collapse is asked for
   /// Whether chains are all that must come with the bars, if anything.
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
@@ -72,6 +87,14 @@ struct EngineFacts {
   int (*listed_dim)(int max_dim) = nullptr;
   /// Bytes that it takes for a Rips complex, whatever the homology; null: those of its adjacency.
   double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
+  /// The forms of a Rips filtration that it takes, the best first; empty: all edges or those of the
+  /// distinct points.
+  std::span<const RipsForm> rips_forms = {};
+  /// What it would need to take the best of these forms; empty: nothing more. Null: whatever
+  /// can_run says of the edges holds.
+  std::string_view (*rips_obstacle)(const RipsInput&, const Task&) = nullptr;
+  /// How well it suits a task by the best of these forms; null: as by the edges.
+  Suitability (*rips_suitability)(const RipsInput&, const Task&) = nullptr;
 };
 /// Those of an engine that is there. @throws Error (usage) if none has that name.
 const EngineFacts& facts_of(Engine engine);

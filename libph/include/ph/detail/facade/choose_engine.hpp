@@ -24,9 +24,6 @@ struct EngineChoice {
 /// @throws Error (usage): an engine cannot do a task, or none can.
 [[noreturn]] void refuse(Engine asked, const Task& task);
 
-/// What can be computed of points alone instead of what is asked for; empty: that can be.
-std::string_view obstacle_to_points_alone(const Options& options, int max_dim);
-
 /// The engine asked for, or the one that suits the task best.
 /// @throws Error (usage) if the engine asked for cannot do it.
 template <Filtration F>
@@ -47,7 +44,8 @@ EngineChoice<F> choose_engine(const F& f, Engine asked, const Task& task) {
 }
 
 inline Task task_of(const Options& options, int max_dim) {
-  return {max_dim, options.representatives, options.min_persistence < 0};
+  return {max_dim, options.representatives, options.min_persistence < 0,
+          options.collapse == Collapse::on};
 }
 
 /// What will be computed: up to which dimension, by which engine.
@@ -71,6 +69,14 @@ Plan<F> plan_for(const F& f, const Options& options) {
   const int top = std::max(0, f.top_dim());
   const int max_dim = std::min(options.max_dim.value_or(top), top);
   return {max_dim, choose_engine(f, options.engine, task_of(options, max_dim))};
+}
+
+/// The plan with what was decided, no edge being collapsed.
+inline RunPlan run_plan(Options options, int max_dim, Engine engine, std::string_view reason) {
+  options.max_dim = max_dim;
+  options.engine = engine;
+  options.collapse = Collapse::off;
+  return {std::move(options), std::nullopt, std::string(reason), {}};
 }
 
 /// The barcode by one of the engines of the filtration; no edge is collapsed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <tuple>
 #include <vector>
 
@@ -23,15 +24,30 @@ constexpr EngineFacts facts() {
     facts.rips_bytes = [](std::size_t vertices, std::size_t edges) {
       return E::rips_bytes(vertices, edges);
     };
+  if constexpr (requires { E::rips_forms; }) facts.rips_forms = E::rips_forms;
+  if constexpr (requires(const RipsInput& input, const Task& task) { E::obstacle(input, task); })
+    facts.rips_obstacle = [](const RipsInput& input, const Task& task) {
+      return E::obstacle(input, task);
+    };
+  if constexpr (requires(const RipsInput& input, const Task& task) { E::suitability(input, task); })
+    facts.rips_suitability = [](const RipsInput& input, const Task& task) {
+      return E::suitability(input, task);
+    };
   return facts;
 }
 
-/// A filtration that holds the points alone has no cells for the other engines.
+/// A filtration that holds the points alone has no cells for the engines that do not take them.
 template <class E, Filtration F>
 bool can_run(const F& f, const Task& task) {
-  if constexpr (
-      requires { f.points_alone(); } && !requires { E::takes_points_alone; })
-    if (f.points_alone() != nullptr) return false;
+  if constexpr (requires { f.points_alone(); }) {
+    constexpr bool takes_points = [] {
+      if constexpr (requires { E::rips_forms; })
+        return std::ranges::find(E::rips_forms, RipsForm::points) != E::rips_forms.end();
+      else
+        return false;
+    }();
+    if (!takes_points && f.points_alone() != nullptr) return false;
+  }
   return E::can_run(f, task);
 }
 

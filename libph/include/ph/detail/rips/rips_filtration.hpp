@@ -80,7 +80,7 @@ class RipsFiltration {
   std::span<const double> vertex_births() const { return graph_.births(); }
   const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
   /// The points, if there are no edges, for engines that go without.
-  const Points* points_alone() const { return graph_.points_alone(); }
+  const PointsView* points_alone() const { return graph_.points_alone(); }
   double threshold() const { return graph_.threshold(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
   Cell edge_cell(std::uint32_t position) const {

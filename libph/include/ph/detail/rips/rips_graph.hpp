@@ -44,9 +44,10 @@ class RipsGraph {
   /// Euclidean distances up to the threshold; never n^2 of them.
   static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
                                     const VertexWeights& weights = {});
-  /// A copy of the points and no edges. Precondition: obstacle_to_points_alone finds none.
-  static RipsGraph of_points_alone(PointsView points, std::optional<double> threshold,
-                                   const RunContext& context);
+  /// The points and no edges.
+  /// @param owner keeps the points; null: whoever has the graph keeps them.
+  static RipsGraph of_points_alone(PointsView points, std::shared_ptr<const Points> owner,
+                                   std::optional<double> threshold, const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context,
                             const VertexWeights& weights = {});
@@ -99,7 +100,7 @@ class RipsGraph {
   /// Whether only a spanning forest is held.
   bool is_forest() const { return is_forest_; }
   /// The points if nothing else is held; else null.
-  const Points* points_alone() const { return points_ ? &points_->points : nullptr; }
+  const PointsView* points_alone() const { return points_ ? &points_->view : nullptr; }
   double threshold() const { return threshold_; }
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
@@ -144,8 +145,8 @@ class RipsGraph {
   RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
             std::span<const double> births = {});
   struct PointsAlone {
-    Points points;
-    MemoryClaim claim;
+    PointsView view;
+    std::shared_ptr<const Points> owner;
   };
   void require_edges() const {
     if (points_) throw_no_edges();
@@ -160,10 +161,10 @@ class RipsGraph {
   double threshold_ = 0;
   bool is_forest_ = false;
   bool has_names_ = false;
-  std::unique_ptr<const PointsAlone> points_;  // null: the edges are held
-  BinnedEdges edges_;                          // by key - 1
-  std::pmr::vector<std::uint32_t> names_;      // by vertex; empty: its number
-  std::pmr::vector<double> births_;            // by vertex; empty: 0
+  std::optional<PointsAlone> points_;      // none: the edges are held
+  BinnedEdges edges_;                      // by key - 1
+  std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
+  std::pmr::vector<double> births_;        // by vertex; empty: 0
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 

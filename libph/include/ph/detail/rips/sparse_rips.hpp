@@ -26,8 +26,10 @@ namespace ph {
 /// docs/explanation/approximation.md.
 class SparseRips {
  public:
+  /// @throws Error (usage) unless it is a finite number above 0.
+  static void check_epsilon(double epsilon);
   /// @param order of all points (GreedyLimits{}). @param size number of points.
-  /// @param epsilon > 0, finite. @throws Error (usage) on another epsilon.
+  /// @param epsilon as check_epsilon wants it.
   SparseRips(const GreedyPermutation& order, Index size, double epsilon, const RunContext& context);
 
   /// When two points at a distance are joined; infinite: never.

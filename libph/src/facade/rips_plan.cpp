@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "facade/rips_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "rips/collapse/edge_collapse.hpp"
+
+namespace ph::detail {
+namespace {
+
+// Engines are told apart by the kind of a filtration only, not by the size of its cells.
+using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
+
+// Measured, H2 to H7: the more edges are dominated, the more is gained, up to some hundred times;
+// at two thirds it is still half of the time and of the memory. Below, on spheres of higher
+// dimension and on distances that are no metric, nearly all edges are kept and what the collapse
+// takes is lost.
+constexpr double kWorthwhileShare = 0.6;
+// Up to this dimension the top dimension of the complex, which takes long to find, has no say.
+constexpr int kHighestByEdges = 3;
+
+/// Why a collapse would spoil what is asked for; empty if it would not.
+std::string_view obstacle_to_collapse(const Options& options) {
+  if (options.min_persistence < 0) return "bars of length zero are asked for";
+  if (options.representatives == Representatives::cocycles)
+    return "cocycles are asked for, and those of fewer edges say nothing of the others";
+  return {};
+}
+
+struct CollapseChoice {
+  bool collapses;
+  std::string reason;
+};
+/// @param dominated tells which share of the edges is dominated; called where that decides.
+/// @throws Error (usage) if a collapse is asked for that would spoil the result.
+template <class Dominated>
+CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
+                               Dominated&& dominated) {
+  if (options.collapse == Collapse::off) return {false, "asked for"};
+  const std::string_view spoilt = obstacle_to_collapse(options);
+  if (options.collapse == Collapse::on) {
+    if (!spoilt.empty())
+      throw Error(ErrorKind::usage, fmt::format("edge collapse is not possible: {}", spoilt));
+    return {true, "asked for"};
+  }
+  if (!spoilt.empty()) return {false, std::string(spoilt)};
+  if (engine.goes_by_edges) return {false, "the engine goes by edges alone"};
+  if (engine.is_oracle) return {false, "the reference engine takes the complex as it is"};
+  const double share = dominated();
+  return {share >= kWorthwhileShare,
+          fmt::format("{:.0f} % of a sample of the edges are dominated", 100 * share)};
+}
+
+/// True where a spanning forest is all that can be had.
+bool is_forest_alone(const Rips& rips) {
+  return rips.has_form(RipsForm::forest) && !rips.has_form(RipsForm::edges) &&
+         !rips.has_form(RipsForm::distinct_edges);
+}
+
+/// The highest dimension to compute. @throws Error (usage) as check, on a lowest dimension above
+/// it, or above 0 where a forest was given.
+int max_dim_of(const Rips& rips, const Options& options) {
+  const bool is_forest = is_forest_alone(rips);
+  check(options);
+  const int max_dim = options.max_dim.value_or(is_forest ? 0 : 1);
+  if (is_forest && max_dim > 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
+                            "the components are there",
+                            max_dim));
+  }
+  if (!options.max_dim && options.min_dim > max_dim) {
+    throw Error(ErrorKind::usage,
+                fmt::format("lowest dimension: found {}, expected at most {}, the highest unless "
+                            "another is given",
+                            options.min_dim, max_dim));
+  }
+  return max_dim;
+}
+
+/// At most so many points become vertices.
+Index most_vertices(const Rips& rips) {
+  const RipsOptions& options = rips.options();
+  if (options.subsample) return std::min(rips.size(), options.subsample->points);
+  return options.vertices.empty() ? rips.size() : static_cast<Index>(options.vertices.size());
+}
+
+/// An engine, the form of which it takes, and why it was chosen.
+struct FormChoice {
+  const EngineFacts* engine = nullptr;
+  RipsForm form = RipsForm::edges;
+  std::string_view reason;
+};
+
+/// @param options with the highest dimension.
+RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice&& collapse) {
+  RunPlan plan = run_plan(options, *options.max_dim, choice.engine->id, choice.reason);
+  plan.form = choice.form;
+  plan.options.collapse = collapse.collapses ? Collapse::on : Collapse::off;
+  plan.collapse_reason = std::move(collapse.reason);
+  if (choice.form == RipsForm::forest) plan.reason += "; a spanning forest knows them";
+  return plan;
+}
+
+/// The form of edges that a task wants.
+RipsForm edges_for(const Rips& rips, const Options& options) {
+  if (is_forest_alone(rips)) return RipsForm::forest;
+  const RipsOptions& asked = rips.options();
+  const bool may_merge = options.min_persistence >= 0 &&
+                         options.representatives != Representatives::cocycles && !rips.has_births();
+  return rips.has_form(RipsForm::distinct_edges) && asked.merge_equal_points.value_or(may_merge)
+             ? RipsForm::distinct_edges
+             : RipsForm::edges;
+}
+
+/// The first form that an engine takes and the input can give; nothing if there is none.
+std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
+                                 const Options& options) {
+  if (engine.rips_forms.empty()) return edges_for(rips, options);
+  for (const RipsForm form : engine.rips_forms)
+    if (rips.has_form(form)) return form == RipsForm::edges ? edges_for(rips, options) : form;
+  return std::nullopt;
+}
+
+/// What an engine would need of the input; empty: nothing more.
+std::string_view obstacle_to(const EngineFacts& engine, const RipsInput& input, const Task& task) {
+  return engine.rips_obstacle ? engine.rips_obstacle(input, task) : std::string_view();
+}
+
+/// The engine asked for, or the one that suits best, as far as that can be known without an edge.
+/// @param vertices that they are asked about. @return no engine if none can do the task.
+/// @throws Error (usage) if the engine asked for says what it would need.
+FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, Index vertices) {
+  const RipsInput input{vertices, rips.points(), rips.options()};
+  const Task task = task_of(options, max_dim);
+  const bool is_asked = options.engine != Engine::automatic;
+  const RipsGraph no_edges = RipsGraph::of_edges(vertices, {}, std::nullopt, default_context());
+  const Sparse filtration(no_edges);
+  FormChoice choice;
+  int rank = 0;
+  for (const EngineFor<Sparse>& engine : engines<Sparse>()) {
+    if (is_asked && engine.id != options.engine) continue;
+    const std::string_view obstacle = obstacle_to(engine, input, task);
+    if (is_asked && !obstacle.empty())
+      throw Error(ErrorKind::usage,
+                  fmt::format("engine {}: expected {}", engine.id.name(), obstacle));
+    const std::optional<RipsForm> form = form_for(engine, rips, options);
+    const bool can_run = engine.rips_obstacle ? obstacle.empty() : engine.can_run(filtration, task);
+    if (!form || !can_run) continue;
+    const Suitability suits = is_asked                  ? Suitability{1, "asked for"}
+                              : engine.rips_suitability ? engine.rips_suitability(input, task)
+                                                        : engine.suitability(filtration, task);
+    if (suits.rank <= rank) continue;
+    rank = suits.rank;
+    choice = {&engine, *form, suits.reason};
+  }
+  return choice;
+}
+
+/// The plan where the edges have a say.
+RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
+                      const RunContext& context) {
+  const int max_dim = *options.max_dim;
+  const RipsGraph& graph = rips.graph(form, context);
+  const auto choice = choose_engine(Sparse(graph), options.engine, task_of(options, max_dim));
+  CollapseChoice collapse =
+      choose_collapse(*choice.engine, options, [&] { return dominated_share(graph, context); });
+  // The top dimension is not known before the collapse.
+  if (collapse.collapses)
+    return planned(options, {choice.engine, form, choice.reason}, std::move(collapse));
+  Options settled = options;
+  settled.collapse = Collapse::off;
+  return with_rips_filtration(graph, max_dim, [&](const auto& filtration) {
+    const auto plan = plan_for(filtration, settled);
+    settled.max_dim = plan.max_dim;
+    return planned(settled, {plan.choice.engine, form, plan.choice.reason}, std::move(collapse));
+  });
+}
+
+/// What is decided before an edge is made.
+struct Settled {
+  Settled(const Rips& rips, Options asked) : options(std::move(asked)) {
+    const int max_dim = max_dim_of(rips, options);
+    options.max_dim = max_dim;
+    choice = choose_form(rips, options, max_dim, most_vertices(rips));
+    if (!choice.engine && options.engine == Engine::automatic &&
+        !choose_form(rips, options, max_dim, 1).engine)
+      refuse(options.engine, task_of(options, max_dim));  // whatever the edges
+    goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
+    if (!goes_by_edges) choice.form = edges_for(rips, options);
+    if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
+      throw Error(ErrorKind::usage,
+                  "device gpu: computes components (H0) of points with Euclidean distances, found "
+                  "more than components; max_dim 0 asks for them alone, without an approximation, "
+                  "a check or an engine by name");
+  }
+  Options options;             // with the highest dimension
+  FormChoice choice;           // no engine: none can do the task of so many vertices
+  bool goes_by_edges = false;  // all is decided
+};
+
+}  // namespace
+
+RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context) {
+  const Settled settled(rips, options);
+  if (!settled.goes_by_edges)
+    return plan_by_edges(rips, settled.options, settled.choice.form, context);
+  return planned(settled.options, settled.choice,
+                 choose_collapse(*settled.choice.engine, settled.options, [] { return 0.0; }));
+}
+
+std::optional<RipsForm> form_without_edges(const Rips& rips, const Options& options) {
+  const Settled settled(rips, options);
+  const bool has_edges =
+      settled.choice.form == RipsForm::edges || settled.choice.form == RipsForm::distinct_edges;
+  return has_edges ? std::nullopt : std::optional(settled.choice.form);
+}
+
+RunPlan plan_without_edges(const Rips& rips, const Options& options) {
+  const Settled settled(rips, options);
+  if (!settled.choice.engine)
+    refuse(options.engine, task_of(settled.options, *settled.options.max_dim));
+  if (settled.goes_by_edges || settled.options.collapse != Collapse::automatic)
+    return planned(settled.options, settled.choice,
+                   choose_collapse(*settled.choice.engine, settled.options, [] { return 0.0; }));
+  return planned(settled.options, settled.choice, {false, "not known without the edges"});
+}
+
+RipsForm form_of_tree(const Rips& rips) {
+  return rips.has_form(RipsForm::forest) ? RipsForm::forest : RipsForm::edges;
+}
+
+}  // namespace ph::detail

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "rips/make_graph.hpp"
+
+namespace ph {
+
+/// As Rips::sample.
+RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);
+
+}  // namespace ph
