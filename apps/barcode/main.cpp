@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "barcode/arguments/arguments.hpp"
 #include "barcode/batch.hpp"
-#include "barcode/ranks/run_exchange.hpp"
 #include "barcode/run.hpp"
 #include "common/run/program.hpp"
 
@@ -10,7 +9,6 @@ int main(int argc, char** argv) {
     ph::barcode::Arguments arguments;
     if (const auto answer = ph::barcode::parse_arguments(argc, argv, arguments))
       return ph::app::answer_command_line(*answer);
-    if (!arguments.exchange.empty()) return ph::barcode::run_exchange(arguments, stop);
     ph::app::Session session("ph-barcode", arguments.common, stop);
     return ph::barcode::run_all(arguments, session);
   });

@@ -110,12 +110,6 @@ def scripts_of_page():
     return blocks
 
 
-def exchange_of_page():
-    """The block ```sh of the section on loops without MPI."""
-    return re.search(r"^```sh\n(#!/bin/bash\n# exchange.sh.*?)^```", PAGE.read_text(encoding="utf-8"),
-                     re.M | re.S).group(1)
-
-
 def main():
     program = pathlib.Path(sys.argv[1]).resolve()
     missing = [name for name in ("slurmctld", "slurmd", "sbatch", "sinfo") if not shutil.which(name)]
@@ -158,17 +152,7 @@ def main():
         kept = sorted(name for name in again if os.path.samestat(again[name], written[name])
                       and again[name].st_mtime_ns == written[name].st_mtime_ns)
         assert kept == [f"part{i}.ph" for i in (1, 2, 4, 6, 7, 8)], kept
-        # Jobs that run at the same time, and send each other messages.
-        jobs = min(8, os.cpu_count())
-        bars.unlink()
-        (work / "exchange.sh").write_text(exchange_of_page())
-        run(f"sbatch --wait --array=1-{jobs} exchange.sh")
-        run("ph-barcode volume.npy -o one.csv --quiet")
-        assert bars.read_bytes() == (work / "one.csv").read_bytes(), logs()
-        folders = list(work.glob("messages-*"))
-        assert len(folders) == 1 and not list(folders[0].iterdir()), folders
-    print("an array of 8 jobs and its join: the same bytes as one process; a second run computes 2; "
-          f"so do {jobs} jobs with --exchange, of all dimensions")
+    print("an array of 8 jobs and its join: the same bytes as one process; a second run computes 2")
 
 
 if __name__ == "__main__":

@@ -292,7 +292,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
   arguments.given = app::given_scopes(app, option_scopes());
   check_together(arguments);
-  constexpr std::array<std::string_view, 4> kNotOfResults{"part", "exchange", "resume", "output"};
+  constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
   if (arguments.part) arguments.typed_options = app::given_options(app, kNotOfResults);
   if (arguments.compare.empty() && !arguments.is_batch() && !arguments.part && !arguments.joins &&
       app::is_folder(arguments.inputs[0]))

@@ -88,7 +88,6 @@ struct Arguments {
   };
   std::optional<Part> part;
   bool on_ranks = false;                   // the program has several processes
-  std::string exchange;                    // with part: the folder they share; empty: none
   bool joins = false;                      // the inputs are parts
   bool resumes = false;                    // a part that is there already is kept
   bool keeps_cells = false;                // of bars, in a part

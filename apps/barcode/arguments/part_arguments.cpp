@@ -23,10 +23,10 @@ void take_part(Arguments& a, const std::string& text) {
             static_cast<int>(parts)};
 }
 
-/// What processes that join their parts themselves do not do. @param where: words for messages.
-void check_together_on(const Arguments& a, std::string_view where) {
-  const auto reject = [&](std::string_view option, std::string_view why) {
-    throw Error(ErrorKind::usage, fmt::format("{}: found {}{}", option, where, why));
+/// Refuses what ranks, which join their parts themselves, do not do.
+void check_ranks(const Arguments& a) {
+  const auto reject = [](std::string_view option, std::string_view why) {
+    throw Error(ErrorKind::usage, fmt::format("{}: found on ranks{}", option, why));
   };
   if (a.keeps_cells) reject("--keep-cells", "; JSON has them");
   if (!a.report.empty()) reject("--report", "; `ph-barcode plot BARS --report` makes one");
@@ -47,11 +47,6 @@ void add_part_options(CLI::App& app, Arguments& a) {
                  "an image some of its layers, of points (--complex rips --max-dim 0) some "
                  "blocks of them, of several inputs some of them",
                  [&a](const std::string& text) { take_part(a, text); });
-  app::add_path(app, "--exchange", "FOLDER",
-                "with --part of one image or cloud: all P processes run at the same time, see this "
-                "folder, and send each other messages there. Loops of volumes are found, too, and "
-                "part 1 writes the bars",
-                a.exchange);
   app.add_flag("--join", a.joins,
                "the inputs are part files, in any order: bars if all are there, else, with -o "
                "FILE.ph, one part");
@@ -66,19 +61,9 @@ void check_part_arguments(const Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.on_ranks) {
     if (a.part || a.joins) reject("--part and --join: found on ranks, which do both");
-    if (!a.exchange.empty()) reject("--exchange: found on ranks, which send messages");
-    check_together_on(a, "on ranks");
+    check_ranks(a);
     if (a.resumes && a.output == "-")
       reject("--resume: needs -o FILE, beside which the ranks keep their parts");
-    return;
-  }
-  if (!a.exchange.empty()) {
-    if (a.joins) reject("--join: found beside --exchange, which joins parts");
-    if (!a.part) reject("--exchange: found without --part, which says who of all this process is");
-    check_together_on(a, "beside --exchange");
-    if (!a.wants_part_of_one())
-      reject("--exchange: found several inputs or a folder, expected one image or cloud");
-    if (a.resumes) reject("--resume: found beside --exchange, which keeps no parts");
     return;
   }
   if (!a.part && !a.joins) {

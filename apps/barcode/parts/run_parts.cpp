@@ -39,7 +39,7 @@ int run_part(const Arguments& arguments, app::Session& session) {
           ? run_cloud_part(input, arguments, session)
           : run_batch_part(with_files_of_folders(arguments), arguments, session);
   session.note(outcome.summary);
-  if (arguments.exchange.empty() && barcode_format_of_path(arguments.output))
+  if (barcode_format_of_path(arguments.output))
     session.note(fmt::format("{}: a part, whatever its name says; --join makes bars of parts",
                              printable(arguments.output)));
   return outcome.code;

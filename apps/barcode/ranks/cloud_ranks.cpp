@@ -17,7 +17,7 @@ RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport&
   const CloudInput cloud = read_cloud_input(job.input, arguments, session);
   const int rank = transport.rank(), parts = transport.size();
   if (arguments.dry_run) {
-    if (rank == 0) foresee(cloud, parts, transport.word());
+    if (rank == 0) foresee(cloud, parts, "rank");
     return {};
   }
   RankResult result{kept_path(arguments, rank, parts), std::nullopt};
@@ -32,7 +32,7 @@ RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport&
   if (!whole) return result;
   const std::string description =
       fmt::format("{}, {}", cloud.data.read.description,
-                  app::count_of(static_cast<std::size_t>(parts), transport.word()));
+                  app::count_of(static_cast<std::size_t>(parts), "rank"));
   const BarcodeInfo info = info_of(*whole, description, job.input);
   result.bars.emplace(RankBars{bars_of(std::move(*whole), job.format, context), info});
   return result;

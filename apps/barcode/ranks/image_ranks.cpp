@@ -25,8 +25,8 @@ namespace {
 
 /// The first layers of all parts if layers are shared out by what is in them: rank 0 looks at a
 /// sample of the image, and tells the others.
-std::vector<Index> shared_out(const PartInput& input, int parts, const Transport& transport,
-                              Post& post, app::Session& session) {
+std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
+                              app::Session& session) {
   std::vector<Index> layers;
   if (post.rank() != 0) {
     const std::vector<std::byte> bytes = post.receive(0);
@@ -39,9 +39,8 @@ std::vector<Index> shared_out(const PartInput& input, int parts, const Transport
   if (is_unequal(forecast)) {
     layers = forecast.first_layers;
     session.explain(
-        fmt::format("{}s begin with layers {}: else one would take {:.1f} times the "
-                    "mean",
-                    transport.word(), fmt::join(layers, ", "), forecast.longest));
+        fmt::format("ranks begin with layers {}: else one would take {:.1f} times the mean",
+                    fmt::join(layers, ", "), forecast.longest));
   }
   ByteWriter to;
   to.put_list(layers, [&](Index layer) { to.put(std::int64_t{layer}); });
@@ -61,17 +60,16 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
   input.options.loops = true;
   const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
   if (parts < size)
-    session.note(
-        fmt::format("{} have nothing to do: the image has {}",
-                    app::count_of(static_cast<std::size_t>(size - parts), transport.word()),
-                    app::count_of(static_cast<std::size_t>(parts), "layer")));
+    session.note(fmt::format("{} have nothing to do: the image has {}",
+                             app::count_of(static_cast<std::size_t>(size - parts), "rank"),
+                             app::count_of(static_cast<std::size_t>(parts), "layer")));
   RankResult result;
   if (arguments.dry_run) {
-    if (rank == 0) foresee(input, parts, transport.word());
+    if (rank == 0) foresee(input, parts, "rank");
     return result;
   }
   Post post(transport);
-  input.options.first_layers = shared_out(input, parts, transport, post, session);
+  input.options.first_layers = shared_out(input, parts, post, session);
   std::optional<ImagePart> own;
   if (rank < parts) {
     result.kept = kept_path(arguments, rank, parts);
@@ -97,9 +95,8 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
     found = loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, context);
   explain_costs(post, session);
   if (!whole) return result;
-  const std::string description =
-      fmt::format("{}, {}", input.description,
-                  app::count_of(static_cast<std::size_t>(parts), transport.word()));
+  const std::string description = fmt::format(
+      "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
   result.bars.emplace(RankBars{whole->barcode(context),
                                info_of(*whole, description, job.input, arguments.options.field)});
   add_bars(result.bars->bars, found);

@@ -78,7 +78,6 @@ def rows(Row):
         "--significance": Row("--significance", unfit=POINTS),
         "--dry-run": Row("--dry-run"),
         "--part": Row("--part", "1/2", unfit=IMAGE),
-        "--exchange": Row("--exchange", "e"),
         "--join": Row("--join", unfit='expected "ph part"'),
         "--resume": Row("--resume"),
         "--keep-cells": Row("--keep-cells"),
@@ -349,7 +348,6 @@ def inputs(Input, program):
         ("--loops", "none"), ("--plot-kind", "betti"), ("--title", "Loops"), ("--size", "300x200"),
         ("--axis", "0.25,0.5"), ("--dims", "9"))}
     of_part["--complex"] = (("--complex", "rips"), {"default": ["--complex", "cubical"]})
-    of_part["--exchange"] = (("--exchange", "e"), {"beside": ["--part", "1/1"]})
     of_part["--force"] = (("--force",), {"beside": ["-o", "@input"]})
     add("a part of an image", ["i.npy", "--part", "1/2", "-o", "y.ph"],
         {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan), rows=of_part)
@@ -357,17 +355,6 @@ def inputs(Input, program):
                 "--max-dim": (("--max-dim", "0"), {}), "--threshold": (("--threshold", "0.3"), {})}
     add("a part of a cloud", ["p.csv", *H0, "--part", "1/2", "-o", "y.ph"],
         {"p.csv": text(points)}, nan=text(with_nan), rows=of_cloud)
-    # Where one process is all of them, it makes bars.
-    of_all = {option: of_part[option] for option in ("--loops", "--complex", "--force")}
-    of_all.update({"--part": (("--part", "1/1"), {}), "--exchange": (("--exchange", "f"), {}),
-                   "--output": (("--output", "x.csv"), {})})
-    add("an exchange", ["v.npy", "--part", "1/1", "--exchange", "e", "-o", "y.csv"],
-        {"v.npy": files.array((3, 3, 3), volume)}, 4,
-        nan=files.array((3, 3, 3), [math.nan, *volume[1:]]), rows=of_all)
-    add("an exchange of a cloud", ["p.csv", *H0, "--part", "1/1", "--exchange", "e", "-o", "y.csv"],
-        {"p.csv": text(points)}, nan=text(with_nan),
-        rows={**of_all, **{option: of_cloud[option] for option in
-                           ("--complex", "--max-dim", "--threshold")}})
     add("a part of a folder", ["in", "--part", "1/2", "-o", "y.ph"],
         {"in/a.csv": text(points), "in/b.csv": text(points)}, rows=of_part)
     add("parts", ["--join", "a.ph", "b.ph", "-o", "y.csv"], parts_of(program, floats),

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Rows 69 to 72: parts of one computation on several machines that are damaged, that lie with a
-checksum that fits, that belong to something else, and what is found in the folder where they meet."""
+"""Rows 69 to 71: parts of one computation on several machines that are damaged, that lie with a
+checksum that fits, and that belong to something else."""
 import binascii
-import contextlib
-import os
 import struct
 
 from entry import Entry, with_bytes
@@ -176,23 +174,6 @@ MIXED = [
 ]
 
 
-def left_by_another(folder):
-    os.makedirs(os.path.join(folder, "meet", "ph-run"))
-
-
-def in_place_of_it(folder):
-    with open(os.path.join(folder, "meet"), "wb"):
-        pass
-
-
-def around(prepare):
-    @contextlib.contextmanager
-    def with_folder(folder):
-        prepare(folder)
-        yield {}
-    return with_folder
-
-
 def entries():
     for row, rows in ((69, DAMAGED), (70, LYING)):
         for name, content, message in rows:
@@ -210,11 +191,6 @@ def entries():
                                  (49, "1/99999999999", "--part"), (49, "one/two", "--part")):
         yield Entry(row, f"--part {number}", "ph-barcode", (*part, number, "-o", "a.ph"), 64, "found", message,
                     {"square.txt": SQUARE})
-    exchange = ("image.pgm", "--part", "1/2", "-o", "a.ph", "--exchange", "meet")
-    picture = {"image.pgm": b"P2\n2 2\n9\n1 2\n3 4\n"}
-    for name, prepare, message in (("a file in its place", in_place_of_it, "."),
-                                   ("what an older run left", left_by_another, "another run")):
-        yield Entry(72, name, "ph-barcode", exchange, 73, message, "meet", picture, around=around(prepare))
 
 
 ENTRIES = list(entries())

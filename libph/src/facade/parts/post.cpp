@@ -32,8 +32,8 @@ void Post::send(int to, std::span<const std::byte> message) {
 std::vector<std::byte> Post::receive(int from) {
   std::vector<std::byte> bytes = transport_.receive(from);
   const auto refuse = [&](const std::string& what) {
-    throw Error(ErrorKind::io, fmt::format("{}: message from {}: {}", transport_.name_of(rank()),
-                                           transport_.name_of(from), what));
+    throw Error(ErrorKind::io,
+                fmt::format("rank {}: message from rank {}: {}", rank(), from, what));
   };
   if (bytes.size() < kNumberSize + kChecksumSize)
     refuse(fmt::format("found {} bytes, expected {} or more", bytes.size(),

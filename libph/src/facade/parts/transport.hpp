@@ -2,14 +2,12 @@
 #pragma once
 #include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace ph {
 
-/// How the ranks of one computation talk: processes under MPI, or that see the same folder, or
-/// threads in a test. A rank uses it from one thread at a time.
+/// How the ranks of one computation talk: processes under MPI, or threads in a test. A rank uses it
+/// from one thread at a time.
 class Transport {
  public:
   Transport() = default;
@@ -19,9 +17,6 @@ class Transport {
 
   virtual int rank() const = 0;  ///< from 0 on
   virtual int size() const = 0;  ///< how many ranks there are
-  /// What messages to users call a rank, and this one: they may count from 1.
-  virtual std::string_view word() const { return "rank"; }
-  virtual std::string name_of(int rank) const { return "rank " + std::to_string(rank); }
   /// May return before the other one has the message.
   virtual void send(int to, std::span<const std::byte> message) = 0;
   /// The next message from that rank; waits for it.
