@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "ph/error.hpp"
 
@@ -62,26 +61,7 @@ void forget_file_pages(const void* begin, std::size_t bytes) {
   ::madvise(reinterpret_cast<void*>(first), address + bytes - first, MADV_DONTNEED);
 }
 
-ScratchFile::ScratchFile(std::size_t bytes) : file_(open_nameless(temporary_folder())) {
-  try {
-    resize(bytes);
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
-}
-
-ScratchFile::ScratchFile(ScratchFile&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
-      data_(std::exchange(other.data_, nullptr)),
-      size_(std::exchange(other.size_, 0)) {}
-
-ScratchFile& ScratchFile::operator=(ScratchFile&& other) noexcept {
-  std::swap(file_, other.file_);
-  std::swap(data_, other.data_);
-  std::swap(size_, other.size_);
-  return *this;
-}
+ScratchFile::ScratchFile() : file_(open_nameless(temporary_folder())) {}
 
 ScratchFile::~ScratchFile() {
   if (data_ != nullptr) ::munmap(data_, size_);

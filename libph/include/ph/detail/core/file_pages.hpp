@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstddef>
+#include <utility>
 
 namespace ph {
 
@@ -14,16 +15,25 @@ void forget_file_pages(const void* begin, std::size_t bytes);
 /// use can leave the process's memory, see `forget_file_pages`. Zero at first. Move only.
 class ScratchFile {
  public:
-  /// @throws Error (io) if there is no such folder, or no room in it.
-  explicit ScratchFile(std::size_t bytes = 0);
-  ScratchFile(ScratchFile&& other) noexcept;
-  ScratchFile& operator=(ScratchFile&& other) noexcept;
+  /// Both throw Error (io) if there is no such folder, or no room in it.
+  ScratchFile();
+  explicit ScratchFile(std::size_t bytes) : ScratchFile() { resize(bytes); }
+  ScratchFile(ScratchFile&& other) noexcept
+      : file_(std::exchange(other.file_, -1)),
+        data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)) {}
+  ScratchFile& operator=(ScratchFile&& other) noexcept {
+    std::swap(file_, other.file_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
   ~ScratchFile();
 
   char* data() { return data_; }
   const char* data() const { return data_; }
   std::size_t size() const { return size_; }
-  /// Keeps what is there; addresses change. @throws as the constructor.
+  /// Keeps what is there; addresses change. @throws as the constructors.
   void resize(std::size_t bytes);
 
  private:
