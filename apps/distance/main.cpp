@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/program.hpp"
+#include "common/run/run_main.hpp"
+#include "distance/arguments/arguments.hpp"
 #include "distance/run.hpp"
 
 int main(int argc, char** argv) {
-  return ph::app::run_program(ph::distance_program::kProgram, [argc, argv](std::stop_token stop) {
-    return ph::distance_program::run(argc, argv, std::move(stop));
-  });
+  using namespace ph::distance_program;
+  return ph::app::run_main(kProgram, argc, argv, parse_arguments, run);
 }

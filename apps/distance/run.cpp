@@ -12,9 +12,7 @@
 #include "common/files/barcode_files.hpp"
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
-#include "common/run/session.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "distance/arguments/arguments.hpp"
 #include "distance/arguments/option_scopes.hpp"
 #include "distance/data/groups.hpp"
 #include "distance/data/pairs.hpp"
@@ -167,11 +165,7 @@ class Run {
 
 }  // namespace
 
-int run(int argc, const char* const* argv, std::stop_token stop) {
-  Arguments arguments;
-  if (const auto answer = parse_arguments(argc, argv, arguments))
-    return app::answer_command_line(*answer);
-  app::Session session(kProgram.name, arguments.common, std::move(stop));
+int run(const Arguments& arguments, app::Session& session) {
   Run(arguments, session).run();
   return app::kOk;
 }

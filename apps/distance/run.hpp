@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <stop_token>
-
 #include "common/run/program.hpp"
+#include "common/run/session.hpp"
+#include "distance/arguments/arguments.hpp"
 
 namespace ph::distance_program {
 
 inline constexpr app::Program kProgram{"ph-distance",
                                        "take fewer barcodes or bars, or raise --memory-limit"};
 
-/// The whole program. @return its exit code. @throws Error.
-int run(int argc, const char* const* argv, std::stop_token stop);
+/// The whole program, once its command line is read. @return its exit code. @throws Error.
+int run(const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::distance_program

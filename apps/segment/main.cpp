@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/program.hpp"
+#include "common/run/run_main.hpp"
+#include "segment/arguments/arguments.hpp"
 #include "segment/run.hpp"
 
 int main(int argc, char** argv) {
-  return ph::app::run_program(ph::segment::kProgram, [argc, argv](std::stop_token stop) {
-    return ph::segment::run(argc, argv, std::move(stop));
-  });
+  using namespace ph::segment;
+  return ph::app::run_main(kProgram, argc, argv, parse_arguments, run);
 }

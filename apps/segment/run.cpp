@@ -296,11 +296,7 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
   }
 }
 
-int run(int argc, const char* const* argv, std::stop_token stop) {
-  Arguments arguments;
-  if (const auto answer = parse_arguments(argc, argv, arguments))
-    return app::answer_command_line(*answer);
-  app::Session session(kProgram.name, arguments.common, std::move(stop));
+int run(Arguments& arguments, app::Session& session) {
   for (const std::string& text : idle_options(arguments)) session.note(text);
   load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);

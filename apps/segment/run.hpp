@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <stop_token>
 #include <string>
 
 #include "common/run/program.hpp"
@@ -12,8 +11,9 @@ namespace ph::segment {
 
 inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise --memory-limit"};
 
-/// Runs ph-segment; results go to files or standard output. @return the exit code.
-int run(int argc, const char* const* argv, std::stop_token stop);
+/// Runs ph-segment, once its command line is read; results go to files or standard output.
+/// @return the exit code. @throws Error.
+int run(Arguments& arguments, app::Session& session);
 
 /// What is remembered from frame to frame so that results are steady.
 struct Remembered {

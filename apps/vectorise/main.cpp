@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/program.hpp"
+#include "common/run/run_main.hpp"
+#include "vectorise/arguments/arguments.hpp"
 #include "vectorise/run.hpp"
 
 int main(int argc, char** argv) {
-  return ph::app::run_program(ph::vectorise::kProgram, [argc, argv](std::stop_token stop) {
-    return ph::vectorise::run(argc, argv, std::move(stop));
-  });
+  using namespace ph::vectorise;
+  return ph::app::run_main(kProgram, argc, argv, parse_arguments, run);
 }

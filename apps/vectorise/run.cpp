@@ -9,11 +9,9 @@
 #include "common/files/barcode_files.hpp"
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
-#include "common/run/session.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
-#include "vectorise/arguments/arguments.hpp"
 #include "vectorise/arguments/option_scopes.hpp"
 #include "vectorise/data/samples.hpp"
 #include "vectorise/data/table.hpp"
@@ -164,11 +162,7 @@ class Run {
 
 }  // namespace
 
-int run(int argc, const char* const* argv, std::stop_token stop) {
-  Arguments arguments;
-  if (const auto answer = parse_arguments(argc, argv, arguments))
-    return app::answer_command_line(*answer);
-  app::Session session(kProgram.name, arguments.common, std::move(stop));
+int run(const Arguments& arguments, app::Session& session) {
   Run(arguments, session).run();
   return app::kOk;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <stop_token>
-
 #include "common/run/program.hpp"
+#include "common/run/session.hpp"
+#include "vectorise/arguments/arguments.hpp"
 
 namespace ph::vectorise {
 
@@ -10,7 +10,7 @@ inline constexpr app::Program kProgram{
     "ph-vectorise",
     "take fewer inputs, a coarser --grid or fewer --layers, or raise --memory-limit"};
 
-/// The whole program. @return its exit code. @throws Error.
-int run(int argc, const char* const* argv, std::stop_token stop);
+/// The whole program, once its command line is read. @return its exit code. @throws Error.
+int run(const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::vectorise
