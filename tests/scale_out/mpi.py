@@ -10,6 +10,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -22,6 +23,7 @@ from volume import volume  # noqa: E402
 # Nothing but our words on the standard error output: not that /sys is not mounted.
 ENV = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
        "HWLOC_HIDE_ERRORS": "2"}
+EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 MOST_SECONDS = 5  # from the death of a rank to the end of all
 
 
@@ -43,6 +45,11 @@ class Mpi:
             if process.returncode != -signal.SIGPIPE:
                 break
         return process.returncode, out, err
+
+    def help(self, topic):
+        """What it prints without mpirun."""
+        return subprocess.run([self.program, "--help", topic], check=True, capture_output=True, text=True,
+                              timeout=60).stdout
 
     def ranks(self, output):
         """The processes that have the output among their arguments and are the program."""
@@ -205,6 +212,21 @@ def check_forecasts(mpi):
         assert code == 0 and ("--slab-layers does nothing" in err) == does_nothing, err
 
 
+def check_help(mpi):
+    """It comes without mpirun, its options are those that ranks take, and its examples run."""
+    for topic in ("usual", "all", "man", "markdown"):
+        text = mpi.help(topic)
+        assert not re.search(r"--(representatives|report|join|keep-cells)\b", text), text
+    text = mpi.help("usual")
+    assert text.startswith("Usage: ph-barcode-mpi "), text
+    examples = re.findall(r"(?m)^  mpirun -n (\d+) ph-barcode-mpi (.*)\n      \S", text)
+    assert len(examples) == 5, text
+    shutil.copytree(EXAMPLES, mpi.folder / "examples")
+    for ranks, arguments in examples:
+        code, _, err = mpi.run(int(ranks), *arguments.split())
+        assert code == 0, (arguments, err)
+
+
 def check_refusals(mpi):
     volume(mpi.folder / "image.npy", (24, 20, 16))
     volume(mpi.folder / "large.npy", (48, 96, 96))
@@ -213,8 +235,6 @@ def check_refusals(mpi):
     points(mpi.folder / "many.csv", 20_000, 3)
     (mpi.folder / "far.csv").write_text("0,1\n1,0\n")
     (mpi.folder / "holes.csv").write_text("1,2\nnan,3\n4,5\n")
-    code, out, err = mpi.run(1, "--help")
-    assert code == 0 and out.startswith("mpirun -n RANKS ph-barcode-mpi"), (code, out, err)
     for arguments, word, code in (
             (["image.npy", "--metric", "cosine"], "--metric", 64),
             (["none.npy", "--max-dim", "0"], "none.npy", 66), (["image.npy", "--part", "1/2"], "--part", 64),
@@ -300,6 +320,7 @@ def main():
         tried += check_sharing(mpi, one_process)
         check_forecasts(mpi)
         check_resumed_clouds(mpi, one_process)
+        check_help(mpi)
         check_refusals(mpi)
         killed, slowest = check_kills(mpi, one_process, kills, seed)
     print(f"{tried} runs with the bytes of one process; {killed} ranks killed, all others ended within "

@@ -62,9 +62,11 @@ void add_input_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("input");
   app.add_option(
          "INPUT", a.inputs,
-         "files to read; - is standard input. Several, or a folder, are a batch: its "
-         "outputs are folders (FOLDER/) or have a * for the input's name. A stored barcode "
-         "is drawn, converted or reported again; the word plot before it says that it is one")
+         a.on_ranks
+             ? "the image, or the points; all ranks have to see the file"
+             : "files to read; - is standard input. Several, or a folder, are a batch: its "
+               "outputs are folders (FOLDER/) or have a * for the input's name. A stored barcode "
+               "is drawn, converted or reported again; the word plot before it says that it is one")
       ->type_name("");
   static const Names formats = format_names();
   add_choice(app, "--format", formats,
@@ -149,6 +151,17 @@ void add_picture_options(CLI::App& app, app::PlotArguments& plots) {
         for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
           plots.look.dims.push_back(static_cast<int>(dim));
       });
+}
+
+/// Leaves out of the help what ranks refuse.
+void hide_from_ranks(CLI::App& app) {
+  const auto hide = [&](std::string_view name) {
+    app.get_option(fmt::format("--{}", name))->group("");
+  };
+  for (const app::OptionScope& scope : option_scopes())
+    if ((scope.where & (kRanks | kCloudRanks)) == 0) hide(scope.option);
+  for (const std::string_view name : {"part", "join", "keep-cells", "report", "compare"})
+    hide(name);
 }
 
 /// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
@@ -266,7 +279,8 @@ bool Arguments::is_batch() const {
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
                                            Arguments& arguments) {
-  CLI::App app("", std::string(manual().program));
+  const app::Manual& about = arguments.on_ranks ? manual_of_ranks() : manual();
+  CLI::App app("", std::string(about.program));
   app::PlotArguments plots;
   bool list_formats = false;
   add_input_options(app, arguments);
@@ -282,7 +296,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   add_output_options(app, arguments);
   add_picture_options(app, plots);
   app::add_common_options(app, arguments.common);
-  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, manual()))
+  if (arguments.on_ranks) hide_from_ranks(app);
+  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, about))
     return answer;
   if (list_formats) return formats_table();
   const bool is_first_of_output = take_word(arguments, plots);

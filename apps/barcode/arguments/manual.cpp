@@ -55,6 +55,41 @@ constexpr std::array kExamples{
                  "What a computation would take: its cells, its memory, its engine"},
 };
 
+constexpr std::array<Name, 2> kUsagesOfRanks{"[OPTION...] IMAGE -o BARS",
+                                             "[OPTION...] --complex rips --max-dim 0 POINTS"};
+
+constexpr std::array kTopicsOfRanks{
+    app::Topic{"input", "Input: formats, tables, missing values"},
+    app::Topic{"raw", "Raw images: numbers without a header"},
+    app::Topic{"complexes", "Complexes: images, or points"},
+    app::Topic{"cubical", "Cubical complexes of images"},
+    app::Topic{"engines", "Homology: dimensions, field"},
+    app::Topic{"parts", "Parts: those of a run that died"},
+    app::Topic{"output", "Output: barcodes"},
+    app::Topic{"pictures", "Pictures: barcodes, diagrams"},
+    app::kLimitsTopic,
+    app::kMessagesTopic,
+};
+
+constexpr std::array<Name, 12> kMostUsedOfRanks{
+    "--format",          "--complex", "--max-dim", "--min-dim", "--threshold", "--superlevel",
+    "--min-persistence", "--resume",  "--output",  "--plot",    "--verbose",   "--dry-run"};
+
+constexpr std::array kExamplesOfRanks{
+    app::Example{"mpirun -n 2 ph-barcode-mpi examples/data/phantom.nii.gz -o bars.csv",
+                 "All bars of a volume, half of its layers on each rank"},
+    app::Example{"mpirun -n 2 ph-barcode-mpi examples/data/blobs.pgm --superlevel -o bars.csv "
+                 "--plot bars.svg",
+                 "The bright spots and rings of a picture, as a file and as a picture"},
+    app::Example{"mpirun -n 2 ph-barcode-mpi examples/data/torus.csv --complex rips --max-dim 0 -o "
+                 "components.csv",
+                 "The components of a set of points"},
+    app::Example{"mpirun -n 2 ph-barcode-mpi examples/data/blobs.pgm -o bars.csv --resume",
+                 "The same command again goes on where a run died"},
+    app::Example{"mpirun -n 2 ph-barcode-mpi examples/data/phantom.nii.gz --dry-run",
+                 "What the ranks would take and send"},
+};
+
 std::vector<app::FormatList> format_lists() {
   std::vector<app::FormatList> lists{{"Read (--format NAME), plain or compressed with gzip", {}},
                                      {"Written (--output-format NAME)", {}}};
@@ -97,9 +132,30 @@ constexpr app::Manual kManual{
     .built_in = built_in,
 };
 
+constexpr app::Manual kManualOfRanks{
+    .program = "ph-barcode-mpi",
+    .phrase = "persistent homology of an image, or components of points, on the ranks of MPI",
+    .paragraph =
+        "Computes the bars of one image of two or three axes (of up to eight: its components, or "
+        "the highest dimension but one) on all ranks that mpirun starts, each of which looks at "
+        "some layers; or the components of points of up to eight coordinates, of which each rank "
+        "has some blocks. The bars are those of ph-barcode, to the last byte. --threads and "
+        "--memory-limit are those of a rank. --verbose also says what each rank took and sent, "
+        "--progress json has lines of all ranks.",
+    .usages = kUsagesOfRanks,
+    .commands = {},
+    .topics = kTopicsOfRanks,
+    .usual = kMostUsedOfRanks,
+    .examples = kExamplesOfRanks,
+    .formats = format_lists,
+    .see_also = "ph-barcode",
+    .built_in = built_in,
+};
+
 }  // namespace
 
 const app::Manual& manual() { return kManual; }
+const app::Manual& manual_of_ranks() { return kManualOfRanks; }
 
 std::string formats_table() {
   std::string text;

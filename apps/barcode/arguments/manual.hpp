@@ -8,6 +8,8 @@ namespace ph::barcode {
 
 /// What the program says of itself beside its options.
 const app::Manual& manual();
+/// The same of ph-barcode-mpi.
+const app::Manual& manual_of_ranks();
 
 /// The answer to --formats: what is read and what is written, a format each, with an example.
 std::string formats_table();

@@ -51,8 +51,11 @@ void add_part_options(CLI::App& app, Arguments& a) {
                "the inputs are part files, in any order: bars if all are there, else, with -o "
                "FILE.ph, one part");
   app.add_flag("--resume", a.resumes,
-               "with --part: nothing is done if the output is that part already, whole, and not "
-               "older than the input");
+               a.on_ranks ? "keep the part of each rank beside the output until all is done, and "
+                            "take the parts that are there: a run that died goes on. Loops of "
+                            "volumes are computed anew"
+                          : "with --part: nothing is done if the output is that part already, "
+                            "whole, and not older than the input");
   app.add_flag("--keep-cells", a.keeps_cells,
                "with --part of an image: keep the cells of bars, which JSON shows");
 }

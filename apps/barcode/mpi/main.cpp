@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -20,34 +19,23 @@ constexpr ph::app::Program kProgram{
     "take more ranks on more machines, ask for less (--max-dim), or raise "
     "--memory-limit"};
 
-constexpr std::string_view kHelp =
-    R"(mpirun -n RANKS ph-barcode-mpi [OPTION...] IMAGE -o BARS
-mpirun -n RANKS ph-barcode-mpi --complex rips --max-dim 0 [OPTION...] POINTS
-
-The barcode of one image of two or three axes (of up to eight: its components,
-or the highest dimension but one), computed by all ranks, each of which looks
-at some layers; or the components of points of up to eight coordinates, of which
-each rank has some blocks. All ranks have to see the file. The bars are those of
-ph-barcode, to the last byte.
-
-Options are those of ph-barcode. For images: --raw-..., --channel,
---construction, --superlevel, --periodic, --max-dim, --min-dim, --field,
---slab-layers. For points: --columns. For both: --format, --nan, --threshold;
---output, --output-format, --min-persistence, --plot and how it looks. See
-ph-barcode --help all. --threads and --memory-limit are those of a rank.
-
-  --resume   keep the part of each rank beside the output until all is done, and
-             take those that are there: a run that died goes on. Loops of volumes
-             are computed anew
-  --verbose  also what each rank took and sent
-  --dry-run  say what the ranks will take and send, and compute nothing
-  --progress json  lines of all ranks, with their numbers
-)";
-
-bool is_asked(int argc, char** argv, std::string_view option) {
-  for (int i = 1; i < argc; ++i)
-    if (argv[i] == option) return true;
+/// MPI is not started for it: it may be missing where the program is only asked.
+bool is_help_asked(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--") return false;
+    if (word == "-h" || word.starts_with("--help")) return true;
+  }
   return false;
+}
+
+int print_help(int argc, char** argv) {
+  return ph::app::run_program(kProgram, [&](const std::stop_token&) {
+    ph::barcode::Arguments arguments;
+    arguments.on_ranks = true;
+    const auto answer = ph::barcode::parse_arguments(argc, argv, arguments);
+    return ph::app::answer_command_line(answer.value());
+  });
 }
 
 /// By default ranks of one machine share it.
@@ -61,10 +49,7 @@ void share_machine(ph::app::CommonOptions& options, int ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (is_asked(argc, argv, "--help") || is_asked(argc, argv, "-h")) {
-    std::fwrite(kHelp.data(), 1, kHelp.size(), stdout);
-    return 0;
-  }
+  if (is_help_asked(argc, argv)) return print_help(argc, argv);
   ph::barcode::MpiTransport transport(&argc, &argv);
   const int code = ph::app::run_program(kProgram, [&](const std::stop_token& stop) {
     ph::barcode::Arguments arguments;

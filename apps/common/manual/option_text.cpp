@@ -121,7 +121,8 @@ const OptionText& Described::named(std::string_view name) const {
 
 Described described(const CLI::App& app, const Manual& manual, std::string_view command) {
   Described program{manual, command_name(command, manual), {}};
-  for (const CLI::Option* option : app.get_options()) program.options.push_back(text_of(*option));
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) program.options.push_back(text_of(*option));
   for (OptionText& option : program.options)
     if (option.name() == "--help")
       for (const std::string_view name : help_topics(manual))

@@ -55,7 +55,8 @@ struct Described {
   const OptionText& named(std::string_view name) const;
 };
 
-/// All that is known of a program. @param command what it was started as, with or without a path.
+/// All that is known of a program; options without a group are left out.
+/// @param command what it was started as, with or without a path.
 Described described(const CLI::App& app, const Manual& manual, std::string_view command);
 
 }  // namespace ph::app
