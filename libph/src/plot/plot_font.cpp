@@ -66,8 +66,8 @@ char32_t code_point(const std::string& character) {
 
 /// One outline of a glyph in the units of the font: corners, and between them points that pull
 /// (of quadratic Bézier curves). Two of those that follow each other have a corner in their middle.
-std::vector<Place> flattened(std::span<const FT_Vector> points, std::span<const char> tags,
-                             double unit) {
+/// @param tags of the points: char, since FreeType 2.13.3 unsigned char.
+std::vector<Place> flattened(std::span<const FT_Vector> points, const auto* tags, double unit) {
   const std::size_t count = points.size();
   const auto place = [&](std::size_t i) {
     const FT_Vector& p = points[i % count];
@@ -140,8 +140,8 @@ const Font::Glyph& Font::glyph(const std::string& character) {
   std::size_t begin = 0;
   for (int k = 0; k < outline.n_contours; ++k) {
     const auto end = static_cast<std::size_t>(outline.contours[k]) + 1;
-    glyph.outlines.push_back(flattened({outline.points + begin, end - begin},
-                                       {outline.tags + begin, end - begin}, unit));
+    glyph.outlines.push_back(
+        flattened({outline.points + begin, end - begin}, outline.tags + begin, unit));
     begin = end;
   }
   return glyphs_.emplace(character, std::move(glyph)).first->second;
