@@ -13,10 +13,12 @@ using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 
 /// The points as a matrix: no copy; they must outlive it.
 inline Eigen::Map<const PointMatrix> as_matrix(const Points& points) {
-  return {points.data(), points.rows(), points.cols()};
+  return {points.data(), static_cast<Eigen::Index>(points.rows()),
+          static_cast<Eigen::Index>(points.cols())};
 }
 inline Eigen::Map<PointMatrix> as_matrix(Points& points) {
-  return {points.data(), points.rows(), points.cols()};
+  return {points.data(), static_cast<Eigen::Index>(points.rows()),
+          static_cast<Eigen::Index>(points.cols())};
 }
 
 /// A copy of any matrix or expression.

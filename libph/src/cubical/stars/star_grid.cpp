@@ -131,7 +131,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
         const std::uint32_t below = bits[0], beside = bits[1], above = bits[2];
         for (std::uint32_t x = x_begin; x < x_end; ++x) {
           const T v = center[x];
-          stars[x] |= (is_older_below(other[std::ptrdiff_t{x} - 1], v) ? below : 0U) |
+          stars[x] |= (is_older_below(other[static_cast<std::ptrdiff_t>(x) - 1], v) ? below : 0U) |
                       (is_older_above(other[x], v) ? beside : 0U) |
                       (is_older_above(other[x + 1], v) ? above : 0U);
         }
