@@ -127,8 +127,8 @@ struct Segmentation : SceneTree, SceneCut {
 /// its H0 persistence, and the components that are there to stay.
 ///
 /// Method surface: the voxels enter with the concavity of the surface around them, in units of
-/// the noise that a flat surface shows at that range, the darkest
-/// seams last; objects are basins between seams. Method paper: the Vietoris-Rips complex of the
+/// the noise that a flat surface shows at that range. Seams, where the surface is most concave,
+/// enter last; objects are the basins between them. Method paper: the Vietoris-Rips complex of the
 /// voxels; objects are components of infinite persistence. Method supervoxels: the voxels enter
 /// with their distance to the nearest seed; each basin is a supervoxel. Deterministic: the result
 /// depends neither on threads nor on the order of the points.
