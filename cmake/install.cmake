@@ -53,8 +53,10 @@ install(DIRECTORY docs examples DESTINATION ${doc_dir} COMPONENT doc
         PATTERN CMakeLists.txt EXCLUDE PATTERN docs/site EXCLUDE)
 install(FILES LICENSE DESTINATION ${doc_dir} COMPONENT licence)
 
+# Of component `dev` alone ph::c has a file that names it, and no library: a link that leads nowhere.
+set(c_library ${CMAKE_INSTALL_LIBDIR}/${CMAKE_SHARED_LIBRARY_PREFIX}ph_c${CMAKE_SHARED_LIBRARY_SUFFIX})
 configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-config.cmake
-                              INSTALL_DESTINATION ${package_dir})
+                              INSTALL_DESTINATION ${package_dir} PATH_VARS c_library)
 # Before 1.0 a minor version may change what a program calls.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ph-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
