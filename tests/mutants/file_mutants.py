@@ -46,7 +46,7 @@ MUTANTS = [
      "changes.push_back({0, curve.at[k], curve.at[k]});",
      ["ph-vectorise"], "ph_vectorise_fits"),
     ("outputs: only lower case is a packed file", "libph/src/io/bytes/output_file.cpp",
-     "if (lower.ends_with(packed))",
+     "if (ends_in(path, packed))",
      "if (path.ends_with(packed))",
      ["ph-barcode", "ph-segment", "ph-distance", "ph-vectorise", "peak"], "faults_corpus"),
     ("frames: a list that fails has ended", "apps/segment/input/frame_list.cpp",

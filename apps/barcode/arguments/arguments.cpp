@@ -20,6 +20,7 @@
 #include "barcode/arguments/table_arguments.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "core/lower_case.hpp"
 #include "report/page_template.hpp"
 
 namespace ph::barcode {
@@ -42,17 +43,10 @@ Names output_formats() {
   return names;
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 void take_report(Arguments& a, const std::string& path) {
   report::require_built_in("--report");
-  const std::string name = lower_case(path);
   const bool is_place = path.ends_with('/') || app::is_folder(path);
-  if (path != "-" && !is_place && !name.ends_with(".html") && !name.ends_with(".htm"))
+  if (path != "-" && !is_place && !ends_in(path, ".html") && !ends_in(path, ".htm"))
     throw Error(ErrorKind::usage,
                 fmt::format("--report: found '{}', expected a name that ends in .html", path));
   a.report = path;

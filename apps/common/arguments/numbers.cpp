@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/floating.hpp"
+#include "core/lower_case.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {
@@ -119,10 +120,8 @@ std::uint64_t parse_size(std::string_view option, std::string_view text) {
       {"tib", kKibi * kKibi * kKibi * kKibi},
   };
   const Read read = read_number(text);
-  std::string unit(read.rest);
+  std::string unit = lower_case(read.rest);
   if (unit.starts_with(' ')) unit.erase(0, 1);
-  for (char& c : unit)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   for (const Unit& known : kUnits) {
     if (!read.ok || unit != known.name) continue;
     const double bytes = read.value * known.bytes;

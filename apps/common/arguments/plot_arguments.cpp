@@ -12,21 +12,10 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "core/lower_case.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {
-namespace {
-
-bool ends_in(std::string_view path, std::string_view extension) {
-  const auto equal = [](char a, char b) {
-    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-  };
-  return path.size() >= extension.size() &&
-         std::ranges::equal(path.substr(path.size() - extension.size()), extension, equal);
-}
-
-}  // namespace
-
 bool Plot::is_png() const { return ends_in(path, ".png"); }
 bool Plot::is_svg() const { return ends_in(path, ".svg"); }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "common/files/file_identity.hpp"
+#include "core/lower_case.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
@@ -85,12 +86,9 @@ std::vector<std::string> files_in(const std::string& folder,
                                   std::span<const std::string_view> extensions,
                                   std::string_view what) {
   namespace fs = std::filesystem;
-  const auto is_known = [&](std::string name) {
-    for (char& c : name)
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return std::ranges::any_of(extensions, [&](std::string_view e) {
-      return name.size() > e.size() && name.ends_with(e);
-    });
+  const auto is_known = [&](const std::string& name) {
+    return std::ranges::any_of(
+        extensions, [&](std::string_view e) { return name.size() > e.size() && ends_in(name, e); });
   };
   std::vector<std::string> files;
   std::error_code error;

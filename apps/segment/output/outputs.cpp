@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/lower_case.hpp"
 #include "files/cloud_files.hpp"
 #include "files/label_files.hpp"
 #include "ph/error.hpp"
@@ -23,9 +24,7 @@ namespace {
 std::string extension_of(std::string_view path) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos) return {};
-  std::string extension(path.substr(dot));
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
+  return lower_case(path.substr(dot));
 }
 
 /// @throws Error (usage) unless the path ends in what the option can write; "-" is fine.

@@ -10,6 +10,7 @@
 
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
+#include "core/lower_case.hpp"
 #include "ph/error.hpp"
 #include "vectorise/arguments/manual.hpp"
 #include "vectorise/arguments/option_scopes.hpp"
@@ -186,13 +187,6 @@ void check_together(const Arguments& a) {
   if (a.infinite && a.infinite->rule == InfiniteRule::Rule::keep && !may_keep_infinite(a.kind))
     reject(fmt::format("--infinite: found keep, expected drop, error or a number with --kind {}",
                        kKinds[static_cast<std::size_t>(a.kind)]));
-}
-
-bool ends_in(const std::string& path, std::string_view extension) {
-  const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
-  return path.size() >= extension.size() &&
-         std::equal(extension.begin(), extension.end(), path.end() - std::ssize(extension),
-                    [&](char e, char c) { return is_same(c, e); });
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/lower_case.hpp"
+
 namespace ph {
 namespace {
 
@@ -25,7 +27,7 @@ const char* end_of_digits(const char* at, const char* last) {
 bool begins_with(const char* at, const char* last, std::string_view word) {
   if (last - at < static_cast<std::ptrdiff_t>(word.size())) return false;
   return std::equal(word.begin(), word.end(), at,
-                    [](char small, char c) { return is_letter(c) && (c | 0x20) == small; });
+                    [](char small, char c) { return to_lower(c) == small; });
 }
 
 /// `(letters, digits and _)` behind "nan", as far as it is there.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/lower_case.hpp"
 #include "plot/plot_intervals.hpp"
 
 namespace ph::plot {
@@ -88,7 +89,7 @@ void add_shape(Outline& to, int dim, double x, double y, double r) {
 std::string lower_first(std::string text) {
   const auto in = [](char c, char a, char b) { return c >= a && c <= b; };
   if (text.size() > 1 && in(text[0], 'A', 'Z') && in(text[1], 'a', 'z'))
-    text[0] = static_cast<char>(text[0] - 'A' + 'a');
+    text[0] = to_lower(text[0]);
   return text;
 }
 

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <sstream>
 #include <utility>
 
+#include "core/lower_case.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
 #include "ph/io/cloud.hpp"
@@ -14,13 +14,6 @@
 
 namespace ph::segment {
 namespace {
-
-bool ends_with(std::string_view text, std::string_view lower_case_end) {
-  if (text.size() < lower_case_end.size()) return false;
-  return std::ranges::equal(
-      text.substr(text.size() - lower_case_end.size()), lower_case_end, {},
-      [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-}
 
 /// label_in, or, where a cloud went through here before, label_in_2, label_in_3, …
 std::string free_name(const Cloud& cloud) {
@@ -32,8 +25,8 @@ std::string free_name(const Cloud& cloud) {
 }  // namespace
 
 CloudFormat cloud_format_of(std::string_view path) {
-  if (path == "-" || ends_with(path, ".pcd")) return CloudFormat::pcd;
-  if (ends_with(path, ".ply")) return CloudFormat::ply;
+  if (path == "-" || ends_in(path, ".pcd")) return CloudFormat::pcd;
+  if (ends_in(path, ".ply")) return CloudFormat::ply;
   throw Error(ErrorKind::usage,
               fmt::format("{}: expected a file name that ends in .pcd or .ply", path));
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "core/lower_case.hpp"
 #include "io/barcodes/barcode_formats.hpp"
 
 namespace ph {
@@ -45,9 +46,7 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path) {
   const std::size_t slash = path.rfind('/');
   if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash))
     return std::nullopt;
-  std::string extension(path.substr(dot + 1));
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');  // as in no locale
+  const std::string extension = lower_case(path.substr(dot + 1));
   if (extension == "none") return std::nullopt;
   if (extension == "diagram") return BarcodeFormat::dipha;
   return barcode_format_named(extension);

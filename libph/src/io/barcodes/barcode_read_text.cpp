@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lower_case.hpp"
 #include "io/barcodes/barcode_read.hpp"
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
@@ -44,15 +45,8 @@ void add_at(const TextLines& lines, Barcode& barcode, const Bar& bar) {
   barcode.add(bar, {}, {});
 }
 
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
 const Column* column_of(const std::string& name) {
-  const std::string lower = in_lower_case(name);
+  const std::string lower = lower_case(name);
   const auto* const found = std::ranges::find(kNames, lower, [](const auto& e) { return e.first; });
   return found == kNames.end() ? nullptr : &found->second;
 }
@@ -204,7 +198,7 @@ StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty) {
 
 bool has_barcode_header(const Input& input) {
   constexpr std::size_t kProbe = 64;  // what is no text is not looked at as lines
-  if (in_lower_case(input.text().substr(0, kProbe)).find("dim") == std::string::npos) return false;
+  if (lower_case(input.text().substr(0, kProbe)).find("dim") == std::string::npos) return false;
   TextLines lines(input);
   return lines.next() && columns_by_name(lines).has_value();
 }

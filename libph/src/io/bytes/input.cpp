@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/format_size.hpp"
+#include "core/lower_case.hpp"
 #include "core/system/files.hpp"
 #include "core/system/machine_memory.hpp"
 #include "io/bytes/unpack.hpp"
@@ -40,11 +41,7 @@ class Descriptor {
 };
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string result = path.extension().string();
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
+  return lower_case(path.extension().string());
 }
 
 std::size_t half_of_memory() {

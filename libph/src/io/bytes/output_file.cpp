@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/lower_case.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
@@ -55,11 +56,8 @@ std::optional<int> descriptor_of(const std::string& path) {
 
 void require_unpacked(const std::string& path) {
   constexpr std::array<std::string_view, 6> kPacked{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z"};
-  std::string lower(path);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   for (const std::string_view packed : kPacked)
-    if (lower.ends_with(packed))
+    if (ends_in(path, packed))
       throw Error(ErrorKind::usage,
                   fmt::format("{}: found {}, expected a name without it: outputs are not packed",
                               printable(path), packed));

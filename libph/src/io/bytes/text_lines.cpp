@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/floating.hpp"
+#include "core/lower_case.hpp"
 #include "io/points/table.hpp"
 #include "ph/detail/io/reader.hpp"
 
@@ -19,7 +20,6 @@ constexpr std::size_t kPollBytes = 1 << 18;  // between two looks at the stop to
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool ends_cell(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
-char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 std::string quoted(std::string_view bytes) {
   std::string result(1, '"');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/bytes/yaml_words.hpp"
+#include "core/lower_case.hpp"
 
 #include <fmt/format.h>
 
@@ -38,14 +39,6 @@ std::string_view unquoted(std::string_view word) {
   const bool has = word.size() >= 2 && word.front() == word.back() &&
                    (word.front() == '"' || word.front() == '\'');
   return has ? word.substr(1, word.size() - 2) : word;
-}
-
-std::string lower(std::string_view word) {
-  std::string result(word);
-  std::ranges::transform(result, result.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return result;
 }
 
 }  // namespace
@@ -111,7 +104,7 @@ void YamlWords::take_key(std::string_view line, std::size_t indent) {
   }
   while (!open_.empty() && open_.back().indent >= indent) open_.pop_back();
   std::string path = open_.empty() ? std::string() : open_.back().path + ".";
-  path += lower(unquoted(trimmed(content.substr(0, colon))));
+  path += lower_case(unquoted(trimmed(content.substr(0, colon))));
   const auto [entry, is_new] = values_.emplace(path, Value{number_, indent + 1, {}});
   if (!is_new) {
     fail(indent + 1, {"a key twice",

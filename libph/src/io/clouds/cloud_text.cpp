@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/lower_case.hpp"
 #include "io/clouds/cloud_rows.hpp"
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
@@ -13,11 +14,9 @@
 namespace ph {
 namespace {
 
-std::string lower(std::string_view word) {
-  std::string result;
-  for (const char c : word) {
-    if (c != '"') result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
+std::string lower_unquoted(std::string_view word) {
+  std::string result = lower_case(word);
+  std::erase(result, '"');
   return result;
 }
 
@@ -38,7 +37,7 @@ std::vector<std::string> column_names(PointsView rows, const std::vector<std::st
   const auto columns = static_cast<std::size_t>(rows.cols());
   std::vector<std::string> names;
   if (header.size() == columns) {
-    for (const std::string& word : header) names.push_back(lower(word));
+    for (const std::string& word : header) names.push_back(lower_unquoted(word));
     const bool has_xyz = std::all_of(
         kCoordinates.begin(), kCoordinates.end(),
         [&](std::string_view name) { return std::count(names.begin(), names.end(), name) == 1; });

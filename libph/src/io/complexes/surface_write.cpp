@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lower_case.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 
@@ -62,13 +63,11 @@ class Buffer {
 }  // namespace
 
 std::optional<SurfaceFormat> surface_format_of_path(std::string_view path) {
-  const auto ends_in = [&](std::string_view extension) {
-    return path.size() > extension.size() &&
-           std::ranges::equal(path.substr(path.size() - extension.size()), extension, {},
-                              [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  const auto has = [&](std::string_view extension) {
+    return path.size() > extension.size() && ends_in(path, extension);
   };
-  if (ends_in(".ply")) return SurfaceFormat::ply;
-  if (ends_in(".off")) return SurfaceFormat::off;
+  if (has(".ply")) return SurfaceFormat::ply;
+  if (has(".off")) return SurfaceFormat::off;
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/lower_case.hpp"
 #include "io/readers.hpp"
 
 namespace ph::detail {
@@ -42,12 +43,10 @@ std::vector<std::string> unnamed_header(std::string_view line, std::string_view 
   return names;
 }
 
-bool is_name_of_index(std::string name) {
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+bool is_name_of_index(std::string_view name) {
   constexpr std::array<std::string_view, 10> kNames{
       "", "index", "idx", "id", "no", "nr", "row", "rownames", "level_0", "unnamed: 0"};
-  return std::ranges::find(kNames, name) != kNames.end();
+  return std::ranges::find(kNames, lower_case(name)) != kNames.end();
 }
 
 // The first column.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/floating.hpp"
+#include "core/lower_case.hpp"
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
 
@@ -16,8 +17,6 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kShownNames = 10;
-
-char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 // Whether somebody meant a number by this: a header never looks like one.
 bool looks_numeric(std::string_view cell) {
