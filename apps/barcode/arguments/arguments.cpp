@@ -10,14 +10,9 @@
 #include <functional>
 #include <string_view>
 
-#include "barcode/arguments/alpha_arguments.hpp"
-#include "barcode/arguments/computation_arguments.hpp"
-#include "barcode/arguments/image_arguments.hpp"
+#include "barcode/arguments/argument_groups.hpp"
 #include "barcode/arguments/manual.hpp"
 #include "barcode/arguments/option_scopes.hpp"
-#include "barcode/arguments/part_arguments.hpp"
-#include "barcode/arguments/rips_arguments.hpp"
-#include "barcode/arguments/table_arguments.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "core/lower_case.hpp"

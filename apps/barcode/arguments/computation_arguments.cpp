@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/computation_arguments.hpp"
+#include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

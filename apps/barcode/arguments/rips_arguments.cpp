@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/rips_arguments.hpp"
+#include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "barcode/arguments/arguments.hpp"
+
+// The options of ph-barcode by topic, a file each. `add_…` registers them, and `arguments` must
+// outlive `app`. `check_…` looks at what no single one of them can see, sets what follows from
+// them, and throws Error (usage).
+namespace ph::barcode {
+
+/// What of a table or a picture is read: --columns, --channel.
+void add_table_options(CLI::App& app, Arguments& arguments);
+/// Decides what a table means where other options leave one reading only.
+void check_table_arguments(Arguments& arguments);
+
+/// How an image lies in a file without a header.
+void add_raw_options(CLI::App& app, Arguments& arguments);
+/// Those that images and cubical complexes have.
+void add_cubical_options(CLI::App& app, Arguments& arguments);
+/// Of both.
+void check_image_arguments(Arguments& arguments);
+
+/// Which complex is built.
+void add_complex_options(CLI::App& app, Arguments& arguments);
+/// What is computed of it: dimensions, field, engine, representatives.
+void add_homology_options(CLI::App& app, Arguments& arguments);
+
+/// Those that only Rips complexes have: collapse, samples, approximation, weights.
+void add_rips_options(CLI::App& app, Arguments& arguments);
+/// Weights come from one place, and exclude what makes sense for plain distances only.
+void check_rips_arguments(Arguments& arguments);
+
+/// Those that only alpha complexes have.
+void add_alpha_options(CLI::App& app, Arguments& arguments);
+void check_alpha_arguments(Arguments& arguments);
+
+/// --part, --join and what goes with them.
+void add_part_options(CLI::App& app, Arguments& arguments);
+void check_part_arguments(const Arguments& arguments);
+
+}  // namespace ph::barcode
