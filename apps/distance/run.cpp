@@ -18,7 +18,6 @@
 #include "distance/data/pairs.hpp"
 #include "distance/output/group_tests.hpp"
 #include "distance/output/matching.hpp"
-#include "distance/output/matrix.hpp"
 #include "distance/output/table.hpp"
 #include "ph/io/write.hpp"
 

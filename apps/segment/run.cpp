@@ -19,12 +19,10 @@
 #include "ph/error.hpp"
 #include "report/encoding/sha256.hpp"
 #include "segment/arguments/arguments.hpp"
-#include "segment/arguments/idle_options.hpp"
 #include "segment/arguments/option_scopes.hpp"
 #include "segment/input/depth_camera.hpp"
 #include "segment/output/outputs.hpp"
 #include "segment/output/summary.hpp"
-#include "segment/stream.hpp"
 #include "tree/tree_barcode.hpp"
 
 namespace ph::segment {

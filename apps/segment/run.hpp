@@ -15,6 +15,10 @@ inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise
 /// @return the exit code. @throws Error.
 int run(Arguments& arguments, app::Session& session);
 
+/// Segments frame after frame. One failure does not stop the others: its line goes to stderr and
+/// the code of the first one is returned at the end. The last line on stderr is the throughput.
+int run_stream(const Arguments& arguments, app::Session& session);
+
 /// What is remembered from frame to frame so that results are steady.
 struct Remembered {
   LabelTracker tracker;

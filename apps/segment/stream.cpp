@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "segment/stream.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/ranks/cloud_ranks.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "barcode/parts/cloud_input.hpp"
 #include "barcode/parts/cloud_parts.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "common/arguments/numbers.hpp"
 #include "facade/parts/join_ranks.hpp"
 

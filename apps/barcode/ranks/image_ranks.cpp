@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/ranks/image_ranks.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,6 +11,7 @@
 #include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/part_input.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "common/arguments/numbers.hpp"
 #include "core/bytes/byte_reader.hpp"
 #include "core/bytes/byte_writer.hpp"

@@ -22,6 +22,14 @@ struct RankResult {
   std::optional<RankBars> bars;  ///< on rank 0
 };
 
+/// Computes an image on all ranks, or with --dry-run says what they will take.
+RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
+                          app::Session& session);
+/// Computes the components of a point cloud on all ranks, some blocks of it on each.
+/// @throws Error (usage) as read_cloud_input.
+RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
+                          app::Session& session);
+
 /// Where --resume keeps the part of a rank.
 std::string kept_path(const Arguments& arguments, int rank, int parts);
 

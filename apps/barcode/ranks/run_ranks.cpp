@@ -10,8 +10,7 @@
 #include "barcode/batch.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"
-#include "barcode/ranks/cloud_ranks.hpp"
-#include "barcode/ranks/image_ranks.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "distance/output/matrix.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include "common/files/csv_cell.hpp"
+#include "distance/output/table.hpp"
 #include "io/points/npy_write.hpp"
 #include "ph/io/write.hpp"
 

@@ -25,6 +25,11 @@ void write_distances(OutputFile& file, const PairDistances& distances,
                      const std::vector<Barcode>& barcodes, const std::vector<std::string>& inputs,
                      const Arguments& arguments);
 
+/// Writes the distances of the only dimension as a square: NPY, or CSV with the names of the
+/// inputs.
+void write_matrix(OutputFile& file, const PairDistances& distances, bool is_npy,
+                  const std::vector<std::string>& inputs);
+
 /// The distances of a document, as a member of it: "distances": […].
 void write_distance_rows(OutputFile& file, const PairDistances& distances);
 

@@ -79,4 +79,8 @@ app::InputFiles inputs_of(const Arguments& arguments);
 /// @throws Error (usage); Error (not_built_in) on what is planned but not there.
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
+/// The options that do nothing beside the others, a line each: what is asked for has no use for
+/// them. Those that do nothing for an input or a method are refused, see option_scopes.hpp.
+std::vector<std::string> idle_options(const Arguments& arguments);
+
 }  // namespace ph::segment

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "segment/arguments/idle_options.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

@@ -10,7 +10,6 @@
 #include "alpha/alpha_lazy.hpp"
 #include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/intervals.hpp"
-#include "alpha/intervals/lemmas.hpp"
 #include "alpha/listed_simplices.hpp"
 #include "alpha/other_values.hpp"
 #include "alpha/periodic/triangulate_periodic.hpp"

@@ -127,4 +127,10 @@ void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunC
 /// value of that face, until there are none.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
+/// Asserts what the pairing stands on, in builds with assertions; does nothing in others. Each
+/// simplex lies in exactly one interval, by exact signs, and has its value. No face has a larger
+/// value than a coface. The Euler characteristic is 1, of all simplices and of the critical ones.
+/// Not of more than 20 000 cells, because it takes ten times as long as all else.
+void check_lemmas(const AlphaCells& cells);
+
 }  // namespace ph::alpha

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/intervals/lemmas.hpp"
+#include "alpha/intervals/intervals.hpp"
 
 #ifdef NDEBUG
 
