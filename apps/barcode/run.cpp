@@ -53,7 +53,8 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
   else if (!cubical::can_be_cut(cubical->cubical_image(),
                                 {arguments.options.min_dim, *plan.options.max_dim}))
     does_nothing(cubical->cubical_image().extents.size() > 3
-                     ? "of four axes or more bars of dimensions between 0 and the highest but one "
+                     ? "of four axes or more bars of dimensions between 0 and "
+                       "the highest but one "
                        "need all of them at once"
                      : "no axis has more than one voxel");
   else
@@ -61,15 +62,17 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
-/// The files of the plots of the merge tree, in their order, before bars are computed, which may
-/// take long: there may be no tree. @throws Error (usage) if there is none.
+/// The files of the plots of the merge tree, in their order, before bars are
+/// computed, which may take long: there may be no tree. @throws Error (usage)
+/// if there is none.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                                           const Arguments& arguments, const RunContext& context) {
   const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
   if (!tree)
     throw Error(ErrorKind::usage,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
-                            "approximation, --construction vertices, no --threshold on a listed "
+                            "approximation, --construction vertices, no --threshold on a "
+                            "listed "
                             "complex, and at most {} voxels",
                             loaded.name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
@@ -90,209 +93,283 @@ bool writes_loops(const Job& job, const Arguments& arguments) {
          (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
-/// Before anything is computed. @throws Error (usage) if loops are asked for that cannot be had.
+/// Before anything is computed. @throws Error (usage) if loops are asked for
+/// that cannot be had.
 void require_loops(const BuiltComplex& built, const Arguments& arguments) {
   if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
   const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
   if (listed && listed->cell_kind() == CellKind::row)
     throw Error(ErrorKind::usage,
-                "--loops: found a boundary matrix, expected cells with vertices to walk along");
+                "--loops: found a boundary matrix, expected "
+                "cells with vertices to walk along");
   if (*arguments.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
-    throw Error(ErrorKind::usage,
-                fmt::format("--loops tight: found complex {}, expected rips; --loops plain gives "
-                            "loops as they are found",
-                            built.name));
+    throw Error(ErrorKind::usage, fmt::format("--loops tight: found complex {}, expected rips; "
+                                              "--loops plain gives "
+                                              "loops as they are found",
+                                              built.name));
 }
 
-/// @param is_stored receives whether the input is a barcode that was computed earlier.
-Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session,
-                 bool& is_stored) {
-  Stopwatch watch;
-  std::optional<Outputs> outputs;
-  if (!arguments.dry_run) outputs.emplace(job);
-  std::optional<app::BarHold> somebody_types;
-  if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
-    somebody_types.emplace(session);
-  std::optional<Input> input(
-      Input::open(files::path_of(job.input), &session.context(), Input::Excess::stays_in_file));
-  if (is_sealed_part(input->bytes()))
-    throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
-                                                 "--join makes bars of all parts",
-                                                 input->name()));
-  is_stored = arguments.stored || (arguments.format == Format::automatic && is_barcode(*input));
-  if (is_stored) {
-    if (job.bars != nullptr)
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("{}: found a barcode, expected data", input->name()));
-    app::require_in_scope(arguments.given, kBarcode, name_of(kBarcode));  // --dry-run is not
-    return run_stored(job, *input, *outputs, arguments, session);
+/// What was computed of a complex.
+struct Result {
+  Barcode bars;
+  std::vector<BarLoops> loops;
+  std::vector<std::string> warnings;
+  int code = app::kOk;
+};
+
+/// One run, stage by stage: open, load, plan, compute, check, write.
+class Run {
+ public:
+  Run(const Job& job, const Arguments& arguments, app::Session& session)
+      : job_(job), arguments_(arguments), session_(session) {}
+
+  /// @throws Error.
+  Outcome operator()() {
+    std::optional<Outputs> outputs;  // what cannot be created is said first
+    if (!arguments_.dry_run) outputs.emplace(job_);
+    std::optional<Input> input(open());
+    if (is_stored_) return run_stored(job_, *input, *outputs, arguments_, session_);
+    Loaded loaded = load(job_, input, arguments_, session_, watch_);
+    typing_.reset();
+    require_loops(loaded.built, arguments_);
+    if (arguments_.dry_run) return show_estimate(loaded);
+
+    const std::vector<std::string> trees = draw_trees(loaded);
+    write_surfaces(loaded, *outputs);
+    const RunPlan plan = plan_and_build(loaded);
+    give_back_data(loaded, plan);
+    Result result = compute(loaded, plan);
+    const MemoryClaim claim(context().memory, bytes_of(result.loops));
+    if (arguments_.check) check(loaded, plan, result);
+    return write(loaded, plan, std::move(result), trees, *outputs);
   }
 
-  Loaded loaded = load(job, input, arguments, session, watch);
-  somebody_types.reset();
-  auto& [built, name, description, point_ids, data, claim] = loaded;
-  require_loops(built, arguments);
-  const auto taken = static_cast<double>(session.memory_taken());
-  const auto note_promise = [&](const std::optional<std::string>& promise) {
-    if (promise) session.note(fmt::format("{}: {}", name, *promise));
-  };
-  if (arguments.dry_run) {
-    if (arguments.significance)
-      session.note("--significance does nothing: --dry-run computes no bars");
+  /// True once it is known that the input is a barcode that was computed
+  /// earlier.
+  bool is_stored() const { return is_stored_; }
+
+ private:
+  const RunContext& context() const { return session_.context(); }
+
+  Input open() {
+    if (app::is_typed({job_.input, arguments_.values, arguments_.vertex_weights}))
+      typing_.emplace(session_);
+    Input input = Input::open(files::path_of(job_.input), &context(), Input::Excess::stays_in_file);
+    if (is_sealed_part(input.bytes()))
+      throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
+                                                   "--join makes bars of all parts",
+                                                   input.name()));
+    is_stored_ = arguments_.stored || (arguments_.format == Format::automatic && is_barcode(input));
+    if (!is_stored_) return input;
+    if (job_.bars != nullptr)
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: found a barcode, expected data", input.name()));
+    app::require_in_scope(arguments_.given, kBarcode,
+                          name_of(kBarcode));  // --dry-run is not
+    return input;
+  }
+
+  Outcome show_estimate(Loaded& loaded) {
+    const auto taken = static_cast<double>(session_.memory_taken());
+    if (arguments_.significance)
+      session_.note("--significance does nothing: --dry-run computes no bars");
     const Estimate estimated = in_name_of(
-        name, [&] { return estimate(built.complex, arguments.options, session.context()); });
-    take_facts(built, estimated.built);
-    note_promise(promise_of(built, estimated.built));
-    explain_slabs(built, estimated, arguments, session);
-    const app::BarHold results_are_written(session);
+        loaded.name, [&] { return estimate(loaded.built.complex, arguments_.options, context()); });
+    take_facts(loaded, estimated.built);
+    explain_slabs(loaded.built, estimated, arguments_, session_);
+    const app::BarHold results_are_written(session_);
     // The edges, if they were made, were not there before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
-    write_file("-", estimate_text(estimated, built, description, taken + held));
-    return {app::kOk, description};
+    write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
+    return {app::kOk, loaded.description};
   }
-  std::vector<std::string> trees;
-  if (arguments.draws_tree()) {
-    trees = pictures_of_tree(loaded, job, arguments, session.context());
-    watch.lap("tree");
-  }
-  if (!job.surfaces.empty()) {
-    outputs->write_surfaces(std::get<Alpha>(built.complex), *points_of(data->read), point_ids,
-                            session.context());
-    watch.lap("surfaces");
-  }
-  const RunPlan planned = in_name_of(name, [&] {
-    RunPlan made = plan(built.complex, arguments.options, session.context());
-    build(built.complex, made, session.context());
-    return made;
-  });
-  const RunFacts known = facts(built.complex, planned, session.context());
-  take_facts(built, known);
-  const std::optional<std::string> promise = promise_of(built, known);
-  note_promise(promise);
-  // Points alone are the input itself.
-  if (job.report.empty() && !arguments.check && planned.form != RipsForm::points) {
-    if (auto* rips = std::get_if<Rips>(&built.complex)) rips->forget_input();
-    data.reset();
-    claim.reset();
-  }
-  watch.lap("complex");
-  const std::string_view engine = planned.options.engine.name();
-  session.explain(fmt::format("engine {}: {}", engine, planned.reason));
-  if (!planned.collapse_reason.empty())
-    session.explain(fmt::format("collapse {} ({})",
-                                planned.options.collapse == Collapse::on ? "on" : "off",
-                                planned.collapse_reason));
 
-  explain_slabs(built, planned, arguments, session);
+  std::vector<std::string> draw_trees(const Loaded& loaded) {
+    if (!arguments_.draws_tree()) return {};
+    std::vector<std::string> trees = pictures_of_tree(loaded, job_, arguments_, context());
+    watch_.lap("tree");
+    return trees;
+  }
 
-  RunPlan settled = planned;
-  // A bar that the threshold cuts is infinite, however short it would have been.
-  if (built.cut) settled.options.min_persistence = std::min(settled.options.min_persistence, 0.0);
-  const auto compute = [&](const AnyComplex& complex) {
-    Barcode bars = run(complex, settled, session.context());
-    if (built.cut) bars = cut_at(bars, complex, *built.cut, arguments.options.min_persistence);
+  void write_surfaces(const Loaded& loaded, Outputs& outputs) {
+    if (job_.surfaces.empty()) return;
+    outputs.write_surfaces(std::get<Alpha>(loaded.built.complex), *points_of(loaded.data->read),
+                           loaded.point_ids, context());
+    watch_.lap("surfaces");
+  }
+
+  RunPlan plan_and_build(Loaded& loaded) {
+    const AnyComplex& complex = loaded.built.complex;
+    RunPlan plan = in_name_of(loaded.name, [&] {
+      RunPlan made = ph::plan(complex, arguments_.options, context());
+      build(complex, made, context());
+      return made;
+    });
+    take_facts(loaded, facts(complex, plan, context()));
+    watch_.lap("complex");
+    session_.explain(fmt::format("engine {}: {}", plan.options.engine.name(), plan.reason));
+    if (!plan.collapse_reason.empty())
+      session_.explain(fmt::format("collapse {} ({})",
+                                   plan.options.collapse == Collapse::on ? "on" : "off",
+                                   plan.collapse_reason));
+    explain_slabs(loaded.built, plan, arguments_, session_);
+    // A bar that the threshold cuts is infinite, however short it would have
+    // been.
+    if (loaded.built.cut)
+      plan.options.min_persistence = std::min(plan.options.min_persistence, 0.0);
+    return plan;
+  }
+
+  /// Tells what is known of the complex once it is built.
+  void take_facts(Loaded& loaded, const RunFacts& facts) {
+    barcode::take_facts(loaded.built, facts);
+    promise_ = promise_of(loaded.built, facts);
+    if (promise_) session_.note(fmt::format("{}: {}", loaded.name, *promise_));
+  }
+
+  /// What was made is enough, unless the data are shown, checked, or taken as
+  /// they are.
+  void give_back_data(Loaded& loaded, const RunPlan& plan) const {
+    if (!job_.report.empty() || arguments_.check || plan.form == RipsForm::points) return;
+    if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();
+    loaded.data.reset();
+    loaded.claim.reset();
+  }
+
+  Barcode bars_of(const AnyComplex& complex, const RunPlan& plan, const Loaded& loaded) const {
+    Barcode bars = ph::run(complex, plan, context());
+    if (loaded.built.cut)
+      bars = cut_at(bars, complex, *loaded.built.cut, arguments_.options.min_persistence);
     return bars;
-  };
-  Barcode barcode = compute(built.complex);
-  watch.lap("persistence");
-  std::vector<BarLoops> loops_of_bars;
-  if (writes_loops(job, arguments)) {
-    loops_of_bars =
-        loops(built.complex, barcode, settled.options,
-              arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());
-    watch.lap("loops");
-  }
-  const MemoryClaim claim_of_loops(session.context().memory, bytes_of(loops_of_bars));
-  // Points may have become an image, whose cells are named by coordinates.
-  if (!point_ids.empty() && barcode.cell_kind() == CellKind::vertices) {
-    barcode = with_input_ids(barcode, point_ids);
-    name_points(loops_of_bars, point_ids);
   }
 
-  int code = app::kOk;
-  std::vector<std::string> warnings;
-  if (arguments.check) {
-    settled.options.engine = Engine::standard;
-    settled.options.collapse = Collapse::off;
-    settled.options.representatives = Representatives::none;
-    if (settled.form) settled.form = RipsForm::edges;
-    const std::string difference = first_difference(
-        barcode, built.by_definition ? compute(built.by_definition(session.context()))
-                                     : compute(built.complex));
-    watch.lap("check");
-    if (difference.empty()) {
-      session.explain("check: the reference engine agrees");
-    } else {
-      app::print_line(
-          fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
-                      job.input, engine, difference));
-      warnings.push_back("check: the engine and the reference engine differ: " + difference);
-      code = app::kDifference;
+  Result compute(const Loaded& loaded, const RunPlan& plan) {
+    Result result{bars_of(loaded.built.complex, plan, loaded), {}, {}};
+    watch_.lap("persistence");
+    if (writes_loops(job_, arguments_)) {
+      const bool is_tight = arguments_.loops.value_or(LoopChoice::tight) == LoopChoice::tight;
+      result.loops = loops(loaded.built.complex, result.bars, plan.options, is_tight, context());
+      watch_.lap("loops");
     }
+    // Points may have become an image, whose cells are named by coordinates.
+    if (!loaded.point_ids.empty() && result.bars.cell_kind() == CellKind::vertices) {
+      const MemoryClaim claim(context().memory, bytes_of(result.loops));
+      result.bars = with_input_ids(result.bars, loaded.point_ids);
+      name_points(result.loops, loaded.point_ids);
+    }
+    return result;
   }
 
-  const std::vector<double> p_values =
-      arguments.significance ? p_values_of(barcode, std::holds_alternative<Alpha>(built.complex)
-                                                        ? DistanceFiltration::cech
-                                                        : DistanceFiltration::rips)
-                             : std::vector<double>();
-  BarcodeInfo info;
-  info.program = app::program_and_version("ph-barcode");
-  info.input = job.input;
-  info.input_description = description;
-  info.complex = built.name;
-  info.field = arguments.options.field;
-  info.max_dim = arguments.options.max_dim.value_or(*planned.options.max_dim);
-  info.threshold = built.threshold;
-  info.metric = built.metric;
-  info.vertex_weights = built.vertex_weights;
-  info.subsample = built.subsample;
-  info.voxels = built.voxels;
-  info.alpha = built.alpha;
-  if (built.cubical) describe(*built.cubical, info);
-  info.approximation = arguments.rips.approximation;
-  info.min_persistence = arguments.options.min_persistence;
-  info.min_dim = arguments.options.min_dim;
-  info.loops = loops_of_bars;
-  info.p_values = p_values;
-  info.engine = engine;
-  info.timings = watch.laps();
-  info.peak_memory = app::peak_memory();
-  for (const auto& [stage, seconds] : watch.laps())
-    session.explain(fmt::format("{} {:.3f} s", stage, seconds));
-  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
-  note_absent_dims(barcode, arguments.look, session);
-  const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, look_of(arguments.look, arguments.cubical.superlevel), trees,
-                 session.context());
-  if (!job.report.empty()) {
-    const Shown shown{barcode, info, *data, built, planned.form, promise, std::move(warnings)};
-    write_report(outputs->report().file(), shown, arguments, session);
-    outputs->report().commit();
+  /// Compares the bars with those of the oracle, over all edges of a Rips
+  /// filtration.
+  void check(const Loaded& loaded, RunPlan plan, Result& result) {
+    const std::string_view engine = plan.options.engine.name();
+    plan.options.engine = Engine::standard;
+    plan.options.collapse = Collapse::off;
+    plan.options.representatives = Representatives::none;
+    if (plan.form) plan.form = RipsForm::edges;
+    const auto& by_definition = loaded.built.by_definition;
+    const AnyComplex complex = by_definition ? by_definition(context()) : loaded.built.complex;
+    const std::string difference = first_difference(result.bars, bars_of(complex, plan, loaded));
+    watch_.lap("check");
+    if (difference.empty()) {
+      session_.explain("check: the reference engine agrees");
+      return;
+    }
+    app::print_line(
+        fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
+                    job_.input, engine, difference));
+    result.warnings.push_back("check: the engine and the reference engine differ: " + difference);
+    result.code = app::kDifference;
   }
-  std::string summary = fmt::format("{}: {}", description, app::count_of(barcode.size(), "bar"));
-  if (job.bars != nullptr) *job.bars = std::move(barcode);
-  return {code, std::move(summary)};
-}
+
+  BarcodeInfo info_of(const Loaded& loaded, const RunPlan& plan) const {
+    const BuiltComplex& built = loaded.built;
+    BarcodeInfo info;
+    info.program = app::program_and_version("ph-barcode");
+    info.input = job_.input;
+    info.input_description = loaded.description;
+    info.complex = built.name;
+    info.field = arguments_.options.field;
+    info.max_dim = arguments_.options.max_dim.value_or(*plan.options.max_dim);
+    info.threshold = built.threshold;
+    info.metric = built.metric;
+    info.vertex_weights = built.vertex_weights;
+    info.subsample = built.subsample;
+    info.voxels = built.voxels;
+    info.alpha = built.alpha;
+    if (built.cubical) describe(*built.cubical, info);
+    info.approximation = arguments_.rips.approximation;
+    info.min_persistence = arguments_.options.min_persistence;
+    info.min_dim = arguments_.options.min_dim;
+    info.engine = plan.options.engine.name();
+    info.timings = watch_.laps();
+    info.peak_memory = app::peak_memory();
+    return info;
+  }
+
+  Outcome write(const Loaded& loaded, const RunPlan& plan, Result&& result,
+                std::span<const std::string> trees, Outputs& outputs) {
+    std::vector<double> p_values;
+    if (arguments_.significance)
+      p_values = p_values_of(result.bars, std::holds_alternative<Alpha>(loaded.built.complex)
+                                              ? DistanceFiltration::cech
+                                              : DistanceFiltration::rips);
+    BarcodeInfo info = info_of(loaded, plan);
+    info.loops = result.loops;
+    info.p_values = p_values;
+    for (const auto& [stage, seconds] : watch_.laps())
+      session_.explain(fmt::format("{} {:.3f} s", stage, seconds));
+    session_.explain("memory " + format_size(static_cast<double>(session_.memory_taken())));
+    note_absent_dims(result.bars, arguments_.look, session_);
+    const app::BarHold results_are_written(session_);
+    outputs.write(result.bars, info, look_of(arguments_.look, arguments_.cubical.superlevel), trees,
+                  context());
+    if (!job_.report.empty()) {
+      const Shown shown{result.bars,
+                        info,
+                        *loaded.data,
+                        loaded.built,
+                        plan.form,
+                        promise_,
+                        std::move(result.warnings)};
+      write_report(outputs.report().file(), shown, arguments_, session_);
+      outputs.report().commit();
+    }
+    std::string summary =
+        fmt::format("{}: {}", loaded.description, app::count_of(result.bars.size(), "bar"));
+    if (job_.bars != nullptr) *job_.bars = std::move(result.bars);
+    return {result.code, std::move(summary)};
+  }
+
+  const Job& job_;
+  const Arguments& arguments_;
+  app::Session& session_;
+  Stopwatch watch_;
+  std::optional<app::BarHold> typing_;  // no bar of progress while somebody types the input
+  std::optional<std::string> promise_;  // what an approximation is worth
+  bool is_stored_ = false;
+};
 
 }  // namespace
 
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   std::string what;
-  bool is_stored = false;
+  Run once(job, arguments, session);
   try {
-    return run_once(job, arguments, session, is_stored);
+    return once();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
     what = error.what();
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
-  // By now all that the run held has been given back; the heap keeps none of it.
+  // By now all that the run held has been given back; the heap keeps none of
+  // it.
   app::give_back_freed_memory();
   session.loosen_heap_bound();
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));
-  if (is_stored)
+  if (once.is_stored())
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
   if (const std::string changes = alternatives(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,
