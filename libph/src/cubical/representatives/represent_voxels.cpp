@@ -63,7 +63,7 @@ class Representing {
         field_(field),
         context_(context),
         sink_(sink),
-        only_components_(max_dim == 0),
+        wants_no_loops_(max_dim == 0),
         grid_(image, context),
         pairs_(grid_, field, kind, context, sink) {}
 
@@ -94,13 +94,13 @@ class Representing {
     if (turned_around) {
       ComponentTree<TopGraph> components(grid_, tops, edges, context_);
       add_components(components);
-      if (only_components_) return;
+      if (wants_no_loops_) return;
       add_hollows(ComponentTree<VoxelGraph>(grid_, voxels, edges, context_));
       close_left(components, edges);
     } else {
       ComponentTree<VoxelGraph> components(grid_, voxels, edges, context_);
       add_components(components);
-      if (only_components_) return;
+      if (wants_no_loops_) return;
       add_hollows(ComponentTree<TopGraph>(grid_, tops, edges, context_));
       close_left(components, edges);
     }
@@ -111,18 +111,18 @@ class Representing {
     const TopGraph tops(grid_);
     CriticalCells edges(&context_.memory), squares(&context_.memory);
     const bool turned_around = grid_.is_t_construction();
-    if (!turned_around || !only_components_) edges = critical_cells(grid_, 1, context_);
-    if (turned_around || !only_components_) squares = critical_cells(grid_, 2, context_);
+    if (!turned_around || !wants_no_loops_) edges = critical_cells(grid_, 1, context_);
+    if (turned_around || !wants_no_loops_) squares = critical_cells(grid_, 2, context_);
     if (turned_around) {
       ComponentTree<TopGraph> components(grid_, tops, squares, context_);
       add_components(components);
-      if (only_components_) return;
+      if (wants_no_loops_) return;
       add_hollows(ComponentTree<VoxelGraph>(grid_, voxels, edges, context_));
       add_loops(components, edges, squares);
     } else {
       ComponentTree<VoxelGraph> components(grid_, voxels, edges, context_);
       add_components(components);
-      if (only_components_) return;
+      if (wants_no_loops_) return;
       add_hollows(ComponentTree<TopGraph>(grid_, tops, squares, context_));
       mark_paired(grid_, edges);
       add_loops(components, squares);
@@ -257,7 +257,7 @@ class Representing {
   // Classes around periodic axes, if there are two axes at most: edges that are left.
   template <class Graph>
   void close_left(ComponentTree<Graph>& tree, const CriticalCells& edges) {
-    if (edges.order.empty() || only_components_) return;
+    if (edges.order.empty() || wants_no_loops_) return;
     ForestClosing<Graph, K> closing(tree, field_, context_);
     for (const auto& [value, cell] : edges.order) {
       const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
@@ -319,7 +319,7 @@ class Representing {
   const K& field_;
   const RunContext& context_;
   const RepresentativeSink& sink_;
-  const bool only_components_;
+  const bool wants_no_loops_;
   StarGrid grid_;
   RepresentedPairs<K> pairs_;
 };
