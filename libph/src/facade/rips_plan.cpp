@@ -195,8 +195,8 @@ struct Settled {
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
       throw Error(ErrorKind::usage,
                   "device gpu: computes components (H0) of points with Euclidean distances, found "
-                  "more than components; max_dim 0 asks for them alone, without an approximation, "
-                  "a check or an engine by name");
+                  "more than components; max_dim 0 asks for them alone, without an approximation "
+                  "or an engine by name");
   }
   Options options;             // with the highest dimension
   FormChoice choice;           // no engine: none can do the task of so many vertices

@@ -279,7 +279,8 @@ class Options(ProgramTest):
             self.assertEqual(run.returncode, 69)
             self.assertRegex(run.stderr, "device gpu: (not built in: it needs CUDA|CUDA says)")
         for options in ([], ["--max-dim", "0", "--metric", "manhattan"],
-                        ["--max-dim", "0", "--check"], ["--max-dim", "0", "--dtm", "2"]):
+                        ["--max-dim", "0", "--engine", "standard"],
+                        ["--max-dim", "0", "--dtm", "2"]):
             run = self.expect(64, "line.txt", "--device", "gpu", *options)
             self.assertIn("device gpu: computes components (H0) of points", run.stderr)
         self.write("matrix.txt", "0 1\n1 0\n")
