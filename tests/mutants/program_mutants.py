@@ -74,7 +74,7 @@ MUTANTS = [
      "for (const Kind kind : {kAsymmetric, kDiagonal})",
      ["io_read_tests"], "io_read_tests"),
     ("ids of points: coordinates are renamed", "apps/barcode/run.cpp",
-     "if (!point_ids.empty() && barcode.cell_kind() == CellKind::vertices) {", "if (!point_ids.empty()) {",
+     "if (!loaded.point_ids.empty() && result.bars.cell_kind() == CellKind::vertices) {", "if (!loaded.point_ids.empty()) {",
      ["ph-barcode"], "ph_barcode_representatives"),
     ("guesses: an option that asks for a matrix is ignored on text", "libph/src/io/read_any.cpp",
      "!option.empty()) {\n    const bool is_square",
