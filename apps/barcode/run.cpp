@@ -134,9 +134,9 @@ class Run {
     require_loops(loaded.built, arguments_);
     if (arguments_.dry_run) return show_estimate(loaded);
 
+    const RunPlan plan = plan_and_build(loaded);
     const std::vector<std::string> trees = draw_trees(loaded);
     write_surfaces(loaded, *outputs);
-    const RunPlan plan = plan_and_build(loaded);
     give_back_data(loaded, plan);
     Result result = compute(loaded, plan);
     const MemoryClaim claim(context().memory, bytes_of(result.loops));
