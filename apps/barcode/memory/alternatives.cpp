@@ -10,32 +10,13 @@
 #include "barcode/complex/build_complex.hpp"
 #include "barcode/complex/read_input.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/terminal/words.hpp"
 #include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph::barcode {
 namespace {
-
-std::string_view option_of(Setting setting) {
-  switch (setting) {
-    case Setting::engine:
-      return "--engine";
-    case Setting::representatives:
-      return "--representatives";
-    case Setting::max_dim:
-      return "--max-dim";
-    case Setting::threshold:
-      return "--threshold";
-    case Setting::subsample:
-      return "--subsample";
-    case Setting::collapse:
-      return "--collapse";
-    case Setting::none:
-      break;
-  }
-  return {};
-}
 
 std::string text_of(const std::string& changes, const Fit& fit) {
   return fmt::format("{} ({} to {})", changes, format_size(fit.bytes_low),
@@ -46,7 +27,7 @@ std::string text_of(const Fit& fit, const Arguments& arguments) {
   std::vector<std::string> changes;
   bool has_loops = arguments.loops.has_value();
   for (const auto& [setting, value] : fit.changes) {
-    changes.push_back(fmt::format("{} {}", option_of(setting), value));
+    changes.push_back(app::kWords.setting(setting, value));
     // Without cycles of H1 --loops is refused.
     const bool ends_loops =
         setting == Setting::representatives || (setting == Setting::max_dim && value == "0");

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <memory_resource>
 #include <stop_token>
 #include <string>
@@ -151,15 +152,17 @@ class Ticker {
 class InputError : public Error {
  public:
   InputError(std::size_t input, const Error& error)
-      : Error(error.kind(), "input " + std::to_string(input) + ": " + error.what()),
+      : Error(error.kind(), "input " + std::to_string(input) + ": " + error.marked()),
         input_(input),
-        reason_(error.what()) {}
+        cause_(std::make_shared<const Error>(error)) {}
   std::size_t input() const noexcept { return input_; }
-  const std::string& reason() const noexcept { return reason_; }
+  /// What went wrong with it, without its number.
+  const Error& cause() const noexcept { return *cause_; }
+  std::string reason() const { return cause_->what(); }
 
  private:
   std::size_t input_;
-  std::string reason_;
+  std::shared_ptr<const Error> cause_;
 };
 
 /// Calls `work(i, of_input)` for i = 0 … count - 1, on as many threads as `context` allows, one

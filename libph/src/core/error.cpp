@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// A mark is a name between two control characters, which no printable text holds: the name of a
+// setting or of one of the parts below, then, behind a third one, its value.
+#include "ph/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace ph {
+namespace {
+
+constexpr char kBegin = '\x1e', kValue = '\x1d', kEnd = '\x1f';
+constexpr std::string_view kPlace = "@place", kFound = "@found", kClause = "; ";
+
+struct Named {
+  Setting setting;
+  std::string_view name;
+};
+#define PH_NAMED(name) \
+  Named { Setting::name, #name }
+constexpr std::array kNames{
+    PH_NAMED(allow_empty),
+    PH_NAMED(camera),
+    PH_NAMED(cell),
+    PH_NAMED(channel),
+    PH_NAMED(collapse),
+    PH_NAMED(columns),
+    PH_NAMED(complex),
+    PH_NAMED(construction),
+    PH_NAMED(crop),
+    PH_NAMED(cut),
+    PH_NAMED(depth_scale),
+    PH_NAMED(diagonal),
+    PH_NAMED(distance),
+    PH_NAMED(engine),
+    PH_NAMED(first_meeting),
+    PH_NAMED(format),
+    PH_NAMED(from_correlation),
+    PH_NAMED(infinite),
+    PH_NAMED(intrinsics),
+    PH_NAMED(labels),
+    PH_NAMED(max_dim),
+    PH_NAMED(max_range),
+    PH_NAMED(memory_limit),
+    PH_NAMED(min_part),
+    PH_NAMED(min_persistence),
+    PH_NAMED(min_seam),
+    PH_NAMED(min_size),
+    PH_NAMED(nan),
+    PH_NAMED(patience),
+    PH_NAMED(plane_distance),
+    PH_NAMED(plane_guess),
+    PH_NAMED(plane_noise),
+    PH_NAMED(raw_shape),
+    PH_NAMED(raw_skip),
+    PH_NAMED(raw_type),
+    PH_NAMED(report),
+    PH_NAMED(representatives),
+    PH_NAMED(spacing),
+    PH_NAMED(steps),
+    PH_NAMED(subsample),
+    PH_NAMED(symmetrise),
+    PH_NAMED(threshold),
+    PH_NAMED(values),
+    PH_NAMED(viewpoint),
+    PH_NAMED(voxel),
+};
+#undef PH_NAMED
+
+constexpr auto kAll = [] {
+  std::array<Setting, kNames.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = kNames[i].setting;
+  return all;
+}();
+
+Setting setting_named(std::string_view name) {
+  const auto found = std::ranges::find(kNames, name, &Named::name);
+  return found == kNames.end() ? Setting::none : found->setting;
+}
+
+std::string marked(std::string_view name, std::string_view value) {
+  std::string text(1, kBegin);
+  text += name;
+  if (!value.empty()) (text += kValue) += value;
+  return text += kEnd;
+}
+
+/// A part of a text: what stands between marks, or a mark.
+struct MessagePart {
+  std::string_view text;            // as it is, with the characters of a mark
+  std::string_view name = {};       // of a mark, else empty
+  std::string_view value = {};      // of a mark
+  Setting setting = Setting::none;  // that the mark names
+};
+
+/// Calls `use` for all pieces of a text in their order. A begin of a mark without an end is text.
+template <class Use>
+void each_piece(std::string_view text, Use&& use) {
+  while (!text.empty()) {
+    const std::size_t begin = text.find(kBegin);
+    const std::size_t end = begin == text.npos ? text.npos : text.find(kEnd, begin);
+    if (end == text.npos) {
+      use(MessagePart{text});
+      return;
+    }
+    if (begin > 0) use(MessagePart{text.substr(0, begin)});
+    const std::string_view inside = text.substr(begin + 1, end - begin - 1);
+    const std::size_t value = std::min(inside.find(kValue), inside.size());
+    const std::string_view name = inside.substr(0, value);
+    use(MessagePart{text.substr(begin, end + 1 - begin), name,
+                    inside.substr(std::min(value + 1, inside.size())), setting_named(name)});
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Where the first clause of a text ends; npos if it is the only one. A "; " inside a mark, as in
+/// the name of a file, ends none.
+std::size_t end_of_clause(std::string_view text) {
+  for (std::size_t at = 0;;) {
+    const std::size_t clause = text.find(kClause, at), begin = text.find(kBegin, at);
+    const std::size_t end = begin < clause ? text.find(kEnd, begin) : text.npos;
+    if (end == text.npos) return clause;
+    at = end + 1;
+  }
+}
+
+/// Calls `use` for the clauses of a text: what stands before, between and behind "; ".
+template <class Use>
+void each_clause(std::string_view text, Use&& use) {
+  for (bool is_first = true;; is_first = false) {
+    const std::size_t end = end_of_clause(text);
+    use(text.substr(0, end), is_first);
+    if (end == text.npos) return;
+    text.remove_prefix(end + kClause.size());
+  }
+}
+
+std::string neutral(Setting setting, std::string_view value) {
+  std::string text(setting_name(setting));
+  if (!value.empty()) (text += ' ') += alternatives(value);
+  return text;
+}
+
+/// The text of all pieces. @return nothing if a setting has no words.
+std::optional<std::string> rendered(std::string_view text, const Words& words) {
+  std::string result;
+  bool has_words = true;
+  each_piece(text, [&](const MessagePart& piece) {
+    if (piece.setting != Setting::none) {
+      const std::string of_setting = words.setting(piece.setting, piece.value);
+      has_words = has_words && !of_setting.empty();
+      result += of_setting;
+    } else if (piece.name == kPlace || piece.name == kFound) {
+      result += piece.value;
+    } else {
+      result += piece.text;
+    }
+  });
+  if (!has_words) return std::nullopt;
+  return result;
+}
+
+std::string marked_value(std::string_view text, std::string_view name) {
+  std::optional<std::string> value;
+  each_piece(text, [&](const MessagePart& piece) {
+    if (piece.name == name && !value) value = piece.value;
+  });
+  return value.value_or("");
+}
+
+}  // namespace
+
+std::string_view setting_name(Setting setting) {
+  const auto found = std::ranges::find(kNames, setting, &Named::setting);
+  return found == kNames.end() ? std::string_view() : found->name;
+}
+
+std::span<const Setting> all_settings() { return kAll; }
+
+std::string alternatives(std::string_view values, std::string_view quote) {
+  std::string text;
+  for (bool is_first = true;; is_first = false) {
+    const std::size_t end = values.find('|');
+    if (!is_first) text += end == values.npos ? " or " : ", ";
+    ((text += quote) += values.substr(0, end)) += quote;
+    if (end == values.npos) return text;
+    values.remove_prefix(end + 1);
+  }
+}
+
+std::string mark(Setting setting, std::string_view value) {
+  return marked(setting_name(setting), value);
+}
+std::string mark_place(std::string_view place) { return marked(kPlace, place); }
+std::string mark_found(std::string_view found) { return marked(kFound, found); }
+
+std::string Message::str() const { return in_words({&neutral}); }
+
+std::string Message::in_words(const Words& words) const {
+  if (marked_.find(kBegin) == marked_.npos) return marked_;
+  std::string text;
+  each_clause(marked_, [&](std::string_view clause, bool is_first) {
+    const std::optional<std::string> part = rendered(clause, words);
+    if (is_first)
+      text = part ? *part : rendered(clause, {&neutral}).value_or("");
+    else if (part)
+      (text += kClause) += *part;
+  });
+  return text;
+}
+
+Message Message::without(Setting setting) const {
+  std::string text;
+  each_clause(marked_, [&](std::string_view clause, bool is_first) {
+    bool has_it = false;
+    each_piece(clause, [&](const MessagePart& piece) { has_it |= piece.setting == setting; });
+    if (is_first)
+      text = clause;
+    else if (!has_it)
+      (text += kClause) += clause;
+  });
+  return text;
+}
+
+Message Message::without_place() const {
+  std::string text;
+  bool is_first = true, follows = false;
+  each_piece(marked_, [&](const MessagePart& piece) {
+    std::string_view part = piece.text;
+    if (std::exchange(follows, false) && part.starts_with(": ")) part.remove_prefix(2);
+    if (std::exchange(is_first, false) && piece.name == kPlace)
+      follows = true;
+    else
+      text += part;
+  });
+  return text;
+}
+
+std::vector<Remedy> Message::remedies() const {
+  std::vector<Remedy> all;
+  each_clause(marked_, [&](std::string_view clause, bool is_first) {
+    if (is_first) return;
+    each_piece(clause, [&](const MessagePart& piece) {
+      if (piece.setting == Setting::none) return;
+      for (std::string_view rest = piece.value;;) {
+        const std::size_t end = rest.find('|');
+        all.push_back({piece.setting, std::string(rest.substr(0, end))});
+        if (end == rest.npos) return;
+        rest.remove_prefix(end + 1);
+      }
+    });
+  });
+  return all;
+}
+
+std::string Message::place() const { return marked_value(marked_, kPlace); }
+std::string Message::found() const { return marked_value(marked_, kFound); }
+
+bool Message::is_about(std::string_view name) const {
+  const std::string where = place();
+  return !name.empty() && where.starts_with(name) &&
+         (where.size() == name.size() || where[name.size()] == ':');
+}
+
+Error::Error(ErrorKind kind, const std::string& message)
+    : std::runtime_error(Message(message).str()), kind_(kind) {
+  if (message.find(kBegin) != message.npos) marked_ = std::make_shared<const std::string>(message);
+}
+
+Message Error::message() const { return marked_ ? Message(*marked_) : Message(what()); }
+
+}  // namespace ph
