@@ -184,8 +184,7 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
     throw;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
-    const bool named =
-        std::string_view(error.what()).find(printable(job.input)) != std::string_view::npos;
+    const bool named = error.message().is_about(printable(job.input));
     return app::report_current_exception(kProgram, named ? "" : job.input);
   } catch (...) {
     return app::report_current_exception(kProgram, job.input);

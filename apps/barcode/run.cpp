@@ -158,12 +158,12 @@ class Run {
     if (is_sealed_part(input.bytes()))
       throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
                                                    "--join makes bars of all parts",
-                                                   input.name()));
+                                                   mark_place(input.name())));
     is_stored_ = arguments_.stored || (arguments_.format == Format::automatic && is_barcode(input));
     if (!is_stored_) return input;
     if (job_.bars != nullptr)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("{}: found a barcode, expected data", input.name()));
+                  fmt::format("{}: found a barcode, expected data", mark_place(input.name())));
     app::require_in_scope(arguments_.given, kBarcode,
                           name_of(kBarcode));  // --dry-run is not
     return input;
@@ -360,7 +360,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     return once();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
-    what = error.what();
+    what = error.marked();
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
@@ -370,10 +370,10 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   session.loosen_heap_bound();
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));
   if (once.is_stored())
-    throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
+    throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, fewer_bars()));
   if (const std::string changes = alternatives(job, arguments, session); !changes.empty())
-    throw Error(ErrorKind::resource,
-                fmt::format("{}; peak {}; {}; or raise --memory-limit", what, peak, changes));
+    throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}; or raise {}", what, peak,
+                                                 changes, mark(Setting::memory_limit)));
   throw Error(ErrorKind::resource, fmt::format("{}; peak {}", what, peak));
 }
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <new>
 #include <optional>
 #include <span>
 
 #include "common/terminal/exit_code.hpp"
+#include "common/terminal/words.hpp"
 #include "core/system/files.hpp"
 #include "depth_scene.hpp"
 #include "files/cloud_files.hpp"
@@ -29,7 +29,7 @@ namespace ph::segment {
 namespace {
 
 Note note_of(app::Session& session) {
-  return [&session](const std::string& text) { session.note(text); };
+  return [&session](const Message& text) { session.note(text); };
 }
 
 Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
@@ -67,10 +67,12 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
     return segment(cloud, options, context);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
-    const std::string_view edges = options.method == Method::paper ? "--distance or " : "";
-    throw Error(ErrorKind::resource,
-                fmt::format("{}; lower {}--max-range, enlarge --voxel, or raise --memory-limit",
-                            error.what(), edges));
+    const std::string edges =
+        options.method == Method::paper ? mark(Setting::distance) + " or " : "";
+    throw Error(
+        ErrorKind::resource,
+        fmt::format("{}; lower {}{}, enlarge {}, or raise {}", error.marked(), edges,
+                    mark(Setting::max_range), mark(Setting::voxel), mark(Setting::memory_limit)));
   }
 }
 
@@ -160,7 +162,7 @@ std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Se
       signatures[g.label - 1] = signature(s, s, std::span(&g.label, 1), session.context());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::resource) throw;
-      note(error.what());
+      note(error.marked());
     } catch (const std::bad_alloc&) {
       note("memory ran out");
     }
@@ -190,11 +192,16 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
 
 std::vector<std::string> notes_on(const Result& result, const Arguments& arguments) {
   const Cloud* cloud = result.cloud ? &*result.cloud : nullptr;
-  if (!cloud || !arguments.is_depth_image())
-    return notes(result.segmentation, arguments.options, cloud, nullptr);
   const DepthInput& image = arguments.image;
-  const DepthSource depth{*image.camera, image.calibration.empty() ? "--intrinsics" : "--camera"};
-  return notes(result.segmentation, arguments.options, cloud, &depth);
+  std::optional<DepthSource> depth;
+  if (cloud && arguments.is_depth_image())
+    depth.emplace(DepthSource{*image.camera,
+                              image.calibration.empty() ? Setting::intrinsics : Setting::camera});
+  std::vector<std::string> texts;
+  for (const Message& note :
+       notes(result.segmentation, arguments.options, cloud, depth ? &*depth : nullptr))
+    texts.push_back(note.in_words(app::kWords));
+  return texts;
 }
 
 /// A cloud that is written as PLY, which has no place for where it was seen from; empty: none is.
@@ -263,31 +270,11 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
           stream && stream->json ? json_summary(arguments, s, info) : ""};
 }
 
-/// The library names the fields of its options, `min_seam: found …`; the command line has options
-/// of these names, but for three. @throws Error (usage) in these words, if it is one.
-void rethrow_in_words_of_options(const Error& error) {
-  const std::string_view what = error.what();
-  const std::size_t colon = what.find(": found ");
-  if (error.kind() != ErrorKind::usage || colon == what.npos) return;
-  std::string name(what.substr(0, colon));
-  if (!std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; })) return;
-  constexpr std::array<std::array<std::string_view, 2>, 3> others{
-      {{"spacing", "supervoxels"}, {"camera", "intrinsics"}, {"first_meeting", "explain"}}};
-  for (const auto& [field, option] : others)
-    if (name == field) name = option;
-  std::ranges::replace(name, '_', '-');
-  throw Error(error.kind(), fmt::format("--{}{}", name, what.substr(colon)));
-}
-
 }  // namespace
 
 Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStream* stream) {
   try {
     return outcome_of(arguments, session, stream);
-  } catch (const Error& error) {
-    const app::BarHold next_frame_is_not_there_yet(session);
-    rethrow_in_words_of_options(error);
-    throw;
   } catch (...) {
     const app::BarHold next_frame_is_not_there_yet(session);
     throw;

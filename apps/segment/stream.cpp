@@ -115,8 +115,7 @@ class Stream {
       throw;
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
-      const bool named =
-          std::string_view(error.what()).find(printable(one.input)) != std::string_view::npos;
+      const bool named = error.message().is_about(printable(one.input));
       code = app::report_current_exception(kProgram, named ? "" : printable(one.input));
       line = failure_line(one.input, code);
     } catch (...) {

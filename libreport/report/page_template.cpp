@@ -7,12 +7,12 @@
 
 namespace ph::report {
 
-void require_built_in(std::string_view option) {
+void require_built_in() {
   if (page_template().empty())
     throw Error(ErrorKind::not_built_in,
                 fmt::format("{}: reports are not built in; build with npm, or run "
                             "scripts/viewer.sh build first",
-                            option));
+                            mark(Setting::report)));
 }
 
 }  // namespace ph::report

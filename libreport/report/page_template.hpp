@@ -12,6 +12,6 @@ std::string_view page_template();
 
 /// For whoever wants a report, before anything is computed. @throws Error (not_built_in) "option:
 /// …" if there is no template.
-void require_built_in(std::string_view option);
+void require_built_in();
 
 }  // namespace ph::report

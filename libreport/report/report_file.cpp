@@ -9,7 +9,7 @@ namespace ph::report {
 
 ReportFile::ReportFile(const Sink& sink, const Metadata& metadata, const RunContext& context)
     : sink_(sink), context_(context) {
-  require_built_in("--report");
+  require_built_in();
   const std::string_view page = page_template();
   sink_(page.substr(0, page.find(kPayloadMarker)));
   sink_("<script type=\"application/json\" id=\"ph-meta\">");

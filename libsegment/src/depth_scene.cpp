@@ -10,6 +10,11 @@
 namespace ph::segment {
 namespace {
 
+/// The camera as it was named, for a message.
+std::string camera_mark(std::string_view calibration) {
+  return mark(Setting::camera, printable(calibration));
+}
+
 /// The camera for images of this size; says so if its calibration is of another one.
 Camera scaled(const Camera& camera, std::string_view calibration, Index width, Index height,
               const Note& note) {
@@ -17,17 +22,15 @@ Camera scaled(const Camera& camera, std::string_view calibration, Index width, I
   try {
     result = camera.scaled_to(width, height);
   } catch (const Error& error) {
-    std::string_view what = error.what();
-    if (what.starts_with("camera: ")) what.remove_prefix(8);
-    throw Error(error.kind(), fmt::format("--camera {}: {}", printable(calibration), what));
+    throw Error(error.kind(), fmt::format("{}: {}", camera_mark(calibration),
+                                          error.message().without_place().marked()));
   }
   if (camera.width != 0 && (camera.width != width || camera.height != height)) {
     const Intrinsics& k = result.intrinsics;
-    note(
-        fmt::format("--camera {}: calibrated for {} x {} pixels; for {} x {} it is scaled to "
-                    "--intrinsics {:.6g},{:.6g},{:.6g},{:.6g}",
-                    printable(calibration), camera.width, camera.height, width, height, k.fx, k.fy,
-                    k.cx, k.cy));
+    note(fmt::format("{}: calibrated for {} x {} pixels; for {} x {} it is scaled to {}",
+                     camera_mark(calibration), camera.width, camera.height, width, height,
+                     mark(Setting::intrinsics,
+                          fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", k.fx, k.fy, k.cx, k.cy))));
   }
   return result;
 }
@@ -39,9 +42,9 @@ std::optional<Camera> camera_named(std::string_view name, const Note& note) {
   const auto preset = std::ranges::find(presets, name, &CameraPreset::name);
   if (preset == presets.end()) return std::nullopt;
   note(
-      fmt::format("--camera {}: nominal values for {}; each camera differs by some per cent, "
+      fmt::format("{}: nominal values for {}; each camera differs by some per cent, "
                   "other images by more; its calibration is better",
-                  preset->name, preset->images));
+                  camera_mark(preset->name), preset->images));
   return preset->camera;
 }
 
@@ -49,9 +52,9 @@ Camera calibrated_camera(const std::string& path, const Note& note, const RunCon
   Camera camera = read_camera(path, &context);
   if (camera.lens.model != Lens::Model::none) {
     note(
-        fmt::format("--camera {}: the depth image is taken for a raw one, and the bending "
-                    "of its lens is undone",
-                    printable(path)));
+        fmt::format("{}: the depth image is taken for a raw one, and the bending of its lens is "
+                    "undone",
+                    camera_mark(path)));
   }
   return camera;
 }
@@ -64,8 +67,8 @@ Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colou
   // Images of floats are in metres whatever the camera gives.
   if (!scale && camera.depth_scale > 0 && image.scale != 1) {
     scale = camera.depth_scale;
-    note(fmt::format("--camera {}: its depth_scale is taken: {:.6g} units a metre",
-                     printable(calibration), *scale));
+    note(fmt::format("{}: its depth_scale is taken: {:.6g} units a metre", camera_mark(calibration),
+                     *scale));
   }
   DepthCounts counts;
   Cloud cloud =

@@ -6,13 +6,14 @@
 #include <string_view>
 
 #include "ph/detail/io/camera.hpp"
+#include "ph/error.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::segment {
 
-/// Who is told what is not in plain sight. Options have the names that ph-segment gives them.
-using Note = std::function<void(const std::string&)>;
+/// Who is told what is not in plain sight.
+using Note = std::function<void(const Message&)>;
 
 /// The camera that has a name, with a note that its values are nominal; nothing if there is none.
 std::optional<Camera> camera_named(std::string_view name, const Note& note);

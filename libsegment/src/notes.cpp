@@ -36,15 +36,18 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
   const auto [nearest, farthest] = *found;
-  const std::string_view unit = is_depth ? "see --depth-scale" : "lengths are in metres";
+  const std::string unit =
+      is_depth ? "see " + mark(Setting::depth_scale) : std::string("lengths are in metres");
   if (s.stages.front().points == 0) {
+    const std::string range = mark(Setting::max_range);
     return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
                        o.max_range, o.crop ? " and inside the crop box" : "", nearest,
                        nearest > room ? fmt::format("{}: are these millimetres?", unit)
                        : is_depth
-                           ? "see --max-range, or --depth-scale if that is too far: how many "
-                             "units a metre has"
-                           : "see --max-range");
+                           ? fmt::format("see {}, or {} if that is too far: how many units a metre "
+                                         "has",
+                                         range, mark(Setting::depth_scale))
+                           : "see " + range);
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
@@ -79,13 +82,13 @@ std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
   const double across = view(cloud.width, camera.fx), down = view(cloud.height, camera.fy);
   if (std::max(across, down) > most || std::max(across, down) < least) {
     return fmt::format("{}: a field of view of {:.3g} x {:.3g} degrees; are FX and FY in pixels?",
-                       depth.option, across, down);
+                       mark(depth.setting), across, down);
   }
   if (camera.cx >= 0 && camera.cy >= 0 && camera.cx < static_cast<double>(cloud.width) &&
       camera.cy < static_cast<double>(cloud.height))
     return {};
-  return fmt::format("{}: the principal point {}, {} is outside the image of {} x {}", depth.option,
-                     camera.cx, camera.cy, cloud.width, cloud.height);
+  return fmt::format("{}: the principal point {}, {} is outside the image of {} x {}",
+                     mark(depth.setting), camera.cx, camera.cy, cloud.width, cloud.height);
 }
 
 /// A plane that no sensor at the viewpoint could see like this.
@@ -96,8 +99,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   if (s.plane->signed_distance(x, y, z) < too_low) {
     return fmt::format(
         "the viewpoint {} lies on the plane that was found: are the points in "
-        "another frame? see --viewpoint",
-        viewpoint);
+        "another frame? see {}",
+        viewpoint, mark(Setting::viewpoint));
   }
   // In their own frames scenes have up to 0.4 behind, past the edge of a table, and 0.03 hidden.
   constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
@@ -105,8 +108,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};
   return fmt::format(
       "{:.0f} % of the points off the plane lie behind it as seen from {}: are they "
-      "in another frame? see --viewpoint",
-      100 * behind, viewpoint);
+      "in another frame? see {}",
+      100 * behind, viewpoint, mark(Setting::viewpoint));
 }
 
 /// Where the sensor is said to have stood, and did not.
@@ -118,30 +121,29 @@ std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
   };
   if (!s.rays_meet_at) return about_plane(s, text(s.viewpoint));
   if (o.viewpoint) {
-    return fmt::format("--viewpoint: found {}, but the rays of the pixels meet at {}",
-                       text(*o.viewpoint), text(*s.rays_meet_at));
+    return fmt::format("{}: found {}, but the rays of the pixels meet at {}",
+                       mark(Setting::viewpoint), text(*o.viewpoint), text(*s.rays_meet_at));
   }
   return fmt::format(
-      "the rays of the pixels do not meet at the viewpoint of the input but at {0}, which is "
-      "taken; "
-      "--viewpoint X,Y,Z sets another",
-      text(*s.rays_meet_at));
+      "the rays of the pixels do not meet at the viewpoint of the input but at {}, which is taken; "
+      "{} sets another",
+      text(*s.rays_meet_at), mark(Setting::viewpoint, "X,Y,Z"));
 }
 
 }  // namespace
 
-std::vector<std::string> notes(const Segmentation& s, const SegmentOptions& options,
-                               const Cloud* cloud, const DepthSource* depth) {
-  std::vector<std::string> texts;
-  if (!s.difference.empty()) texts.push_back("check: " + s.difference);
-  if (cloud && depth) texts.push_back(about_camera(*depth, *cloud));
-  if (cloud) texts.push_back(about_precision(options, *cloud, s));
-  if (cloud) texts.push_back(about_viewpoint(options, s));
+std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options, const Cloud* cloud,
+                           const DepthSource* depth) {
+  std::vector<Message> texts;
+  if (!s.difference.empty()) texts.emplace_back("check: " + s.difference);
+  if (cloud && depth) texts.emplace_back(about_camera(*depth, *cloud));
+  if (cloud) texts.emplace_back(about_precision(options, *cloud, s));
+  if (cloud) texts.emplace_back(about_viewpoint(options, s));
   if (cloud && s.segments.empty() && cloud->size() > 0)
-    texts.push_back(about_units(options, depth != nullptr, *cloud, s));
+    texts.emplace_back(about_units(options, depth != nullptr, *cloud, s));
   if (cloud && options.plane && !s.plane && s.stages.front().points > 0)
-    texts.push_back(s.plane_note + "; nothing removed");
-  std::erase(texts, "");
+    texts.emplace_back(s.plane_note + "; nothing removed");
+  std::erase_if(texts, [](const Message& text) { return text.empty(); });
   return texts;
 }
 

@@ -13,13 +13,14 @@
 namespace ph::segment {
 namespace {
 
-void require(bool condition, std::string_view name, double found, std::string_view expected) {
+void require(bool condition, Setting setting, double found, std::string_view expected) {
   if (condition) return;
-  throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected {}", name, found, expected));
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: found {}, expected {}", mark(setting), found, expected));
 }
 
-void require_finite(const Vec3& v, std::string_view name) {
-  for (const double x : v) require(std::isfinite(x), name, x, "finite coordinates");
+void require_finite(const Vec3& v, Setting setting) {
+  for (const double x : v) require(std::isfinite(x), setting, x, "finite coordinates");
 }
 
 }  // namespace
@@ -47,36 +48,37 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   }
   constexpr std::string_view kLength = "a positive finite length";
   const double voxel = o.voxel_size(), margin = o.plane_margin();
-  require(voxel >= kLeastVoxel && voxel <= kMostVoxel, "voxel", voxel,
+  require(voxel >= kLeastVoxel && voxel <= kMostVoxel, Setting::voxel, voxel,
           fmt::format("a length from {} to {}", kLeastVoxel, kMostVoxel));
-  require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
+  require(std::isfinite(o.distance) && o.distance >= 0, Setting::distance, o.distance,
           "a finite length of at least 0");
-  require(o.steps >= 0, "steps", o.steps, "at least 0");
-  require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
-  require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, "plane_noise", o.plane_noise,
+  require(o.steps >= 0, Setting::steps, o.steps, "at least 0");
+  require(o.max_range >= 0, Setting::max_range, o.max_range, "a length of at least 0 or infinity");
+  require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, Setting::plane_noise, o.plane_noise,
           "a finite length of at least 0");
   // Nearly every voxel would be a seed: supervoxels of a voxel each.
   require(o.method != Method::supervoxels || (std::isfinite(o.spacing) && o.spacing >= voxel),
-          "spacing", o.spacing, fmt::format("a finite length of at least a voxel, {}", voxel));
+          Setting::spacing, o.spacing,
+          fmt::format("a finite length of at least a voxel, {}", voxel));
   const CutOptions cut = o.cut();
-  require(cut.value >= 0, "min_persistence", cut.value, "at least 0");
-  require(cut.min_part >= 1, "min_part", static_cast<double>(cut.min_part), "at least 1");
-  require(cut.min_size >= 1, "min_size", static_cast<double>(cut.min_size), "at least 1");
-  require(std::isfinite(cut.min_seam) && cut.min_seam >= 0, "min_seam", cut.min_seam,
+  require(cut.value >= 0, Setting::min_persistence, cut.value, "at least 0");
+  require(cut.min_part >= 1, Setting::min_part, static_cast<double>(cut.min_part), "at least 1");
+  require(cut.min_size >= 1, Setting::min_size, static_cast<double>(cut.min_size), "at least 1");
+  require(std::isfinite(cut.min_seam) && cut.min_seam >= 0, Setting::min_seam, cut.min_seam,
           "a finite number of at least 0");
-  require(std::isfinite(margin) && margin > 0, "plane_distance", margin, kLength);
-  require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
+  require(std::isfinite(margin) && margin > 0, Setting::plane_distance, margin, kLength);
+  require_finite(o.viewpoint.value_or(cloud.viewpoint), Setting::viewpoint);
   if (o.plane_guess) {
     const auto& [x, y, z] = o.plane_guess->normal;
     const double length = std::hypot(x, y, z);
     constexpr double rounding = 1e-6;
-    require(std::abs(length - 1) <= rounding, "plane_guess", length, "a normal of length 1");
-    require(std::isfinite(o.plane_guess->offset), "plane_guess", o.plane_guess->offset,
+    require(std::abs(length - 1) <= rounding, Setting::plane_guess, length, "a normal of length 1");
+    require(std::isfinite(o.plane_guess->offset), Setting::plane_guess, o.plane_guess->offset,
             "a finite offset");
   }
   if (!o.crop) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    require(o.crop->min[axis] <= o.crop->max[axis], "crop", o.crop->min[axis],
+    require(o.crop->min[axis] <= o.crop->max[axis], Setting::crop, o.crop->min[axis],
             fmt::format("at most {}, the other end", o.crop->max[axis]));
   }
 }
@@ -156,12 +158,12 @@ void validate(const SceneTree& scene, const SceneCut& cut) {
 
 void validate(const SceneTree& scene, const CutOptions& o) {
   validate(scene);
-  require(o.value >= 0, "cut", o.value, "at least 0");
-  require(scene.method != Method::paper || o.value <= scene.distance, "cut", o.value,
+  require(o.value >= 0, Setting::cut, o.value, "at least 0");
+  require(scene.method != Method::paper || o.value <= scene.distance, Setting::cut, o.value,
           fmt::format("at most {}, the distance up to which the tree was made", scene.distance));
-  require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
-  require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
-  require(std::isfinite(o.min_seam) && o.min_seam >= 0, "min_seam", o.min_seam,
+  require(o.min_part >= 1, Setting::min_part, static_cast<double>(o.min_part), "at least 1");
+  require(o.min_size >= 1, Setting::min_size, static_cast<double>(o.min_size), "at least 1");
+  require(std::isfinite(o.min_seam) && o.min_seam >= 0, Setting::min_seam, o.min_seam,
           "a finite number of at least 0");
 }
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -77,7 +76,7 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
         try:
             requests.append(request_of(_arguments(given, places, keywords)))
         except Error as error:
-            raise type(error)(f"{what} {i}: {error}") from None
+            raise reworded(error, f"{what} {i}: {error}") from None
     if not requests:
         return []
     try:
@@ -87,11 +86,10 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     except Cancelled:
         raise
     except Error as error:
-        failed = re.match(r"input (\d+): (.*)", str(error), re.DOTALL)
-        if failed is None:
+        if error._input is None or error._cause is None:
             raise
-        reason = requests[int(failed[1])].in_words(type(error)(failed[2]))
-        raise type(error)(f"{what} {failed[1]}: {reason}") from None
+        reason = requests[error._input].told(error._cause)
+        raise reworded(reason, f"{what} {error._input}: {reason}") from None
     return [Barcode._of(b, request.meta) for b, request in zip(bars, requests)]
 
 

@@ -5,8 +5,26 @@ Each is a class of Python's own, too, so that ``except ValueError`` catches bad 
 """
 
 
+from __future__ import annotations
+
+from typing import TypeVar
+
+
 class Error(Exception):
-    """Anything that libph raises. The message says what, found, expected, and a hint."""
+    """Anything that libph raises. The message says what, found, expected, and a hint.
+
+    Attributes
+    ----------
+    remedies : tuple of (str, str)
+        Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty
+        where several help.
+    """
+
+    remedies: tuple[tuple[str, str], ...] = ()
+    _place: str = ""            # where it went wrong
+    _found: str = ""            # what was found there
+    _input: int | None = None   # of several inputs
+    _cause: Error | None = None  # what went wrong with it
 
 
 class UsageError(Error, ValueError):
@@ -45,6 +63,16 @@ class InternalError(Error, RuntimeError):
     """A bug in libph: please report it."""
 
 
-for _found in list(globals().values()):
-    if isinstance(_found, type) and issubclass(_found, Error):
-        _found.__module__ = "libph"  # where users find it
+_AnyError = TypeVar("_AnyError", bound=Error)
+
+
+def reworded(error: _AnyError, message: str, *remedies: tuple[str, str]) -> _AnyError:
+    """An error of the same class with another message, and with these remedies, too."""
+    other = type(error)(message)
+    other.remedies = error.remedies + remedies
+    return other
+
+
+for _class in list(globals().values()):
+    if isinstance(_class, type) and issubclass(_class, Error):
+        _class.__module__ = "libph"  # where users find it

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import os
-import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -148,14 +147,11 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
     if format is None and columns is None and _is_barcode(file):
         raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "
                                 "ph.read_barcode reads it")
-    try:
-        found = _run.run(_core.read, file, name,
-                         b"" if values is None else path_of(values), options, options=dict(run))
-    except _errors.Error as error:
-        raise type(error)(_as_keywords(str(error))) from None
+    found = _run.run(_core.read, file, name, b"" if values is None else path_of(values), options,
+                     options=dict(run))
     _LOG.info("%s: %s", os.fspath(path), found["description"])
     for note in found["notes"]:
-        _LOG.info("%s: %s", os.fspath(path), _as_keywords(note))
+        _LOG.info("%s: %s", os.fspath(path), note)
     return found
 
 
@@ -167,25 +163,6 @@ def _is_barcode(path: bytes) -> bool:
     except OSError:  # who reads it says what is wrong
         return False
     return start.startswith((b"dim,birth,death\n", b'{\n  "format": "ph-barcode"'))
-
-
-def _as_keywords(message: str) -> str:
-    """Options of the program as keywords.
-
-    >>> _as_keywords("found NaN; --nan drop leaves it out, --from-correlation reads r")
-    "found NaN; nan='drop' leaves it out, from_correlation reads r"
-    >>> _as_keywords("--complex cubical reads an image; --columns 2-3 leaves it out")
-    "array='image' reads an image; columns=['2-3'] leaves it out"
-    """
-    for option, keyword in (("--diagonal zero", "diagonal='any'"),
-                            ("--complex cubical", "array='image'"),
-                            ("--complex rips", "array='rips'")):
-        message = message.replace(option, keyword)
-    message = re.sub(r"--columns (\d+-\d+)", r"columns=['\1']", message)
-    values = "drop|max|min|lower|births|zero|any|error|points|distance|grid"
-    message = re.sub(rf"--([a-z-]+) ({values})\b",
-                     lambda m: f"{m[1].replace('-', '_')}='{m[2]}'", message)
-    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), message)
 
 
 def _answer(found: dict[str, Any]) -> Any:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _options, _run
 from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
-from ._sources import source_of, without_nan_option
+from ._sources import source_of
 
 if TYPE_CHECKING:
     from scipy.sparse import coo_array
@@ -137,7 +137,6 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     return np.swapaxes(windows, 1, 2)
 
 
-@without_nan_option()
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
@@ -176,7 +175,6 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
     return Subsample(np.asarray(indices), np.asarray(radii), reached)
 
 
-@without_nan_option()
 def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
                         **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """Of each point the root of the mean square of the distances to its k nearest points.
@@ -220,7 +218,7 @@ def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
-    space = source_of(X, metric=metric, minkowski_p=minkowski_p).space
+    space = source_of(X, metric=metric, minkowski_p=minkowski_p, has_nan_option=False).space
     if not space.is_complete:
         raise UsageError("X: found some of the distances (a sparse matrix), expected all")
     return space

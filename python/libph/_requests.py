@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import math
-import re
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _core, _options, _run
-from ._errors import DataError, MemoryLimitError, NotBuiltIn, UsageError
+from ._errors import DataError, Error, MemoryLimitError, NotBuiltIn, UsageError, reworded
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
@@ -57,22 +56,23 @@ class Request(NamedTuple):
             return _run.run(function, *arguments, options=self.options,
                             slab_layers=self.slab_layers)
         except (DataError, MemoryLimitError) as error:
-            raise type(error)(self.in_words(error)) from None
+            raise self.told(error) from None
 
-    def in_words(self, error: Exception) -> str:
+    def told(self, error: Error) -> Error:
         """What is wrong, with a way out where a keyword is one."""
         message = str(error)
         if isinstance(error, MemoryLimitError) and self.meta["complex"] == "rips":
-            return (f"{message}; a smaller max_dim or threshold, subsample or approximation takes "
-                    "less, ph.estimate says how much")
-        if re.match(r"point \d+, coordinate \d+: found nan", message):
-            return f"{message}; nan='drop' leaves such points out"
-        voxel = re.match(r"voxel (\d+): found nan", message)
-        if voxel is None:
-            return message
-        index = np.unravel_index(int(voxel[1]), self.meta["shape"])
-        return (f"image: {_arrays.place_of([int(i) for i in index])}: found nan, expected a number; "
-                "nan='drop' leaves out what is NaN or masked")
+            return reworded(error, f"{message}; a smaller max_dim or threshold, subsample or "
+                            "approximation takes less, ph.estimate says how much")
+        kind, _, place = error._place.partition(" ")
+        if error._found != "nan" or kind not in ("point", "voxel"):
+            return error
+        if kind == "point":
+            return reworded(error, f"{message}; nan='drop' leaves such points out", ("nan", "drop"))
+        index = np.unravel_index(int(place), self.meta["shape"])
+        return reworded(error, f"image: {_arrays.place_of([int(i) for i in index])}: found nan, "
+                        "expected a number; nan='drop' leaves out what is NaN or masked",
+                        ("nan", "drop"))
 
 
 def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,

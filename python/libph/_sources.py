@@ -2,9 +2,8 @@
 """Where distances come from: points, matrices, functions; and what each of them needs of options."""
 from __future__ import annotations
 
-import contextlib
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,13 +30,19 @@ class Source(NamedTuple):
 
 
 def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
-              diagonal: Any = "zero", symmetrise: Any = None) -> Source:
-    """A metric space of what the user gave; a Source is one already."""
+              diagonal: Any = "zero", symmetrise: Any = None,
+              has_nan_option: bool = True) -> Source:
+    """A metric space of what the user gave; a Source is one already.
+
+    Messages do not name the option `nan` of a function that has none.
+    """
     if isinstance(X, Source):
         return X
     _options.choice("nan", nan, ["error", "drop"])
     _options.choice("diagonal", diagonal, ["zero", "births", "any"])
     _options.choice("symmetrise", symmetrise, [None, "max", "min", "lower"])
+    if not has_nan_option:
+        nan = None
     name = metric_name(metric)
     p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
     if p != 2 and name != "minkowski":
@@ -54,18 +59,6 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
     return _of_function(X, metric, nan) if name == "function" else _of_points(X, name, p, nan)
 
 
-@contextlib.contextmanager
-def without_nan_option() -> Iterator[None]:
-    """For functions that have no option `nan`: messages do not advise it."""
-    try:
-        yield
-    except DataError as error:
-        words, advice, _ = str(error).partition("; nan='drop'")
-        if not advice:
-            raise
-        raise DataError(words) from None
-
-
 def metric_name(metric: Any) -> str:
     """The name of a metric, of its aliases the first; "function" of the user's own."""
     if callable(metric):
@@ -80,7 +73,7 @@ def metric_name(metric: Any) -> str:
     return name
 
 
-def _of_points(X: Any, name: str, p: float, nan: str) -> Source:
+def _of_points(X: Any, name: str, p: float, nan: str | None) -> Source:
     if _arrays.is_sparse(X):
         raise UsageError("X: found a sparse matrix; metric='precomputed' reads its entries as "
                          "distances, .toarray() makes points of it")
@@ -96,7 +89,11 @@ def _of_points(X: Any, name: str, p: float, nan: str) -> Source:
     return Source(space, count, points.shape[1], None, ids)
 
 
-def _of_matrix(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:
+def _policy(nan: str | None) -> _core.NanPolicy:
+    return _core.NanPolicy.drop if nan == "drop" else _core.NanPolicy.error
+
+
+def _of_matrix(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
     array = _arrays.as_distances(X)
     births = None
     if diagonal == "zero" and _is_correlation(array):
@@ -109,8 +106,8 @@ def _of_matrix(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     if diagonal == "births":
         births = np.array(np.diagonal(array), dtype=np.float64)
     space = _core.MetricSpace.of_distances(
-        array, getattr(_core.Symmetrise, symmetrise or "none"), getattr(_core.NanPolicy, nan),
-        diagonal == "zero")
+        array, getattr(_core.Symmetrise, symmetrise or "none"), _policy(nan), diagonal == "zero",
+        nan is not None)
     return Source(space, space.size, None, births)
 
 
@@ -145,15 +142,16 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
                   "distances", UserWarning, stacklevel=_options.user_level())
 
 
-def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:
+def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
     """Both triangles are read. Zeros that are stored are distances; what is not stored never joins."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
     row, column, values = _arrays.sparse_entries(X)
     missing = np.isnan(values)
     if missing.any():
-        if nan == "error":
-            _fail(row, column, values, missing, "0 or more; nan='drop' never joins such a pair")
+        if nan != "drop":
+            _fail(row, column, values, missing,
+                  "0 or more" + ("" if nan is None else "; nan='drop' never joins such a pair"))
         row, column, values = row[~missing], column[~missing], values[~missing]
     finite = values[np.isfinite(values)]
     rounding = _ROUNDING * max(0.0, float(finite.max())) if finite.size else 0.0
@@ -221,7 +219,7 @@ def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.
     raise DataError(f"X: row {row[k]}, column {column[k]}: found {values[k]}, expected {expected}")
 
 
-def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str) -> Source:
+def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -> Source:
     """Distances of any things, each pair evaluated once."""
     things = X if isinstance(X, (list, tuple)) else _arrays.as_array(X, "X")
     if not isinstance(things, (list, tuple)) and things.ndim == 0:
@@ -241,5 +239,5 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str) -> Sourc
     if n == 0:
         distances = np.empty((0, 0))  # no numbers are the condensed form of one point
     space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none,
-                                           getattr(_core.NanPolicy, nan), True)
+                                           _policy(nan), True, nan is not None)
     return Source(space, n)

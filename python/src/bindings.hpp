@@ -8,7 +8,7 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-void bind_errors();
+void bind_errors(py::module_& m);
 void bind_run(py::module_& m);
 void bind_arrays(py::module_& m);
 void bind_metric_spaces(py::module_& m);

@@ -18,6 +18,7 @@
 #include "results/bars.hpp"
 #include "results/origin.hpp"
 #include "run.hpp"
+#include "words.hpp"
 
 namespace ph::python {
 namespace {
@@ -154,7 +155,9 @@ py::dict read(const std::string& path, const std::string& format_name,
   });
   py::dict answer = std::visit(Answer(used), result.data);
   answer["description"] = result.description;
-  answer["notes"] = result.notes;
+  std::vector<std::string> notes;
+  for (const Message& note : result.notes) notes.push_back(note.in_words(kWords));
+  answer["notes"] = notes;
   answer["dropped"] = dropped;
   answer["periodic"] = result.periodic;
   return answer;

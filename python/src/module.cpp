@@ -7,7 +7,7 @@ PYBIND11_MODULE(_core, m) {
   using namespace ph::python;
   m.doc() = "What libph has in C++. No interface: use the functions of the package libph.";
   m.attr("version") = PH_VERSION;
-  bind_errors();
+  bind_errors(m);
   bind_run(m);
   bind_arrays(m);
   bind_metric_spaces(m);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """First mistakes: what is likely meant otherwise is warned of, or refused with a way out."""
+import inspect
 import warnings
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 import libph as ph
+from libph import _core
 
 SERIES = np.random.default_rng(1).standard_normal((60, 8))
 CORRELATIONS = np.corrcoef(SERIES.T)
@@ -73,8 +75,13 @@ def test_nan_in_an_image(function, shape, place, words):
 def test_nan_in_points():
     X = SERIES.copy()
     X[3, 2] = np.nan
-    with pytest.raises(ph.DataError, match="point 3, coordinate 2: found nan, .*; nan='drop' leaves"):
+    with pytest.raises(ph.DataError, match="point 3, coordinate 2: found nan, .*; nan='drop' leaves"
+                       ) as caught:
         ph.rips(X)
+    assert caught.value.remedies == (("nan", "drop"),)
+    with pytest.raises(ph.DataError, match="input 1: point 3, .*; nan='drop' leaves") as caught:
+        ph.batch(ph.rips, [SERIES, X])
+    assert caught.value.remedies == (("nan", "drop"),)
     assert len(ph.rips(X, nan="drop").dgm(0)) == 59
 
 
@@ -117,3 +124,33 @@ def test_diagrams_of_other_shapes():
 def test_a_dimension_is_a_number():
     with pytest.raises(ph.UsageError, match="dim: found 'H1', expected a whole number"):
         ph.rips(SERIES).filter(dim="H1")
+
+
+# ---- in the words of Python
+
+NO_KEYWORDS = {"allow_empty", "labels", "plane_guess", "report"}
+METHODS = {"first_meeting"}
+
+
+def test_each_setting_is_a_keyword():
+    functions = [getattr(ph, name) for name in ph.__all__ if callable(getattr(ph, name))]
+    functions += [ph.Segmentation.cut, ph.sklearn.Atol]
+    known = set().union(*(inspect.signature(f).parameters for f in functions))
+    keywords = _core.keywords()
+    assert {name for name, keyword in keywords.items() if not keyword} == NO_KEYWORDS
+    assert {keyword for keyword in keywords.values() if keyword} - known == METHODS
+
+
+@pytest.mark.parametrize("text, remedies", [
+    ("1,2\n3,nan\n", (("nan", "drop"), ("columns", ""))),
+    ("0 1\n2 0\n", (("symmetrise", "max"), ("symmetrise", "min"), ("symmetrise", "lower")))])
+def test_errors_of_files_know_what_helps(tmp_path, text, remedies):
+    path = tmp_path / "a.txt"
+    path.write_text(text)
+    with pytest.raises(ph.DataError) as caught:
+        ph.read(path, "distance" if " " in text else "points")
+    assert caught.value.remedies == remedies
+    assert all(keyword in str(caught.value) for keyword, _ in remedies)
+    with pytest.raises(ph.DataError) as caught:
+        ph.farthest_points([[0, np.nan], [np.nan, 0]], metric="precomputed")
+    assert not caught.value.remedies and "nan=" not in str(caught.value)

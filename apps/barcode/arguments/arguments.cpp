@@ -39,7 +39,7 @@ Names output_formats() {
 }
 
 void take_report(Arguments& a, const std::string& path) {
-  report::require_built_in("--report");
+  report::require_built_in();
   const bool is_place = path.ends_with('/') || app::is_folder(path);
   if (path != "-" && !is_place && !ends_in(path, ".html") && !ends_in(path, ".htm"))
     throw Error(ErrorKind::usage,

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
+#include "common/terminal/words.hpp"
 #include "ph/alpha.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
@@ -93,8 +95,15 @@ constexpr std::array kExamplesOfRanks{
 std::vector<app::FormatList> format_lists() {
   std::vector<app::FormatList> lists{{"Read (--format NAME), plain or compressed with gzip", {}},
                                      {"Written (--output-format NAME)", {}}};
-  for (const FormatInfo& info : formats())
-    lists[0].formats.push_back({info.name, info.description, info.example});
+  // The lists have views of the descriptions.
+  static const std::vector<std::string> descriptions = [] {
+    std::vector<std::string> all;
+    for (const FormatInfo& info : formats())
+      all.push_back(info.description().in_words(app::kWords));
+    return all;
+  }();
+  for (std::size_t i = 0; i < descriptions.size(); ++i)
+    lists[0].formats.push_back({formats()[i].name, descriptions[i], formats()[i].example});
   for (const BarcodeFormatInfo& info : barcode_formats())
     lists[1].formats.push_back({info.name, info.description, info.example});
   return lists;

@@ -59,7 +59,7 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
     return built;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", mark_place(name), error.marked()));
   }
 }
 

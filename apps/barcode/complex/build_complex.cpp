@@ -257,7 +257,7 @@ class Builder {
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: vertex {} has no value, expected a line for each vertex; "
                               "--values gives them in a file",
-                              input.name, v));
+                              mark_place(input.name), v));
     };
     // Each vertex needs a line: where ids go beyond the lines, one is missing.
     if (largest >= static_cast<Index>(list.size())) fail_at(largest);

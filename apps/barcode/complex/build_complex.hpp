@@ -49,7 +49,7 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
     return work();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", mark_place(name), error.marked()));
   }
 }
 

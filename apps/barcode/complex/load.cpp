@@ -91,7 +91,7 @@ bool may_be_bars(const ReadResult& read) {
   if (!has_bars) throw;
   throw Error(error.kind(), fmt::format("{}; is it a barcode? ph-barcode plot {} -o FILE.svg draws "
                                         "it",
-                                        error.what(), printable(job.input)));
+                                        error.marked(), printable(job.input)));
 }
 
 }  // namespace
@@ -110,15 +110,15 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   // Scanners mark holes by NaN: they are no error unless somebody says so.
   if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
-                fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out", name,
-                            app::count_of(dropped, "point")));
+                fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
+                            mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
   if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
     session.note(what);
   else
     session.explain(what);
-  for (const std::string& note : read.notes) session.note(fmt::format("{}: {}", name, note));
+  for (const Message& note : read.notes) session.note(fmt::format("{}: {}", name, note.marked()));
   if (arguments.format == Format::automatic && arguments.read.columns.empty() && may_be_bars(read))
     session.note(
         fmt::format("{}: its rows may be dimension, birth and death; ph-barcode plot {} "
@@ -144,7 +144,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   if (const auto hidden = hidden_points(built)) session.note(fmt::format("{}: {}", name, *hidden));
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
-                fmt::format("{}: no points; --allow-empty accepts that", name));
+                fmt::format("{}: no points; --allow-empty accepts that", mark_place(name)));
   const bool refers_to_data = std::holds_alternative<Rips>(built.complex);
   Loaded loaded{std::move(built), name, std::move(description), std::move(point_ids)};
   if (is_shown || refers_to_data) {

@@ -35,7 +35,7 @@ Points series_of(const std::string& name, ReadResult& read) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: found {}, expected a time series for --delay: a table of numbers, "
                             "a row for each time",
-                            name, read.description));
+                            mark_place(name), read.description));
   Points series(image->extents[0], image->extents.size() == 2 ? image->extents[1] : 1);
   for (std::size_t i = 0; i < image->values.size(); ++i) series.data()[i] = image->values[i];
   return series;
@@ -48,7 +48,7 @@ void embed(const std::string& name, const Arguments::Delay& delay, std::size_t d
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: found {} rows with NaN, expected numbers: no time may be missing "
                             "for --delay",
-                            name, dropped));
+                            mark_place(name), dropped));
   const Points series = series_of(name, read);
   const auto [dimension, lag] = delay;
   // A point has the numbers of `dimension` rows, of which there are so many.
@@ -58,7 +58,7 @@ void embed(const std::string& name, const Arguments::Delay& delay, std::size_t d
   try {
     points = delay_embedding(series, dimension, lag);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", mark_place(name), error.marked()));
   }
   read.description = fmt::format("time series of {} x {} values, {} windows as points in R^{}",
                                  series.rows(), series.cols(), points.rows(), points.cols());

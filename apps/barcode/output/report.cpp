@@ -12,6 +12,7 @@
 #include "common/distances/distance_choice.hpp"
 #include "common/files/barcode_files.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/terminal/words.hpp"
 #include "core/system/files.hpp"
 #include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
@@ -55,8 +56,9 @@ report::Provenance provenance_of(const Shown& shown, const Arguments& arguments)
   provenance.run = shown.info;
   provenance.warnings = shown.warnings;
   auto& notes = provenance.notes;
-  if (const auto& assumed = shown.data.read.notes; !assumed.empty())
-    notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
+  std::vector<std::string> assumed;
+  for (const Message& note : shown.data.read.notes) assumed.push_back(note.in_words(app::kWords));
+  if (!assumed.empty()) notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
   if (!shown.info.vertex_weights.empty())
     notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
   if (const auto hidden = hidden_points(shown.built)) notes.emplace_back("Hidden", *hidden);
@@ -74,7 +76,7 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
     return report::shown_tree(std::move(*tree), shown.barcode, shown.built.complex, context);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
-    session.note(fmt::format("--report: no merge tree: {}", error.what()));
+    session.note(fmt::format("--report: no merge tree: {}", error.marked()));
   } catch (const std::bad_alloc&) {
     session.note("--report: no merge tree: out of memory");
   }
@@ -177,9 +179,9 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   return app::kOk;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::resource) throw;
-  throw Error(ErrorKind::resource, fmt::format("{}; {}", error.what(), kFewerBars));
+  throw Error(ErrorKind::resource, fmt::format("{}; {}", error.marked(), fewer_bars()));
 } catch (const std::bad_alloc&) {
-  throw Error(ErrorKind::resource, fmt::format("out of memory; {}", kFewerBars));
+  throw Error(ErrorKind::resource, fmt::format("out of memory; {}", fewer_bars()));
 }
 
 }  // namespace ph::barcode

@@ -13,7 +13,9 @@
 namespace ph::barcode {
 
 /// What helps where barcodes are too large for the memory.
-inline constexpr std::string_view kFewerBars = "take fewer bars, or raise --memory-limit";
+inline std::string fewer_bars() {
+  return "take fewer bars, or raise " + mark(Setting::memory_limit);
+}
 
 /// Reads a stored barcode and writes it as a job says: converted, drawn, in a report.
 /// @throws Error (usage) on a plot of anything else; Error as read_barcode and OutputFile.

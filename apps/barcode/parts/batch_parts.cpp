@@ -15,6 +15,7 @@
 #include "common/files/csv_cell.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/terminal/words.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -51,7 +52,7 @@ InputsPart::Result run_one(std::size_t number, const std::string& input, const A
     session.note(fmt::format("{}: {}", input, outcome.summary));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
-    fail(error.what(), app::report_current_exception(kProgram, input));
+    fail(error.in_words(app::kWords), app::report_current_exception(kProgram, input));
   }
   return result;
 }
@@ -112,7 +113,7 @@ Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
       else
         all.emplace(std::move(part));
     } catch (const Error& error) {
-      throw Error(error.kind(), fmt::format("{}: {}", file.path, error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", file.path, error.marked()));
     }
   }
   const std::string parts =

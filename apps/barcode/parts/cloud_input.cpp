@@ -29,8 +29,8 @@ CloudInput read_cloud_input(const std::string& input, const Arguments& arguments
   if (!points)
     throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected points", why, description));
   session.explain(fmt::format("read {}: {}", data.name, description));
-  for (const std::string& note : data.read.notes)
-    session.note(fmt::format("{}: {}", data.name, note));
+  for (const Message& note : data.read.notes)
+    session.note(fmt::format("{}: {}", data.name, note.marked()));
   CloudInput cloud{std::move(data), {}, {.threshold = arguments.threshold}};
   cloud.points = *points_of(cloud.data.read);
   return cloud;

@@ -77,7 +77,7 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
         all.emplace(std::move(part));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::bad_data) throw;
-      throw Error(error.kind(), fmt::format("{}: {}", file.path, error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", file.path, error.marked()));
     }
   }
   const std::string words = fmt::format("{} of {} parts", all->present().size(), all->parts());

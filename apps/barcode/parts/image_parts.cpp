@@ -36,7 +36,7 @@ ImagePart of_file(const PartFile& file, const RunContext& context) {
   try {
     return ImagePart::of_bytes(file.bytes, context);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", file.path, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", file.path, error.marked()));
   }
 }
 
@@ -47,7 +47,7 @@ void join(ImagePart& all, ImagePart next, const std::string& before, const std::
     all.join(std::move(next), context);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;
-    throw Error(error.kind(), fmt::format("{}: {}; joined with {}", path, error.what(), before));
+    throw Error(error.kind(), fmt::format("{}: {}; joined with {}", path, error.marked(), before));
   }
 }
 
@@ -109,7 +109,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
       return ImagePart(read.image, part, parts, read.options, session.context());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::usage) throw;
-      throw Error(error.kind(), fmt::format("--part: {}", error.what()));
+      throw Error(error.kind(), fmt::format("--part: {}", error.marked()));
     }
   }();
   session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));

@@ -51,7 +51,7 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
     if (why.empty()) return part;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.what();
+    why = error.marked();
   }
   session.note("--resume: " + path + ": " + why + ": computed again");
   return std::nullopt;

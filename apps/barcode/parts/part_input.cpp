@@ -36,8 +36,8 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Argu
   session.explain(fmt::format("read {}: {}", data.name, data.read.description));
   if (arguments.read.allow_empty)
     session.explain("--allow-empty: not needed, the input is not empty");
-  for (const std::string& note : data.read.notes)
-    session.note(fmt::format("{}: {}", data.name, note));
+  for (const Message& note : data.read.notes)
+    session.note(fmt::format("{}: {}", data.name, note.marked()));
   if (const int layers = arguments.common.slab_layers; layers > 0)
     session.explain(
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));

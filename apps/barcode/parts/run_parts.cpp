@@ -62,7 +62,7 @@ int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& ses
             ErrorKind::bad_data,
             fmt::format("part: found one of kind '{}', expected '{}' as the others", found, kind));
     } catch (const Error& error) {
-      throw Error(error.kind(), fmt::format("{}: {}", path, error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", path, error.marked()));
     }
     files.push_back({path, std::move(bytes)});
   }

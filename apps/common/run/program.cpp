@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -12,10 +13,16 @@
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
+#include "common/terminal/words.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
 namespace {
+
+bool advises(const Error& error, Setting setting) {
+  return std::ranges::any_of(error.remedies(),
+                             [setting](const Remedy& remedy) { return remedy.setting == setting; });
+}
 
 /// What report_current_exception does while there is memory for a message.
 int report_with_memory(std::string_view prefix, std::string_view memory_advice) {
@@ -32,12 +39,12 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
       const int signal = SignalWatch::received();
       return signal == 0 ? exit_code(error.kind()) : 128 + signal;
     }
+    const std::string text = error.in_words(kWords);
     if (error.kind() == ErrorKind::internal)
-      return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
-    if (error.kind() == ErrorKind::resource &&
-        std::string_view(error.what()).find("--memory-limit") == std::string_view::npos)
-      return report(fmt::format("{}; {}", error.what(), memory_advice), kResource);
-    return report(error.what(), exit_code(error.kind()));
+      return report(fmt::format("internal error: {}; please report", text), kInternal);
+    if (error.kind() == ErrorKind::resource && !advises(error, Setting::memory_limit))
+      return report(fmt::format("{}; {}", text, memory_advice), kResource);
+    return report(text, exit_code(error.kind()));
   } catch (const std::bad_alloc&) {
     return report(fmt::format("out of memory; {}", memory_advice), kResource);
   } catch (const std::length_error&) {

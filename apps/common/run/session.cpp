@@ -11,6 +11,7 @@
 #include "common/files/file_identity.hpp"
 #include "common/run/signals.hpp"
 #include "common/terminal/messages.hpp"
+#include "common/terminal/words.hpp"
 #include "core/format_size.hpp"
 #include "core/system/machine_memory.hpp"
 
@@ -40,12 +41,12 @@ Session::~Session() = default;
 
 std::uint64_t Session::memory_taken() const { return peak_memory() - memory_at_start_; }
 
-void Session::note(std::string_view text) {
+void Session::note(const Message& text) {
   if (options_.quiet) return;
-  print_line(fmt::format("{}: {}", program_, text));
+  print_line(fmt::format("{}: {}", program_, text.in_words(kWords)));
 }
 
-void Session::explain(std::string_view text) {
+void Session::explain(const Message& text) {
   if (options_.verbose) note(text);
 }
 

@@ -28,10 +28,10 @@ class Session {
   /// The most memory that was resident so far, beyond what it was at the start; bytes.
   std::uint64_t memory_taken() const;
 
-  /// One line on stderr: `program: text`. Nothing with --quiet.
-  void note(std::string_view text);
+  /// One line on stderr in the words of the programs: `program: text`. Nothing with --quiet.
+  void note(const Message& text);
   /// The same, only with --verbose.
-  void explain(std::string_view text);
+  void explain(const Message& text);
 
   /// After a run that met the memory limit, see HeapBound::loosen.
   void loosen_heap_bound() { heap_.loosen(); }

@@ -159,7 +159,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   require_plane(a.given, a.options.plane);
   take_plots(a, plots, known);
   if (!a.files.report.empty()) {
-    report::require_built_in("--report");
+    report::require_built_in();
     a.command = app::typed_command("ph-segment", argc, argv);
     a.scene_options = scene_options(app);
   }

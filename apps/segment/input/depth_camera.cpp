@@ -17,7 +17,7 @@ namespace ph::segment {
 
 void load_camera(DepthInput& image, app::Session& session) {
   if (image.calibration.empty()) return;
-  const Note note = [&session](const std::string& text) { session.note(text); };
+  const Note note = [&session](const Message& text) { session.note(text); };
   image.camera = camera_named(image.calibration, note);
   if (image.camera) return;
   if (!std::filesystem::exists(files::path_of(image.calibration))) {

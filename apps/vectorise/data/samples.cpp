@@ -26,8 +26,8 @@ Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments
   if (image == nullptr)
     throw Error(ErrorKind::bad_data, fmt::format("{}: found {}, expected a barcode or an image",
                                                  input.name(), read.description));
-  for (const std::string& note : read.notes)
-    session.note(fmt::format("{}: {}", input.name(), note));
+  for (const Message& note : read.notes)
+    session.note(fmt::format("{}: {}", input.name(), note.marked()));
   // A barcode in NPY has rows dim, birth, death, and nothing that says so.
   const bool may_be_bars = (read.format == Format::npy || read.format == Format::npz) &&
                            image->extents.size() == 2 && image->extents[1] == 3;

@@ -92,13 +92,7 @@ bool may_keep_infinite(Kind kind) {
 }
 
 Error about_input(const Error& error, std::string_view name) {
-  std::string_view what = error.what();
-  const std::size_t end = what.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
-  if (end != what.npos && what.substr(end).starts_with(": ")) what.remove_prefix(end + 2);
-  const std::size_t hint = what.find(": finite_bars() ");
-  return Error(error.kind(),
-               fmt::format("{}: {}{}", name, what.substr(0, hint),
-                           hint == what.npos ? "" : "; --infinite drop leaves it out"));
+  return Error(error.kind(), fmt::format("{}: {}", name, error.message().without_place().marked()));
 }
 
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,

@@ -253,7 +253,8 @@ class Reader {
       }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::usage) throw;
-      throw Error(ErrorKind::bad_data, fmt::format("{}: {}", input_.name(), error.what()));
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: {}", mark_place(input_.name()), error.marked()));
     }
   }
 

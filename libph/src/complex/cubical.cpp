@@ -61,9 +61,8 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
             throw Error(ErrorKind::bad_data,
-                        fmt::format("voxel {}: found nan, expected a number in an image without "
-                                    "a mask",
-                                    i));
+                        fmt::format("{}: found {}, expected a number in an image without a mask",
+                                    mark_place(fmt::format("voxel {}", i)), mark_found("nan")));
       }
     }
   });

@@ -19,7 +19,7 @@ namespace {
 
 [[noreturn]] void fail(const CellNamer& name, std::size_t cell, const std::string& what) {
   throw Error(ErrorKind::bad_data,
-              (name ? name(cell) : fmt::format("cell {}", cell)) + ": " + what);
+              mark_place(name ? name(cell) : fmt::format("cell {}", cell)) + ": " + what);
 }
 
 std::string vertex_list(std::span<const Index> vertices) {

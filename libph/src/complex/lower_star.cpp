@@ -54,7 +54,7 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     poll();
     const auto given = simplices.simplex(i);
-    const auto where = [&] { return name ? name(i) : fmt::format("simplex {}", i); };
+    const auto where = [&] { return mark_place(name ? name(i) : fmt::format("simplex {}", i)); };
     std::pmr::vector<Index> vertices(given.begin(), given.end());
     std::sort(vertices.begin(), vertices.end());
     for (const Index v : vertices) {

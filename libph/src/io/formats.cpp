@@ -116,8 +116,8 @@ ReadResult perseus_result(const Input& input, const ReadOptions& options) {
     result.description += ", periodic";
     result.periodic = std::move(perseus.periodic);
   }
-  detail::note(options,
-               "Perseus and GUDHI take the values as those of top cubes: --construction cells");
+  detail::note(options, "Perseus and GUDHI take the values as those of top cubes: " +
+                            mark(Setting::construction, "cells"));
   return result;
 }
 ReadResult cloud_of(const Cloud& cloud, const Input& input, const ReadOptions& options,
@@ -208,7 +208,10 @@ constexpr std::array kFormats{
     FormatInfo{Format::npy, "npy", "a NumPy array: an image, points or distances", "", &npy_result},
     FormatInfo{Format::pgm, "pgm", "a grey picture, P2 or P5, 8 or 16 bits", "P2 640 480 255",
                &pgm_result},
-    FormatInfo{Format::png, "png", "a picture: grey, or one --channel of it", "", &png_result},
+    FormatInfo{Format::png, "png",
+               "a picture: grey, or one \x1e"
+               "channel\x1f of it",
+               "", &png_result},
     FormatInfo{Format::perseus, "perseus",
                "a cubical complex as text: dimension, sizes, values; or a cube a line", "2",
                &perseus_result},
@@ -230,8 +233,9 @@ constexpr std::array kFormats{
                &pts_result},
     FormatInfo{Format::grid, "grid", "an image as text: a row of pixels a line; or a signal",
                "0.5 1.25 2", &grid_result},
-    FormatInfo{Format::raw, "raw", "the numbers of an image: --raw-shape, --raw-type, --raw-skip",
-               "", &raw_result},
+    FormatInfo{Format::raw, "raw",
+               "the numbers of an image: \x1eraw_shape\x1f, \x1eraw_type\x1f, \x1eraw_skip\x1f", "",
+               &raw_result},
 };
 
 }  // namespace

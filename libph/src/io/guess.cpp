@@ -43,6 +43,11 @@ std::optional<Format> triangle_of(const Input& input) {
 
 }  // namespace
 
+std::string way_to_distances(bool has_zero_diagonal) {
+  const std::string format = mark(Setting::format, "distance");
+  return has_zero_diagonal ? format : format + ' ' + mark(Setting::diagonal, "zero");
+}
+
 TextGuess guess_text(const Input& input, const ReadOptions& options) {
   TextGuess guess;
   if (options.columns.empty()) {
@@ -108,14 +113,14 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     const bool is_nearly =
         kind == SquareKind::nearly_correlations || kind == SquareKind::nearly_symmetric;
     const std::string_view symmetric = is_nearly ? "nearly symmetric" : "symmetric";
-    const std::string_view instead =
-        is_rips ? "--format points reads a point a row" : "--complex cubical reads an image";
+    const std::string instead = is_rips ? mark(Setting::format, "points") + " reads a point a row"
+                                        : mark(Setting::complex, "cubical") + " reads an image";
     if (n < 3) {
       const bool either = kind == SquareKind::distances || kind == SquareKind::correlations;
       if (!either) return otherwise;
       return {otherwise.meaning,
-              fmt::format("{}, symmetric: read as {}; --format distance reads distances", shape,
-                          is_rips ? "points" : "an image")};
+              fmt::format("{}, symmetric: read as {}; {} reads distances", shape,
+                          is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
     // Pictures may be black, maps of labels empty; points and distances are not.
@@ -129,23 +134,22 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     }
     if (kind == SquareKind::zeros && (npy.kind == 'f' || !is_mostly_zero(block, side))) {
       return {otherwise.meaning,
-              fmt::format("{} with a zero diagonal: read as an image; --format distance reads "
-                          "distances",
-                          shape)};
+              fmt::format("{} with a zero diagonal: read as an image; {} reads distances", shape,
+                          mark(Setting::format, "distance"))};
     }
     if (kind == SquareKind::correlations || kind == SquareKind::nearly_correlations) {
       input.fail({"correlations, points or an image",
                   fmt::format("a {} {} from -1 to 1 with ones on its diagonal", symmetric, shape),
                   "an option that says which",
-                  "--from-correlation takes distances 1 - r; --complex cubical reads an image, "
-                  "--format points a point a row"});
+                  fmt::format("{} takes distances 1 - r; {} reads an image, {} a point a row",
+                              mark(Setting::from_correlation), mark(Setting::complex, "cubical"),
+                              mark(Setting::format, "points"))});
     }
     if (kind == SquareKind::distances || kind == SquareKind::symmetric ||
         kind == SquareKind::nearly_symmetric) {
-      return {otherwise.meaning,
-              fmt::format("{}, {}: read as {}; --format distance{} reads distances", shape,
-                          symmetric, is_rips ? "points, one a row" : "an image",
-                          kind == SquareKind::distances ? "" : " --diagonal zero")};
+      return {otherwise.meaning, fmt::format("{}, {}: read as {}; {} reads distances", shape,
+                                             symmetric, is_rips ? "points, one a row" : "an image",
+                                             way_to_distances(kind == SquareKind::distances))};
     }
   }
   if (is_rips) return otherwise;
@@ -154,16 +158,15 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
   if (!is_slender) {
     if (is_of_pixels || rows < 2 || columns < 2) return otherwise;
-    return {ArrayMeaning::image,
-            fmt::format("{}: read as an image; --complex rips reads a point a row", shape)};
+    return {ArrayMeaning::image, fmt::format("{}: read as an image; {} reads a point a row", shape,
+                                             mark(Setting::complex, "rips"))};
   }
   if (is_of_pixels)
-    return {
-        ArrayMeaning::image,
-        fmt::format("{} of small integers: read as an image; --complex rips reads a point a row",
-                    shape)};
-  return {ArrayMeaning::points,
-          fmt::format("{}: read as a point a row; --complex cubical reads an image", shape)};
+    return {ArrayMeaning::image,
+            fmt::format("{} of small integers: read as an image; {} reads a point a row", shape,
+                        mark(Setting::complex, "rips"))};
+  return {ArrayMeaning::points, fmt::format("{}: read as a point a row; {} reads an image", shape,
+                                            mark(Setting::complex, "cubical"))};
 }
 
 }  // namespace ph::detail

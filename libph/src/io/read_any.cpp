@@ -33,17 +33,22 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
     // Two to four numbers a row are coordinates as a rule, hardly ever a picture.
     const std::size_t width = detail::table_layout(input, options).columns.size();
     if (width >= 2 && width <= 4) return Format::points;
-    if (width > 4) detail::note(options, "read as an image; --voxel X reads points");
+    if (width > 4)
+      detail::note(options,
+                   fmt::format("read as an image; {} reads points", mark(Setting::voxel, "X")));
     return Format::grid;
   }
   const detail::TextGuess guess = detail::guess_text(input, options);
   const bool is_table = guess.format == Format::points || guess.format == Format::distance;
   if (!is_table) return guess.format;
-  if (const std::string_view option = detail::matrix_option(options); !option.empty()) {
+  if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
-    // Points have no diagonal: --diagonal zero asks for nothing, births are refused with the
-    // points.
-    if (!is_square && option.starts_with("--diagonal")) return Format::points;
+    // Points have no diagonal. One of any numbers asks for nothing, and births are refused with
+    // the points.
+    const bool has_diagonal = !options.from_correlation && options.diagonal != Diagonal::zero;
+    const bool is_by_diagonal =
+        options.diagonal == Diagonal::births || options.symmetrise == Symmetrise::none;
+    if (!is_square && has_diagonal && is_by_diagonal) return Format::points;
     if (guess.table.rows != 0 && !is_square) {
       input.fail({"not a square matrix",
                   guess.table.rows > guess.columns
@@ -57,27 +62,30 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::points) return Format::points;
   using detail::SquareKind;
   if (guess.columns == 1 && guess.table.rows > 1 && options.array == ArrayMeaning::automatic)
-    detail::note(options, "a number a line: points of a line; --complex cubical reads a signal");
+    detail::note(options, fmt::format("a number a line: points of a line; {} reads a signal",
+                                      mark(Setting::complex, "cubical")));
   const std::string size = fmt::format("{} x {} numbers", guess.table.rows, guess.columns);
   const bool is_nearly = guess.table.square == SquareKind::nearly_correlations ||
                          guess.table.square == SquareKind::nearly_symmetric;
   const bool is_of_ones = guess.table.square == SquareKind::correlations ||
                           guess.table.square == SquareKind::nearly_correlations;
   const std::string_view symmetric = is_nearly ? "nearly symmetric" : "symmetric";
-  const std::string choices =
-      fmt::format("{}, --format points a point a row",
-                  is_of_ones ? "--format distance reads distances, --from-correlation correlations"
-                  : guess.table.square == SquareKind::distances
-                      ? "--format distance reads distances"
-                      : "--format distance --diagonal zero reads distances");
+  const std::string as_points = mark(Setting::format, "points");
+  const std::string correlations = mark(Setting::from_correlation);
+  const std::string choices = fmt::format(
+      "{} reads distances{}, {} a point a row",
+      detail::way_to_distances(is_of_ones || guess.table.square == SquareKind::distances),
+      is_of_ones ? fmt::format(", {} correlations", correlations) : "", as_points);
   if (guess.format == Format::distance) {
-    detail::note(options,
-                 "square with a zero diagonal: read as distances; --format points reads points");
+    detail::note(
+        options,
+        fmt::format("square with a zero diagonal: read as distances; {} reads points", as_points));
   } else if (guess.table.rows > 2 && is_of_ones) {
-    input.fail({"correlations or points",
-                fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
-                "an option that says which",
-                "--from-correlation takes distances 1 - r, --format points a point a row"});
+    input.fail(
+        {"correlations or points",
+         fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
+         "an option that says which",
+         fmt::format("{} takes distances 1 - r, {} a point a row", correlations, as_points)});
   } else if (guess.table.same_names && (guess.table.square == SquareKind::symmetric ||
                                         guess.table.square == SquareKind::nearly_symmetric)) {
     input.fail({"distances, correlations or points",
@@ -91,19 +99,19 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
 
 // What an option says of an input that knows nothing of it.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
-  const auto refuse = [&](std::string_view option, std::string_view meant_for) {
-    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}", option,
-                                              meant_for, format_info(format).name));
+  const auto refuse = [&](Setting setting, std::string_view meant_for) {
+    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}",
+                                              mark(setting), meant_for, format_info(format).name));
   };
   const bool is_table = format == Format::points || format == Format::distance ||
                         format == Format::grid || format == Format::npy || format == Format::npz;
   if (!options.columns.empty() && !is_table)
-    refuse("--columns", "tables of numbers, as text or NPY");
+    refuse(Setting::columns, "tables of numbers, as text or NPY");
   if (options.channel != Channel::automatic && format != Format::png)
-    refuse("--channel", "PNG pictures");
+    refuse(Setting::channel, "PNG pictures");
   if (format == Format::ply && !input.member().empty()) {
     input.fail({"a property of a mesh", printable(input.member(), 40), "the mesh itself",
-                "--values FILE.ply:NAME takes one"});
+                mark(Setting::values, "FILE.ply:NAME") + " takes one"});
   }
 }
 
@@ -111,10 +119,10 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
 
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   std::vector<Index> dropped;
   ReadOptions inner = options;
-  inner.note = [&](std::string text) {
+  inner.note = [&](Message text) {
     notes.push_back(text);
     if (options.note) options.note(std::move(text));
   };
@@ -127,7 +135,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   const FormatInfo& info = format_info(format);
   if (info.read == nullptr) {
     throw Error(ErrorKind::not_built_in,
-                fmt::format("{}: format {} is not built in", input.name(), info.name));
+                fmt::format("{}: format {} is not built in", mark_place(input.name()), info.name));
   }
   if (!goes_by_blocks(input, format, inner)) input.take_memory();
   ReadResult result = info.read(input, inner);
@@ -148,7 +156,8 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   }
   if (const auto* points = std::get_if<Points>(&result.data);
       points && points->rows() == 0 && !options.allow_empty) {
-    input.fail({"no points", {}, "at least one", "--allow-empty accepts an empty set"});
+    input.fail(
+        {"no points", {}, "at least one", mark(Setting::allow_empty) + " accepts an empty set"});
   }
   if (values_path.empty()) return result;
 
@@ -165,8 +174,8 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
         vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
     simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
   } else {
-    throw Error(ErrorKind::usage,
-                fmt::format("--values: format {} takes no separate values", info.name));
+    throw Error(ErrorKind::usage, fmt::format("{}: format {} takes no separate values",
+                                              mark(Setting::values), info.name));
   }
   return result;
 }

@@ -105,7 +105,7 @@ void require_growth(const Input& input, const std::vector<T>& vector) {
 }
 
 /// Says something to options.note, if it is there.
-inline void note(const ReadOptions& options, std::string text) {
+inline void note(const ReadOptions& options, Message text) {
   if (options.note) options.note(std::move(text));
 }
 

@@ -12,6 +12,13 @@
 #include "ph/error.hpp"
 
 namespace ph {
+
+Error not_finite(Index point, Index coordinate, double found) {
+  return {ErrorKind::bad_data,
+          fmt::format("{}: found {}, expected a finite number",
+                      mark_place(fmt::format("point {}, coordinate {}", point, coordinate)),
+                      mark_found(fmt::format("{}", found)))};
+}
 namespace {
 
 static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
@@ -91,11 +98,7 @@ PointMetric::PointMetric(PointsView points, PointDistance distance, double p, do
   }
   for (Index i = 0; i < points.rows(); ++i) {
     for (Index k = 0; k < points.cols(); ++k) {
-      if (!std::isfinite(points(i, k))) {
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("point {}, coordinate {}: found {}, expected a finite number", i, k,
-                                points(i, k)));
-      }
+      if (!std::isfinite(points(i, k))) throw not_finite(i, k, points(i, k));
       largest = std::max(largest, std::abs(points(i, k)));
     }
     if (distance == PointDistance::cosine && is_zero(i)) {

@@ -205,15 +205,14 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
               const RunContext& context) {
   if (options.centres < 1 || options.most_rounds < 0)
     throw Error(ErrorKind::usage,
-                fmt::format("fit_atol: found {} centres and {} rounds, expected at least 1 and 0",
-                            options.centres, options.most_rounds));
+                fmt::format("{}: found {} centres and {} rounds, expected at least 1 and 0",
+                            mark_place("fit_atol"), options.centres, options.most_rounds));
   std::vector<vectors::Heap> heaps = vectors::heaps_of(diagrams);
   if (heaps.size() < options.centres)
     throw Error(
         ErrorKind::bad_data,
-        fmt::format("fit_atol: different bars: found {}, expected at least {}, the number of "
-                    "centres",
-                    heaps.size(), options.centres));
+        fmt::format("{}: different bars: found {}, expected at least {}, the number of centres",
+                    mark_place("fit_atol"), heaps.size(), options.centres));
   // In a unit in which all numbers are less than 1: squares of small ones would be 0.
   double largest = 0;
   for (const auto& heap : heaps)

@@ -38,7 +38,7 @@ void check(const Grid& grid, std::string_view function) {
   throw Error(ErrorKind::usage,
               fmt::format("{}: grid: found {} points from {} to {}, expected at least 1, from a "
                           "finite number to a larger one",
-                          function, grid.points, grid.lo, grid.hi));
+                          mark_place(function), grid.points, grid.lo, grid.hi));
 }
 
 GridCells::GridCells(const Grid& grid, std::string_view function) {

@@ -101,9 +101,9 @@ void persistence_image(std::span<const Bar> given, const ImageFrame& frame, doub
     if (!(weight < kInfinity))
       throw Error(
           ErrorKind::bad_data,
-          fmt::format("persistence_image: found a bar of length {} and the power {}, expected "
-                      "a weight below infinity",
-                      bar.persistence(), power));
+          fmt::format("{}: found a bar of length {} and the power {}, expected a weight below "
+                      "infinity",
+                      mark_place("persistence_image"), bar.persistence(), power));
     births.go_to(bar.birth);
     lengths.go_to(bar.persistence());
     if (births.count() > 0 && lengths.count() > 0)

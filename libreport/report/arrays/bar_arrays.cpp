@@ -19,9 +19,9 @@ class CellColumn {
   void add(const InputCell& cell) {
     for (const Index number : cell.numbers) {
       if (number < 0 || number > std::numeric_limits<std::uint32_t>::max())
-        throw Error(
-            ErrorKind::bad_data,
-            fmt::format("--report: found a cell of vertex {}, expected at most 2^32 - 1", number));
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("{}: found a cell of vertex {}, expected at most 2^32 - 1",
+                                mark(Setting::report), number));
       numbers_.push_back(static_cast<std::uint32_t>(number));
     }
   }
@@ -53,8 +53,8 @@ void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefi
   for (const Bar& bar : barcode) {
     if (bar.dim > UINT8_MAX)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("--report: found a bar of dimension {}, expected at most {}", bar.dim,
-                              UINT8_MAX));
+                  fmt::format("{}: found a bar of dimension {}, expected at most {}",
+                              mark(Setting::report), bar.dim, UINT8_MAX));
     dims.push_back(static_cast<std::uint8_t>(bar.dim));
     births.push_back(bar.birth);
     deaths.push_back(bar.death);

@@ -16,9 +16,10 @@ Raster label_image(const SceneTree& scene, std::span<const std::uint32_t> labels
   Raster raster{scene.width, scene.height, 1, 16, {}};
   for (const std::uint32_t label : labels) {
     if (label > UINT16_MAX) {
-      throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
-                                                   "found {}; use .npy",
-                                                   label));
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: a PNG holds labels up to 65535, found {}; use "
+                              ".npy",
+                              mark(Setting::labels), label));
     }
     raster.samples.push_back(static_cast<std::uint16_t>(label));
   }

@@ -41,11 +41,11 @@ std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cu
 
 LabelTracker::LabelTracker(int patience, double cell) : patience_(patience), cell_(cell) {
   if (patience < 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("patience: found {} frames, expected 0 or more", patience));
+    throw Error(ErrorKind::usage, fmt::format("{}: found {} frames, expected 0 or more",
+                                              mark(Setting::patience), patience));
   if (!(cell > 0) || !std::isfinite(cell))
-    throw Error(ErrorKind::usage,
-                fmt::format("cell: found {}, expected a positive finite length", cell));
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a positive finite length",
+                                              mark(Setting::cell), cell));
 }
 
 std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> labels) {

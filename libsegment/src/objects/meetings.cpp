@@ -35,11 +35,11 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
   for (const std::uint32_t label : {a, b})
     if (label == 0 || label > cut.segments.size())
       throw Error(ErrorKind::usage,
-                  fmt::format("first_meeting: found segment {}, expected one of 1 to {}", label,
-                              cut.segments.size()));
+                  fmt::format("{}: found segment {}, expected one of 1 to {}",
+                              mark(Setting::first_meeting), label, cut.segments.size()));
   if (a == b)
-    throw Error(ErrorKind::usage,
-                fmt::format("first_meeting: found segment {} twice, expected two segments", a));
+    throw Error(ErrorKind::usage, fmt::format("{}: found segment {} twice, expected two segments",
+                                              mark(Setting::first_meeting), a));
   // The parts of a segment are one from the beginning.
   DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t u, std::uint32_t v) {

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _arrays, _core, _options, _run
-from .._errors import DataError, Error, MissingInputError, UsageError
-from .._files import _as_keywords, path_of
+from .._errors import DataError, MissingInputError, UsageError
+from .._files import path_of
 
 
 class Scene(NamedTuple):
@@ -42,14 +42,11 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
     if colours is not None and isinstance(colours, (str, bytes, os.PathLike)) != is_path:
         raise _options.refuse("colours", colours, "a path, as the depth image is one" if is_path
                               else "an array, as the depth image is one")
-    try:
-        if not is_path:
-            return Scene(_depth(data, colours, seen_by, scale, run), name, True)
-        cloud = _run.run(_core.read_depth, path_of(data, "cloud"),
-                         b"" if colours is None else path_of(colours, "colours"), seen_by, scale,
-                         options=run)
-    except Error as error:  # "--camera NAME: …"
-        raise type(error)(_as_keywords(str(error))) from None
+    if not is_path:
+        return Scene(_depth(data, colours, seen_by, scale, run), name, True)
+    cloud = _run.run(_core.read_depth, path_of(data, "cloud"),
+                     b"" if colours is None else path_of(colours, "colours"), seen_by, scale,
+                     options=run)
     return Scene(cloud, name, True)
 
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from .. import _arrays, _core, _options, _run
 from .._errors import MemoryLimitError, UsageError
-from .._files import _as_keywords
 from ._clouds import Scene, scene_of
 from ._segmentation import Segmentation
 
@@ -142,20 +141,16 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         edges = "distance or " if given["method"] == "paper" else ""
         raise MemoryLimitError(f"{error}; lower {edges}max_range, enlarge voxel, or raise "
                                "memory_limit") from None
-    except UsageError as error:  # in C++ this option has another name
-        raise UsageError(str(error).replace("spacing:", "supervoxels:", 1)) from None
     return Segmentation._of(found, scene.name, _told(scene, found))
 
 
 def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
     """What the user hears; also for the record."""
-    assumed = [_as_keywords(note) for note in scene.cloud.notes]
-    for note in assumed:
+    for note in scene.cloud.notes:
         _LOG.info("%s: %s", scene.name or "cloud", note)
-    doubts = [_as_keywords(note) for note in found.notes]
-    for note in doubts:
+    for note in found.notes:
         warnings.warn(note, UserWarning, stacklevel=3)
-    return assumed + doubts
+    return scene.cloud.notes + found.notes
 
 
 def _require_no_options(given: dict[str, Any]) -> None:

@@ -65,7 +65,7 @@ class Atol(Vectoriser):
             try:
                 fitted.append(fit_atol(dgms, count, seed))
             except DataError as error:
-                raise DataError(f"{name}: {str(error).removeprefix('fit_atol: ')}") from None
+                raise DataError(f"{name}: {str(error).removeprefix(f'{error._place}: ')}") from None
         self.centres_ = [centres for centres, _ in fitted]
         self.widths_ = [widths for _, widths in fitted]
         self._count = count

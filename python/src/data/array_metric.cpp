@@ -79,16 +79,16 @@ class Check {
     const double rounding = kRounding * all_.largest;
     fail_if_no_distance(rounding);
     if (const auto& [size, place] = all_.asymmetric; size > rounding)
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("distances: asymmetric: row {0}, column {1} is {2} but row {1}, "
-                              "column {0} is {3}, expected both equal; symmetrise='max', 'min' or "
-                              "'lower' accepts it",
-                              place.i, place.j, metric_.entry(place.i, place.j),
-                              metric_.entry(place.j, place.i)));
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("distances: asymmetric: row {0}, column {1} is {2} but row {1}, "
+                      "column {0} is {3}, expected both equal; {4} accepts it",
+                      place.i, place.j, metric_.entry(place.i, place.j),
+                      metric_.entry(place.j, place.i), mark(Setting::symmetrise, "max|min|lower")));
     if (const auto& [size, place] = all_.diagonal; size > rounding)
       fail(name_of(array_, place), metric_.entry(place.i, place.j),
-           "0 on the diagonal; diagonal='births' takes it for the birth of the point, "
-           "diagonal='any' for 0");
+           fmt::format("0 on the diagonal; {} takes it for the birth of the point, {} for 0",
+                       mark(Setting::diagonal, "births"), mark(Setting::diagonal, "any")));
   }
 
   void condensed() {
@@ -139,7 +139,9 @@ class Check {
   void fail_if_no_distance(double rounding) const {
     if (all_.nan.size > 0 && array_.nan == NanPolicy::error)
       fail(name_of(array_, all_.nan.place), std::numeric_limits<double>::quiet_NaN(),
-           "0 or more; nan='drop' never joins such a pair");
+           array_.has_nan_option
+               ? fmt::format("0 or more; {} never joins such a pair", mark(Setting::nan, "drop"))
+               : "0 or more");
     if (all_.negative.size > rounding)
       fail(name_of(array_, all_.negative.place), -all_.negative.size, "0 or more");
   }

@@ -23,6 +23,7 @@ struct DistanceArray {
   Symmetrise symmetrise = Symmetrise::none;  ///< of a square matrix
   NanPolicy nan = NanPolicy::error;          ///< drop: such a pair is never joined
   bool has_zero_diagonal = true;             ///< else what stands there is not looked at
+  bool has_nan_option = true;                ///< false: messages do not advise it
 
   /// Where the pair i < j stands in the condensed form.
   Index condensed_place(Index i, Index j) const { return i * (2 * points - i - 1) / 2 + j - i - 1; }

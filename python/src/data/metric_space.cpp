@@ -36,7 +36,7 @@ MetricSpace::MetricSpace(const py::buffer& points, PointDistance distance, doubl
 }
 
 MetricSpace::MetricSpace(const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
-                         bool has_zero_diagonal) {
+                         bool has_zero_diagonal, bool has_nan_option) {
   const py::buffer_info& info = arrays_.emplace_back(distances.request());
   is_single_ = holds<float>(info);
   if (!is_single_ && !holds<double>(info))
@@ -50,6 +50,7 @@ MetricSpace::MetricSpace(const py::buffer& distances, Symmetrise symmetrise, Nan
   array.symmetrise = symmetrise;
   array.nan = nan;
   array.has_zero_diagonal = has_zero_diagonal;
+  array.has_nan_option = has_nan_option;
   size_ = array.points;
   numbers_ = array;
 }
@@ -145,10 +146,12 @@ void bind_metric_spaces(py::module_& m) {
       .def_static(
           "of_distances",
           [](const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
-             bool has_zero_diagonal) {
-            return std::make_shared<MetricSpace>(distances, symmetrise, nan, has_zero_diagonal);
+             bool has_zero_diagonal, bool has_nan_option) {
+            return std::make_shared<MetricSpace>(distances, symmetrise, nan, has_zero_diagonal,
+                                                 has_nan_option);
           },
-          py::arg("distances"), py::arg("symmetrise"), py::arg("nan"), py::arg("has_zero_diagonal"))
+          py::arg("distances"), py::arg("symmetrise"), py::arg("nan"), py::arg("has_zero_diagonal"),
+          py::arg("has_nan_option") = true)
       .def_static(
           "of_pairs",
           [](Index size, const py::buffer& i, const py::buffer& j, const py::buffer& distances) {

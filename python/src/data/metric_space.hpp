@@ -45,8 +45,9 @@ class MetricSpace {
   /// @param points float64, a point a row.
   MetricSpace(const py::buffer& points, PointDistance distance, double p);
   /// @param distances float32 or float64, a square matrix or, with one axis, its condensed form.
+  /// @param has_nan_option false: messages do not advise it.
   MetricSpace(const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
-              bool has_zero_diagonal);
+              bool has_zero_diagonal, bool has_nan_option);
   /// Pairs i < j, each once, with their distances.
   MetricSpace(Index size, const py::buffer& i, const py::buffer& j, const py::buffer& distances);
 

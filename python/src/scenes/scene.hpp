@@ -7,12 +7,13 @@
 
 #include "depth_scene.hpp"
 #include "ph/segment.hpp"
+#include "words.hpp"
 
 namespace ph::python {
 
-/// Keeps notes. @param notes outlives it.
+/// Keeps notes in the words of Python. @param notes outlives it.
 inline segment::Note note_into(std::vector<std::string>& notes) {
-  return [&notes](const std::string& text) { notes.push_back(text); };
+  return [&notes](const Message& text) { notes.push_back(text.in_words(kWords)); };
 }
 
 /// A camera, and what to tell about it.

@@ -47,8 +47,11 @@ SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOpt
     std::optional<segment::DepthSource> depth;
     if (camera)
       depth.emplace(segment::DepthSource{
-          camera->camera, camera->calibration.empty() ? "--intrinsics" : "--camera"});
-    scene.notes = segment::notes(scene.result, given, scene.cloud(), depth ? &*depth : nullptr);
+          camera->camera, camera->calibration.empty() ? Setting::intrinsics : Setting::camera});
+    const segment::Note keep = note_into(scene.notes);
+    for (const Message& note :
+         segment::notes(scene.result, given, scene.cloud(), depth ? &*depth : nullptr))
+      keep(note);
   });
   return scene;
 }

@@ -119,7 +119,9 @@ def test_files_that_are_refused(tmp_path):
         ph.read(write(tmp_path, "bad.csv", "1,2\n3\n"))
     with pytest.raises(ph.DataError, match="nan='drop'") as caught:
         ph.read(write(tmp_path, "nan.csv", "1,2\nnan,1\n"), "points")
-    assert "--" not in str(caught.value)
+    assert caught.value.remedies[0] == ("nan", "drop")
+    with pytest.raises(ph.DataError, match="symmetrise='max', 'min' or 'lower' accepts it"):
+        ph.read(write(tmp_path, "uneven.csv", "0,1\n2,0\n"), "distance")
     with pytest.raises(ph.UsageError, match="format"):
         ph.read(tmp_path / "bad.csv", "xyzzy")
     with pytest.raises(ph.UsageError, match="raw_dtype"):

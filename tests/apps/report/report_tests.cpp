@@ -133,7 +133,7 @@ TEST(MetadataText, ATitleHasNoFolders) {
 TEST(Page, HasItsMarkerOnce) {
   const std::string_view page = page_template();
   if (page.empty()) {
-    EXPECT_THROW(require_built_in("--report"), Error);
+    EXPECT_THROW(require_built_in(), Error);
     GTEST_SKIP() << "reports are not built in";
   }
   const std::size_t place = page.find(kPayloadMarker);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -88,8 +89,8 @@ TEST(ReadPoints, NamesWhatIsWrongAndWhere) {
            {"1 2 3\n4 5\n", ":2:1:", "ragged row, found 2 cells, expected 3, as in line 1"},
            {"1 2 3\n\n4 5 6 7\n", ":3:1:", "found 4 cells"},
            {"x,y\n1,\n2,\n",
-            ":2:1:", "found 1 cell, expected 2, as the header has names; --nan drop"},
-           {"x,y\n1,2\n2,\n3,4\n", ":3:1:", "expected 2, as in line 2; --nan drop"},
+            ":2:1:", "found 1 cell, expected 2, as the header has names; nan drop"},
+           {"x,y\n1,2\n2,\n3,4\n", ":3:1:", "expected 2, as in line 2; nan drop"},
            {"x 1 2\n", ":1:1:", "not a number, found \"x\""},
            {"1,2\n3 4\n", ":2:1:", "mixed separators"},
            {"1 2,3\n", ":1:3:", "mixed separators"},
@@ -123,7 +124,7 @@ TEST(ReadPoints, OptionsDecideAboutDoubtfulInput) {
   std::vector<Index> dropped;
   const Points p =
       points("x y\n1 2\nnan 3\n4 5\n", {.nan = NanPolicy::drop,
-                                        .note = [&](std::string s) { notes.push_back(s); },
+                                        .note = [&](const Message& m) { notes.push_back(m.str()); },
                                         .dropped = &dropped});
   EXPECT_EQ(p, (Points{{1, 2}, {4, 5}}));
   EXPECT_EQ(dropped, std::vector<Index>{1});
@@ -186,7 +187,7 @@ TEST(ReadDistances, NamesWhatIsWrong) {
            {"0 1 2\n1 0\n2 3 0\n", ":2:1:", "row 1 of the matrix is too short, found 2 cells"},
            {"0 1 2\n1 0 3 4\n2 3 0\n", ":2:1:", "too long"},
            {"0 1\n1 2\n", ":2:3:", "non-zero diagonal, found 2"},
-           {"1 .5\n.5 1\n", ":1:1:", "--from-correlation"},
+           {"1 .5\n.5 1\n", ":1:1:", "from_correlation"},
            {"0 1\n2 0\n", ":2:1:", "d(1,0) = 2 but d(0,1) = 1"},
            {"0 -1\n-1 0\n", ":1:3:", "negative distance"},
            {"0 -inf\n-inf 0\n", ":1:3:", "negative distance"},
@@ -309,6 +310,9 @@ TEST(ReadAny, DetectsFormats) {
     EXPECT_EQ(info.read == nullptr, info.format == Format::automatic) << info.name;
     EXPECT_EQ(format_from_name(info.name), info.format);
     EXPECT_EQ(&format_info(info.format), &info);
+    EXPECT_TRUE(std::ranges::all_of(info.description().str(), [](char c) {
+      return c < 0 || c >= ' ';
+    })) << info.name;
   }
   EXPECT_EQ(format_from_name("tsv"), std::nullopt);
 }

@@ -71,7 +71,7 @@ struct RawLayout {
 };
 
 /// How input is taken. The defaults refuse whatever is doubtful, with an error that names the
-/// option.
+/// setting.
 struct ReadOptions {
   bool allow_empty = false;                      ///< an input without data is an empty result
   Symmetrise symmetrise = Symmetrise::none;      ///< of square matrices
@@ -84,8 +84,8 @@ struct ReadOptions {
   std::optional<RawLayout> raw = {};             ///< used by read_any for Format::raw
   /// Budget and stop token of what is opened by its path; null: none. An open Input has its own.
   const RunContext* context = nullptr;
-  std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
-  std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
+  std::function<void(Message)> note = {};  ///< told what was assumed, one line each
+  std::vector<Index>* dropped = nullptr;   ///< receives the rows left out, ascending
 };
 
 // Every reader takes a path ("-" is standard input) or an open Input. All throw
@@ -261,7 +261,7 @@ struct ReadResult {
       data;
   Format format = Format::automatic;  ///< never automatic in a result
   std::string description;            ///< "1024 points in R^3, CSV"
-  std::vector<std::string> notes;     ///< what was assumed: "line 1 is a header: skipped"
+  std::vector<Message> notes;         ///< what was assumed: "line 1 is a header: skipped"
   /// For Points: row i is point point_ids[i] of the input. Empty: row i is point i, none was left
   /// out.
   std::vector<Index> point_ids;
@@ -272,11 +272,14 @@ struct ReadResult {
 /// One line of the table of formats: its name, what it is, and a line of it.
 struct FormatInfo {
   Format format;
-  std::string_view name;         ///< as in `--format`
-  std::string_view description;  ///< "one point a line: numbers separated by blanks or commas"
-  std::string_view example;      ///< "0.5 1.25 -3e-2"
+  std::string_view name;     ///< "points"
+  std::string_view marked;   ///< the description with its marks
+  std::string_view example;  ///< "0.5 1.25 -3e-2"
   /// Null if the format is not built in.
   ReadResult (*read)(const Input&, const ReadOptions&);
+
+  /// "one point a line: numbers separated by blanks or commas"
+  Message description() const { return marked; }
 };
 
 /// All formats. Adding one is a function and a line of this table.

@@ -95,7 +95,7 @@ struct BarcodeInfo {
 /// One line of the table of barcode formats.
 struct BarcodeFormatInfo {
   BarcodeFormat format;
-  std::string_view name;         ///< as in `--output-format`
+  std::string_view name;         ///< "csv"
   std::string_view description;  ///< "a header, then a bar a line"
   std::string_view example;      ///< a line of it; empty for binary formats
 };

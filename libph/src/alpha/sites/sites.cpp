@@ -10,6 +10,7 @@
 #include "alpha/sites/hilbert.hpp"
 #include "alpha/sites/power_of_two.hpp"
 #include "ph/detail/core/radix_sort.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/error.hpp"
 
 namespace ph::alpha {
@@ -41,10 +42,7 @@ double largest_magnitude(PointsView points, std::span<const double> weights) {
   double largest = 0;
   for (Index i = 0; i < points.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k) {
-      if (!std::isfinite(points(i, k)))
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("point {}, coordinate {}: found {}, expected a finite number", i, k,
-                                points(i, k)));
+      if (!std::isfinite(points(i, k))) throw not_finite(i, k, points(i, k));
       largest = std::max(largest, std::abs(points(i, k)));
     }
   for (std::size_t i = 0; i < weights.size(); ++i) {

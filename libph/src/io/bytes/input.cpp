@@ -62,10 +62,10 @@ std::size_t printable_length(std::string_view s) {
 }
 
 std::string message_of(const std::string& place, const Fault& fault) {
-  std::string message = place + ": " + fault.what;
+  std::string message = mark_place(place) + ": " + fault.what;
   if (!fault.found.empty()) message += ", found " + fault.found;
   if (!fault.expected.empty()) message += ", expected " + fault.expected;
-  if (!fault.hint.empty()) message += "; " + fault.hint;
+  if (!fault.hint.empty()) message += "; " + fault.hint.marked();
   return message;
 }
 
@@ -192,9 +192,10 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                         !standard_input);
   const auto status = file.get() < 0 ? std::nullopt : files::status_of(file.get());
   if (!status && errno != EISDIR)
-    throw Error(ErrorKind::no_input, input.name_ + ": cannot open: " + files::reason(errno));
+    throw Error(ErrorKind::no_input,
+                mark_place(input.name_) + ": cannot open: " + files::reason(errno));
   if (!status || status->kind == files::Kind::folder)
-    throw Error(ErrorKind::no_input, input.name_ + ": cannot read: it is a directory");
+    throw Error(ErrorKind::no_input, mark_place(input.name_) + ": cannot read: it is a directory");
 
   auto storage = std::make_shared<Storage>(
       context != nullptr ? static_cast<std::pmr::memory_resource*>(&context->memory)
@@ -232,9 +233,10 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       if (sized && storage->used == file_size) break;
       const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
       if (more > limit - std::min(limit, storage->capacity)) {  // both are there while it grows
-        throw Error(ErrorKind::resource,
-                    fmt::format("{}: longer than the memory limit allows: {} were read",
-                                input.name_, format_size(static_cast<double>(storage->used))));
+        throw Error(
+            ErrorKind::resource,
+            fmt::format("{}: longer than the memory limit allows: {} were read",
+                        mark_place(input.name_), format_size(static_cast<double>(storage->used))));
       }
       storage->grow_to(more);
     }
@@ -242,11 +244,13 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
         files::read_some(file.get(), storage->data + storage->used,
                          std::min(storage->capacity - storage->used, std::size_t{1} << 24));
     if (got < 0 && errno == EAGAIN) continue;
-    if (got < 0) throw Error(ErrorKind::io, input.name_ + ": cannot read: " + files::reason(errno));
+    if (got < 0)
+      throw Error(ErrorKind::io,
+                  mark_place(input.name_) + ": cannot read: " + files::reason(errno));
     if (got == 0) {
       if (!sized) break;
       throw Error(ErrorKind::io, fmt::format("{}: it shrank while it was read: {} of {} bytes",
-                                             input.name_, storage->used, file_size));
+                                             mark_place(input.name_), storage->used, file_size));
     }
     storage->used += static_cast<std::size_t>(got);
     if (!probed && storage->used >= kNulProbe) {

@@ -349,11 +349,11 @@ void Cells::after_cell(const char* end_of_cell) {
 }
 
 void Cells::reject(const char* begin, const char* stop, std::string what, std::string expected,
-                   std::string_view hint) const {
+                   const Message& hint) const {
   while (stop != end_ && !ends_cell(*stop)) ++stop;
   const std::string_view cell(begin, static_cast<std::size_t>(stop - begin));
   if (cell.empty()) {
-    std::string advice(hints_.missing);
+    std::string advice = hints_.missing.marked();
     if (stop != end_ && *stop == '\t')
       advice.insert(
           0, advice.empty() ? "write one tab between cells" : "write one tab between cells; ");
@@ -361,11 +361,10 @@ void Cells::reject(const char* begin, const char* stop, std::string what, std::s
                          std::move(expected), std::move(advice)});
   }
   const std::string why = hint_for(cell);
-  lines_->fail(begin,
-               {std::move(what), quoted(cell), std::move(expected),
-                !why.empty()                                       ? why
-                : cell == "\"\"" || detail::is_missing_value(cell) ? std::string(hints_.missing)
-                                                                   : std::string(hint)});
+  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected),
+                       !why.empty()                                       ? Message(why)
+                       : cell == "\"\"" || detail::is_missing_value(cell) ? hints_.missing
+                                                                          : hint});
 }
 
 }  // namespace ph

@@ -133,8 +133,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     }
     if (before >= most) {
       throw Error(ErrorKind::resource,
-                  fmt::format("{}: unpacks to more than the memory limit allows, {}", input.name(),
-                              format_size(static_cast<double>(most))));
+                  fmt::format("{}: unpacks to more than the memory limit allows, {}",
+                              mark_place(input.name()), format_size(static_cast<double>(most))));
     }
     const std::size_t room = std::max(std::min(bytes.capacity() - before, kStep), std::size_t{1});
     bytes.resize(before + std::min(room == 1 ? kStep : room, most - before));

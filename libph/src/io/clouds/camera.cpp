@@ -114,9 +114,9 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
   const bool same_shape = width * new_height == height * new_width;
   if (!same_shape && !crops_sides) {
     throw Error(ErrorKind::usage,
-                fmt::format("camera: found an image of {} x {} pixels, expected {} x {} as in its "
+                fmt::format("{}: found an image of {} x {} pixels, expected {} x {} as in its "
                             "calibration, or that scaled",
-                            new_width, new_height, width, height));
+                            mark_place("camera"), new_width, new_height, width, height));
   }
   Camera result = *this;
   result.width = new_width;

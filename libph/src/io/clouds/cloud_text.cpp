@@ -84,7 +84,10 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
   cloud.width = table.rows.rows();
   if (cloud.width == 0) {
     if (!options.allow_empty) {
-      input.fail({"no points", {}, "one point a line", "--allow-empty accepts an empty cloud"});
+      input.fail({"no points",
+                  {},
+                  "one point a line",
+                  mark(Setting::allow_empty) + " accepts an empty cloud"});
     }
     for (const std::string_view name : kCoordinates) {
       cloud.fields.push_back({std::string(name), FieldType::float64, 1, cloud.stride});
@@ -157,8 +160,8 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
   as_points.array = ArrayMeaning::points;
   as_points.columns.clear();
   detail::TableLayout layout = detail::table_layout(input, as_points);
-  // Programs that read clouds alone have no --columns.
-  for (std::string& text : layout.notes) text.resize(std::min(text.find("; "), text.size()));
+  // Readers of clouds take all columns.
+  for (Message& note : layout.notes) note = note.without(Setting::columns);
   detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);
   if (table.header.size() == layout.width && layout.names_rows)
     table.header.erase(table.header.begin(),

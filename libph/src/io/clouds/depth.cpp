@@ -44,9 +44,9 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   if (!(fx > 0) || !(fy > 0) || !(depth_scale > 0) ||
       !std::isfinite(fx + fy + cx + cy + depth_scale)) {
     throw Error(ErrorKind::usage,
-                fmt::format("camera: found focal lengths {} and {}, centre {} {}, depth scale {}, "
+                fmt::format("{}: found focal lengths {} and {}, centre {} {}, depth scale {}, "
                             "expected finite numbers, lengths and scale above 0",
-                            fx, fy, cx, cy, depth_scale));
+                            mark(Setting::intrinsics), fx, fy, cx, cy, depth_scale));
   }
   if (colour) colour->check();
   if (depth.extents.size() != 2) {
@@ -63,8 +63,8 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   }
   if (camera.width != 0 && (camera.width != width || camera.height != height)) {
     throw Error(ErrorKind::usage,
-                fmt::format("camera: found an image of {} x {} pixels, expected {} x {}", width,
-                            height, camera.width, camera.height));
+                fmt::format("{}: found an image of {} x {} pixels, expected {} x {}",
+                            mark(Setting::intrinsics), width, height, camera.width, camera.height));
   }
   if (colour && (colour->width != width || colour->height != height)) {
     throw Error(ErrorKind::bad_data,

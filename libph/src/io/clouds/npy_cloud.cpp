@@ -22,7 +22,8 @@ Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
     const bool turned = shape.size() == 2 && are_columns(shape.front());
     input.fail({"not an array of points", found, "(points, 3) or (rows, columns, 3)",
                 turned              ? "save its transpose"
-                : shape.size() == 2 ? "a depth image needs a camera: --camera or --intrinsics"
+                : shape.size() == 2 ? fmt::format("a depth image needs a camera: {} or {}",
+                                                  mark(Setting::camera), mark(Setting::intrinsics))
                                     : ""});
   }
   if (!detail::is_npy_of_floats(input))

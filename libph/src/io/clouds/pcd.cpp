@@ -214,7 +214,8 @@ Cloud read_pcd(const Input& input, const ReadOptions& options) {
   }
   if (header.data != PcdData::ascii) detail::to_native(header.cloud);
   if (header.points == 0 && !options.allow_empty) {
-    input.fail({"no points", {}, "at least one", "--allow-empty accepts an empty cloud"});
+    input.fail(
+        {"no points", {}, "at least one", mark(Setting::allow_empty) + " accepts an empty cloud"});
   }
   return std::move(header.cloud);
 }

@@ -260,7 +260,10 @@ Cloud read_elements(const Input& input, const ReadOptions& options, Mesh* mesh) 
   }
   body.expect_end();
   if (vertex->count == 0 && !options.allow_empty) {
-    input.fail({"no vertices", {}, "at least one", "--allow-empty accepts an empty cloud"});
+    input.fail({"no vertices",
+                {},
+                "at least one",
+                mark(Setting::allow_empty) + " accepts an empty cloud"});
   }
   return cloud;
 }

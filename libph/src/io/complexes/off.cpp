@@ -98,7 +98,8 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
     lines.fail(lines.line().data(), {"trailing data", "another line", "the end of the file", {}});
   }
   if (vertices == 0 && !options.allow_empty) {
-    input.fail({"no vertices", {}, "at least one", "--allow-empty accepts an empty mesh"});
+    input.fail(
+        {"no vertices", {}, "at least one", mark(Setting::allow_empty) + " accepts an empty mesh"});
   }
   return mesh;
 }

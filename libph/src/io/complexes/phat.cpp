@@ -108,7 +108,10 @@ BoundaryInput read_phat(const Input& input, const ReadOptions& options) {
   BoundaryInput result = detail::is_text(input.text()) ? read_text(input) : read_binary(input);
   result.name = input.name();
   if (result.matrix.size() == 0 && !options.allow_empty) {
-    input.fail({"no cells", {}, "a boundary matrix", "--allow-empty accepts an empty complex"});
+    input.fail({"no cells",
+                {},
+                "a boundary matrix",
+                mark(Setting::allow_empty) + " accepts an empty complex"});
   }
   return result;
 }

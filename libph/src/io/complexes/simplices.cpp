@@ -46,8 +46,10 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options) {
     result.lines.push_back(lines.number());
   }
   if (result.lines.empty() && !options.allow_empty) {
-    input.fail(
-        {"no simplices", {}, "lines v0 v1 … : value", "--allow-empty accepts an empty complex"});
+    input.fail({"no simplices",
+                {},
+                "lines v0 v1 … : value",
+                mark(Setting::allow_empty) + " accepts an empty complex"});
   }
   return result;
 }

@@ -66,8 +66,8 @@ std::size_t to_size(std::int64_t value) { return static_cast<std::size_t>(value)
 std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) {
   const std::size_t count = cursor.read_count("number of points", kWord);
   if (count == 0 && !options.allow_empty) {
-    cursor.input().fail_at_byte(
-        kHeader, {"no points", "0", "at least one", "--allow-empty accepts an empty set"});
+    cursor.input().fail_at_byte(kHeader, {"no points", "0", "at least one",
+                                          mark(Setting::allow_empty) + " accepts an empty set"});
   }
   return count;
 }
@@ -230,8 +230,8 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
   // A cell has its dimension, value and offset.
   const std::size_t cells = cursor.read_count("number of cells", 3 * kWord);
   if (cells == 0 && !options.allow_empty) {
-    input.fail_at_byte(kHeader + kWord,
-                       {"no cells", "0", "at least one", "--allow-empty accepts an empty complex"});
+    input.fail_at_byte(kHeader + kWord, {"no cells", "0", "at least one",
+                                         mark(Setting::allow_empty) + " accepts an empty complex"});
   }
   const std::int64_t top = read_int(cursor, 0, kMostDimension, "dimension of the complex");
   BoundaryInput result;

@@ -69,9 +69,10 @@ Image image_of(Raster raster, const Input& input, const ReadOptions& options) {
     if (!is_grey(raster)) {
       input.fail({"not a grey picture", fmt::format("{} channels, {}", channels, kKinds[channels]),
                   "1",
-                  channels == 2 ? "--channel grey or alpha takes one"
-                                : fmt::format("--channel grey, red, green{} takes one",
-                                              channels == 4 ? ", blue or alpha" : " or blue")});
+                  mark(Setting::channel, channels == 2   ? "grey|alpha"
+                                         : channels == 4 ? "grey|red|green|blue|alpha"
+                                                         : "grey|red|green|blue") +
+                      " takes one"});
     }
     place = 0;
     note(options, fmt::format("{} channels, {}, that say no more than grey: read as grey", channels,

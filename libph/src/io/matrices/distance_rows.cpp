@@ -11,13 +11,16 @@ namespace ph::detail {
 
 DistanceMatrix no_points(const Input& input, const ReadOptions& options) {
   if (!options.allow_empty) {
-    input.fail({"no points", {}, "a distance matrix", "--allow-empty accepts an empty set"});
+    input.fail({"no points",
+                {},
+                "a distance matrix",
+                mark(Setting::allow_empty) + " accepts an empty set"});
   }
   return DistanceMatrix(0, {});
 }
 
 std::string why_square(const ReadOptions& options) {
-  const std::string_view option = matrix_option(options);
+  const std::string option = matrix_option(options);
   const std::string question = "is the file truncated, or a set of points?";
   return option.empty() ? question : fmt::format("{} takes a square matrix: {}", option, question);
 }

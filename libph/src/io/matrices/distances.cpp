@@ -89,7 +89,8 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     }
     for (; entries.more(); ++cell) entries.skip();
     if (cell + 1 == layout.width && detail::ends_empty(lines.line()))
-      detail::fail_row(lines, row, cell, layout.width, "--nan drop accepts an empty last cell");
+      detail::fail_row(lines, row, cell, layout.width,
+                       mark(Setting::nan, "drop") + " accepts an empty last cell");
     if (cell != layout.width) detail::fail_row(lines, row, cell, layout.width);
     ++row;
   } while (lines.next());
@@ -108,7 +109,7 @@ namespace detail {
 DistanceMatrix square_to_distances(const Image& array, const Input& input,
                                    const ReadOptions& options) {
   if (array.dim() != 2 || array.extents[0] != array.extents[1]) {
-    const std::string_view option = matrix_option(options);
+    const std::string option = matrix_option(options);
     input.fail({"not a square matrix",
                 fmt::format("shape ({})", fmt::join(array.extents, ", ")),
                 option.empty() ? "as many columns as rows"

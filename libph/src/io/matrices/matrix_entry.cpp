@@ -13,7 +13,9 @@
 namespace ph::detail {
 namespace {
 
-constexpr const char* kCorrelations = "--from-correlation reads a correlation matrix";
+std::string read_correlations() {
+  return mark(Setting::from_correlation) + " reads a correlation matrix";
+}
 
 }  // namespace
 
@@ -32,7 +34,8 @@ double MatrixEntries::rounding() const {
 Fault MatrixEntries::fault_of(double raw, bool on_diagonal) const {
   if (std::isnan(raw)) {
     if (options_.nan == NanPolicy::error)
-      return {"not a distance", "NaN", "0 or more", "--nan drop never joins such a pair"};
+      return {"not a distance", "NaN", "0 or more",
+              mark(Setting::nan, "drop") + " never joins such a pair"};
   } else if (options_.from_correlation) {
     if (on_diagonal && !(std::abs(raw - 1) <= kRounding))
       return {"diagonal of a correlation matrix", fmt::format("{}", raw), "1", {}};
@@ -75,17 +78,18 @@ Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
       rounding() > 0 ? fmt::format(", or rounding: at most {:.2g}", rounding()) : "";
   if (kind == kNegative)
     return {"negative distance", fmt::format("{}", doubt.value), "0 or more",
-            doubt.value >= -1 ? kCorrelations : ""};
+            doubt.value >= -1 ? read_correlations() : ""};
   if (kind == kAsymmetric)
     return {"asymmetric matrix",
             fmt::format("d({},{}) = {} but d({},{}) = {}", i, j, doubt.value, j, i, doubt.other),
-            "both equal", "--symmetrise max, min or lower accepts it"};
+            "both equal", mark(Setting::symmetrise, "max|min|lower") + " accepts it"};
+  const std::string zero = mark(Setting::diagonal, "zero");
   const bool is_one = std::abs(doubt.value - 1) <= kRounding;
   return {"non-zero diagonal", fmt::format("{}", doubt.value), "0" + slack,
-          is_one            ? kCorrelations
-          : doubt.value > 0 ? "--diagonal zero takes it for 0, --diagonal births for the births of "
-                              "the points"
-                            : "--diagonal zero takes it for 0"};
+          is_one            ? read_correlations()
+          : doubt.value > 0 ? fmt::format("{} takes it for 0, {} for the births of the points",
+                                          zero, mark(Setting::diagonal, "births"))
+                            : zero + " takes it for 0"};
 }
 
 void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const {
@@ -103,8 +107,8 @@ void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fau
   tell(kNegative, "distances are 0 or more but");
   const Doubt& diagonal = worst_[kDiagonal];
   if (diagonal.size > rounding())
-    note(options_, fmt::format("--diagonal zero: the diagonal has entries up to {:.2g}, taken as 0",
-                               diagonal.size));
+    note(options_, fmt::format("{}: the diagonal has entries up to {:.2g}, taken as 0",
+                               mark(Setting::diagonal, "zero"), diagonal.size));
   else
     tell(kDiagonal, "the diagonal is 0 but");
 }

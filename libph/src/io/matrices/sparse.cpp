@@ -101,7 +101,10 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     detail::fail_in_text(input, place.byte, fault);
   });
   if (size == 0 && !options.allow_empty) {
-    input.fail({"no points", {}, "lines of i j distance", "--allow-empty accepts an empty set"});
+    input.fail({"no points",
+                {},
+                "lines of i j distance",
+                mark(Setting::allow_empty) + " accepts an empty set"});
   }
   const auto fail = [&](std::size_t line, const Fault& fault) { input.fail_at(line, 1, fault); };
   const Index most = std::max(kFreePoints, kMostPointsPerPair * static_cast<Index>(found.size()));

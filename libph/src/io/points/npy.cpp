@@ -245,7 +245,7 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
       if (options.nan == NanPolicy::error) {
         const auto at = static_cast<std::size_t>(std::ranges::find_if(all, is_nan) - all.begin());
         input.fail({fmt::format("value at [{}]", place_of(at, image.extents)), "NaN", "a number",
-                    "--nan drop masks such voxels"});
+                    mark(Setting::nan, "drop") + " masks such voxels"});
       }
     }
   });
@@ -253,7 +253,7 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
   if (image.masked) note(options, fmt::format("{} voxels are NaN: masked", masked));
   if (image.values.empty() && !options.allow_empty) {
     input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
-                "at least one", "--allow-empty accepts an empty image"});
+                "at least one", mark(Setting::allow_empty) + " accepts an empty image"});
   }
   return image;
 }

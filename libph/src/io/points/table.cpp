@@ -148,7 +148,8 @@ std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   rest.names_rows = true;
   const bool is_square = shape_of(input, rest).rows == rest.columns.size();
   return is_square ? ""
-                   : fmt::format("; --columns 1-{} takes {}, too", layout.width,
+                   : fmt::format("; {} takes {}, too",
+                                 mark(Setting::columns, fmt::format("1-{}", layout.width)),
                                  layout.unnamed() > 1 ? "them" : "it");
 }
 
@@ -250,9 +251,9 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
     return true;
   }
   if (is_index)
-    layout.notes.push_back(
-        fmt::format("the first column{} is taken as numbers; --columns 2-{} leaves it out", name,
-                    layout.width));
+    layout.notes.push_back(fmt::format("the first column{} is taken as numbers; {} leaves it out",
+                                       name,
+                                       mark(Setting::columns, fmt::format("2-{}", layout.width))));
   return false;
 }
 
@@ -281,7 +282,7 @@ bool TableLayout::start(TextLines& lines) const {
 }
 
 void TableLayout::tell(const ReadOptions& options) const {
-  for (const std::string& text : notes) note(options, text);
+  for (const Message& text : notes) note(options, text);
 }
 
 TableLayout table_layout(const Input& input, const ReadOptions& options) {

@@ -16,7 +16,7 @@ struct TableLayout {
   std::size_t width = 0;                  ///< cells of the first row; 0: there is none
   std::vector<std::size_t> columns = {};  ///< those that hold numbers to be read, ascending
   bool names_rows = false;                ///< columns before them are an index of the rows
-  std::vector<std::string> notes = {};    ///< what was assumed
+  std::vector<Message> notes = {};        ///< what was assumed
   char separator = ' ';                   ///< of the first row: ',', ';', a tab, or blanks
   bool keeps_tabs = false;                ///< each tab separates two cells
 
@@ -103,7 +103,7 @@ TableShape shape_of(const Input& input, const TableLayout& layout);
 /// Why an array is taken for what it is taken for: for a note.
 struct ArrayGuess {
   ArrayMeaning meaning = ArrayMeaning::image;
-  std::string note;  ///< empty: there was no choice
+  Message note;  ///< empty: there was no choice
 };
 /// What an NPY array holds, where options.array leaves it open.
 /// @throws Error (bad_data) on what looks like correlations: no meaning is safe.
@@ -131,7 +131,9 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 /// @throws Error (usage) if options.columns were given for what has none to choose.
 void refuse_columns(const ReadOptions& options, std::string_view found);
 
-/// The option of these that asks for a square matrix: "--from-correlation"; empty: none.
-std::string_view matrix_option(const ReadOptions& options);
+/// What of the options asks for a square matrix, for a message; empty: nothing.
+std::string matrix_option(const ReadOptions& options);
+/// The settings with which a square matrix is read as distances, for a message.
+std::string way_to_distances(bool has_zero_diagonal);
 
 }  // namespace ph::detail

@@ -82,11 +82,12 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
       if (names.size() == kShownNames) break;
       if (!name.empty()) names.push_back(printable(name, 40));
     }
-    throw Error(ErrorKind::usage,
-                fmt::format("--columns: found '{}'{}, expected columns of {}: {}{}{} from 1 to {}",
-                            printable(word, 40), why, input.name(), fmt::join(names, ", "),
-                            header.size() > names.size() ? ", ..." : "",
-                            names.empty() ? "numbers" : ", or numbers", width));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: found '{}'{}, expected columns of {}: {}{}{} from 1 to {}",
+                    mark(Setting::columns), printable(word, 40), why, mark_place(input.name()),
+                    fmt::join(names, ", "), header.size() > names.size() ? ", ..." : "",
+                    names.empty() ? "numbers" : ", or numbers", width));
   };
   const auto number = [&](std::string_view text) -> std::size_t {  // 0: none
     std::size_t value = 0;
@@ -147,9 +148,10 @@ std::optional<double> number_in(std::string_view cell) {
 }
 
 CellHints cell_hints(const ReadOptions& options) {
-  return {"names or an index? --columns takes some columns only",
+  const std::string some = mark(Setting::columns) + " takes some columns only";
+  return {"names or an index? " + some,
           options.nan == NanPolicy::error
-              ? "--nan drop accepts missing values; --columns takes some columns only"
+              ? mark(Setting::nan, "drop") + " accepts missing values; " + some
               : ""};
 }
 
@@ -167,16 +169,16 @@ bool ends_empty(std::string_view line) {
 void refuse_columns(const ReadOptions& options, std::string_view found) {
   if (!options.columns.empty())
     throw Error(ErrorKind::usage,
-                fmt::format("--columns: makes sense for points and matrices as text only, found {}",
-                            found));
+                fmt::format("{}: makes sense for points and matrices as text only, found {}",
+                            mark(Setting::columns), found));
 }
 
-std::string_view matrix_option(const ReadOptions& options) {
-  if (options.from_correlation) return "--from-correlation";
-  if (options.diagonal == Diagonal::births) return "--diagonal births";
-  if (options.symmetrise != Symmetrise::none) return "--symmetrise";
+std::string matrix_option(const ReadOptions& options) {
+  if (options.from_correlation) return mark(Setting::from_correlation);
+  if (options.diagonal == Diagonal::births) return mark(Setting::diagonal, "births");
+  if (options.symmetrise != Symmetrise::none) return mark(Setting::symmetrise);
   if (options.array != ArrayMeaning::distances) return "";
-  return options.diagonal == Diagonal::zero ? "distances" : "--diagonal";
+  return options.diagonal == Diagonal::zero ? "distances" : mark(Setting::diagonal);
 }
 
 }  // namespace ph::detail

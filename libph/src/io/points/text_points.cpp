@@ -61,10 +61,10 @@ void tell_of_counts(const Input& input, const detail::TableLayout& layout, Point
   if (may_be_index && rows.rows() >= kFewest && rows.cols() > 1 && counts_rows(rows, 0)) {
     detail::note(
         options,
-        fmt::format("the first column{} counts the rows and is read as {}; --columns 2-{} leaves "
-                    "it out",
+        fmt::format("the first column{} counts the rows and is read as {}; {} leaves it out",
                     has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
-                    is_image ? "values" : "a coordinate", rows.cols()));
+                    is_image ? "values" : "a coordinate",
+                    mark(Setting::columns, fmt::format("2-{}", rows.cols()))));
   }
   if (layout.header.empty() && may_be_header(rows) && begins_with_digits(input))
     detail::note(options, fmt::format("the first row {} and is read as {}; take it out if it is a "
@@ -181,9 +181,11 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
            : table.header.empty()       ? fmt::format("{}, as in the next line", width)
                                         : fmt::format("{}, as the header has names", width),
            k < width && lines.offset() == input.size()
-               ? is_last_missing ? "is the file truncated? else --nan drop accepts the empty cell"
+               ? is_last_missing ? fmt::format("is the file truncated? else {} accepts the empty "
+                                               "cell",
+                                               mark(Setting::nan, "drop"))
                                  : "is the file truncated?"
-           : is_last_missing                      ? "--nan drop accepts an empty last cell"
+           : is_last_missing ? mark(Setting::nan, "drop") + " accepts an empty last cell"
            : options.array == ArrayMeaning::image ? "an image has rows of one length"
                                                   : ""});
     }
@@ -217,7 +219,7 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
       hole = true;
       if (!holes && options.nan == NanPolicy::error) {
         input.fail({fmt::format("coordinate {} of point {}", k, i), "NaN", "a finite number",
-                    "--nan drop leaves such points out"});
+                    mark(Setting::nan, "drop") + " leaves such points out"});
       }
     }
     if (hole) {
@@ -275,7 +277,10 @@ Points read_points(const Input& input, const ReadOptions& options) {
       points = detail::without_nan_rows(std::move(points), input, options, false);
   }
   if (points.rows() == 0 && !options.allow_empty) {
-    input.fail({"no points", {}, "one point a line", "--allow-empty accepts an empty set"});
+    input.fail({"no points",
+                {},
+                "one point a line",
+                mark(Setting::allow_empty) + " accepts an empty set"});
   }
   return points;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"
 
@@ -87,10 +88,7 @@ void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
     ticker.tick();
     const double* const x = rows(i);
     for (std::size_t k = 0; k < d; ++k) {
-      if (!std::isfinite(x[k]))
-        throw Error(
-            ErrorKind::bad_data,
-            fmt::format("point {}, coordinate {}: found {}, expected a finite number", i, k, x[k]));
+      if (!std::isfinite(x[k])) throw not_finite(i, static_cast<Index>(k), x[k]);
       box_[2 * k] = std::min(box_[2 * k], x[k]);
       box_[2 * k + 1] = std::max(box_[2 * k + 1], x[k]);
       fingerprint_ = mixed(fingerprint_, x[k]);

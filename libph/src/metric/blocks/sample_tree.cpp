@@ -11,6 +11,7 @@
 
 #include "core/random.hpp"
 #include "metric/blocks/cell_boxes.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"
 
@@ -78,10 +79,7 @@ void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& c
     for (Index k = 0; k < axes; ++k) {
       const Index number = drawn[static_cast<std::size_t>(i)];
       all(i, k) = points(number, k);
-      if (!std::isfinite(all(i, k)))
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("point {}, coordinate {}: found {}, expected a finite number",
-                                number, k, all(i, k)));
+      if (!std::isfinite(all(i, k))) throw not_finite(number, k, all(i, k));
     }
   context.poll();
   std::vector<std::uint32_t> order(drawn.size());

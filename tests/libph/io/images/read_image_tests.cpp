@@ -86,8 +86,8 @@ TEST(ReadPerseus, ListsOfCubes) {
 TEST(ReadPerseus, MinusOneIsMissingWherePerseusWouldReadIt) {
   const auto values = [](const std::string& text, std::string* note = nullptr) {
     ReadOptions options;
-    options.note = [&](std::string said) {
-      if (note != nullptr) *note = std::move(said);
+    options.note = [&](const Message& said) {
+      if (note != nullptr) *note = said.str();
     };
     return marked(read_perseus(Input::view(text, "a"), options).image.values);
   };
@@ -164,7 +164,7 @@ TEST(ReadNpz, StoredAndDeflated) {
     const ReadResult result = read_any(Input::view(bytes, "a.npz"));
     EXPECT_EQ(result.format, Format::npz);
     EXPECT_EQ(std::get<Image>(result.data).values, (std::vector<double>{1, 2, 3}));
-    EXPECT_EQ(result.notes, std::vector<std::string>{"read as a.npz:arr_0"});
+    EXPECT_EQ(result.notes, std::vector<Message>{"read as a.npz:arr_0"});
     EXPECT_EQ(read_image(Input::view(bytes, "a")).values.size(), 3U);
     check_prefixes(
         bytes, "a.npz", [](const Input& in) { read_any(in); }, never());

@@ -35,7 +35,7 @@ struct Fault {
   std::string what;      ///< "ragged row"
   std::string found;     ///< "2 cells"
   std::string expected;  ///< "3 cells, as in line 1"
-  std::string hint;      ///< what the user can do
+  Message hint;          ///< what the user can do
 };
 
 /// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
@@ -177,8 +177,8 @@ enum class Allow {
 
 /// What the user can do about a cell that is no number and does not say itself why.
 struct CellHints {
-  std::string_view word = {};     ///< where there is something else
-  std::string_view missing = {};  ///< where there is nothing, or NaN
+  Message word = {};     ///< where there is something else
+  Message missing = {};  ///< where there is nothing, or NaN
 };
 
 /// Splits the current line into cells. The first separator of the first line with two cells
@@ -191,7 +191,7 @@ class Cells {
   /// @param separator of the cells that are skipped: they may hold blanks, unless it is one.
   explicit Cells(const TextLines& lines, CellHints hints = {}, char separator = ' ')
       : lines_(&lines),
-        hints_(hints),
+        hints_(std::move(hints)),
         tab_(lines.keeps_tabs() ? ' ' : '\t'),
         skipped_to_(separator) {}
 
@@ -227,7 +227,7 @@ class Cells {
   bool is_empty_cell(const char* begin, const char* stop) const;
   void after_cell(const char* end_of_cell);
   [[noreturn]] void reject(const char* begin, const char* stop, std::string what,
-                           std::string expected, std::string_view hint = {}) const;
+                           std::string expected, const Message& hint = {}) const;
 
   const TextLines* lines_;
   CellHints hints_;

@@ -8,6 +8,10 @@
 
 namespace ph {
 
+/// What is thrown for a coordinate that is infinite or NaN: its place and what was found are
+/// marked.
+Error not_finite(Index point, Index coordinate, double found);
+
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
 /// +infinity means that two points are never joined. The triangle inequality is not required.
 /// Several threads may ask at once. Points are no metric: they need a distance.
