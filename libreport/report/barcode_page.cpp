@@ -44,8 +44,8 @@ ComplexArrays complex_of(const BarcodePage& page, const RunContext& context) {
   const PointsView& points = *page.points;
   if (page.is_euclidean && points.cols() <= kMostColumns && points.rows() <= kMostExactPoints)
     return {};
-  return complex_arrays(*page.complex, page.form, static_cast<std::size_t>(points.rows()), page.point_ids,
-                        context);
+  return complex_arrays(*page.complex, page.form, static_cast<std::size_t>(points.rows()),
+                        page.point_ids, context);
 }
 
 CloudMeta cloud_meta(const BarcodePage& page) {

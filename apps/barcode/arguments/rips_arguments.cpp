@@ -64,10 +64,11 @@ void add_rips_options(CLI::App& app, Arguments& a) {
            "when each point enters, one number a point, in units of the distance (default: all at "
            "0)",
            a.vertex_weights);
-  add_value(app, "--dtm", "K",
-            "DTM filtration: points enter at twice their distance to the measure of their K "
-            "nearest points, themselves included",
-            [&a](const std::string& text) { a.rips.dtm_neighbours = parse_integer("--dtm", text, 1); });
+  add_value(
+      app, "--dtm", "K",
+      "DTM filtration: points enter at twice their distance to the measure of their K "
+      "nearest points, themselves included",
+      [&a](const std::string& text) { a.rips.dtm_neighbours = parse_integer("--dtm", text, 1); });
   add_choice(app, "--weight-exponent", {"1", "2", "inf"},
              "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
              "with --dtm 1)",

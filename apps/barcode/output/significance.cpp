@@ -25,7 +25,8 @@ void require_significance(BarcodeFormat format, const Arguments& arguments) {
   if (arguments.complex == ComplexKind::delaunay_rips)
     reject(
         "--complex delaunay-rips, expected rips, alpha or delaunay-cech, for which the law holds");
-  if (arguments.rips.dtm_neighbours || !arguments.vertex_weights.empty() || !arguments.weights.empty())
+  if (arguments.rips.dtm_neighbours || !arguments.vertex_weights.empty() ||
+      !arguments.weights.empty())
     reject(
         "vertices with weights, expected ones that are there from 0 on: ratios of death and "
         "birth are compared");

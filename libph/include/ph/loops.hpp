@@ -29,7 +29,8 @@ namespace ph {
 ///
 /// @param cycles the bars of that complex with Representatives::cycles (or ::voxels: bars with a
 ///        cycle get loops). @param options with which they were computed, or RunPlan::options,
-///        which plans nothing anew and leaves less to search. @param tighten whether loops are tightened.
+///        which plans nothing anew and leaves less to search. @param tighten whether loops are
+///        tightened.
 /// @return by bar; nothing for bars of other dimensions, without a chain, or whose cells are rows
 ///         of a boundary matrix.
 /// @throws Error (usage) if the bars have no cycles; Error (resource, cancelled).

@@ -80,8 +80,8 @@ std::vector<LinkageRow> linkage(const MergeTree& tree);
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
 /// Of a Rips filtration a spanning forest is made, not all edges.
-/// @throws Error (usage) on a Rips that has not all points as vertices (some were chosen, equal ones
-///         were to be merged, or births lie beyond the threshold); on an Alpha of a periodic
+/// @throws Error (usage) on a Rips that has not all points as vertices (some were chosen, equal
+///         points were to be merged, or births lie beyond the threshold); on an Alpha of a periodic
 ///         space.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());

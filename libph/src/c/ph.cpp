@@ -281,12 +281,12 @@ ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns, int6
 
 ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows, int64_t columns,
                                size_t count, const ph_options* options, ph_barcode** out) {
-  return barcodes_of(
-      options, count, out, [&](std::size_t i, const ph_options& o, const RunContext& context) {
-        require(clouds != nullptr && rows != nullptr, "clouds or rows: found NULL");
-        return Rips::borrowed(points_of(clouds[i], rows[i], columns, columns, 1), rips_options(o),
-                              context);
-      });
+  return barcodes_of(options, count, out,
+                     [&](std::size_t i, const ph_options& o, const RunContext& context) {
+                       require(clouds != nullptr && rows != nullptr, "clouds or rows: found NULL");
+                       return Rips::borrowed(points_of(clouds[i], rows[i], columns, columns, 1),
+                                             rips_options(o), context);
+                     });
 }
 
 ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,

@@ -25,8 +25,7 @@ void check(const WeightedEdge& e, Index size) {
 
 }  // namespace
 
-SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges)
-    : size_(size) {
+SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges) : size_(size) {
   if (size < 0)
     throw Error(ErrorKind::bad_data,
                 fmt::format("sparse distances: found {} points, expected 0 or more", size));

@@ -24,7 +24,8 @@ struct ComplexArrays {
 /// Of a Rips complex its first edges (the page finds triangles by them), unless only a forest is
 /// held; of a mesh with values or an alpha complex its first edges and all triangles, of more than
 /// 2 000 000 the first.
-/// @param form of a Rips filtration. @param count of points. @param ids their numbers in the input; empty: all are there.
+/// @param form of a Rips filtration. @param count of points. @param ids their numbers in the input;
+/// empty: all are there.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> form,
                              std::size_t count, std::span<const Index> ids,
