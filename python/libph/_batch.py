@@ -10,7 +10,7 @@ from typing import Any
 from . import _core, _options, _run
 from ._barcodes import Barcode
 from ._compute import alpha, boundary, cubical, filtered, lower_star, rips
-from ._errors import Cancelled, Error, UsageError
+from ._errors import Cancelled, Error, UsageError, reworded
 from ._requests import (Request, alpha_request, boundary_request, cubical_request, filtered_request,
                         lower_star_request, rips_request)
 

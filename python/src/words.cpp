@@ -40,6 +40,8 @@ Keyword keyword_of(Setting setting, std::string_view value) {
       return {"array", value == "cubical" ? "image" : std::string(value)};
     case Setting::diagonal:
       return {"diagonal", value == "zero" ? "any" : std::string(value)};
+    case Setting::cut:  // of Segmentation.cut
+      return named("value");
     case Setting::infinite:
       return named("infinity");
     case Setting::raw_type:
