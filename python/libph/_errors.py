@@ -67,7 +67,7 @@ _AnyError = TypeVar("_AnyError", bound=Error)
 
 
 def reworded(error: _AnyError, message: str, *remedies: tuple[str, str]) -> _AnyError:
-    """An error of the same class with another message, and with these remedies, too."""
+    """An error of the same class with another message and these additional remedies."""
     other = type(error)(message)
     other.remedies = error.remedies + remedies
     return other

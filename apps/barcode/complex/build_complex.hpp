@@ -25,7 +25,8 @@ struct BuiltComplex {
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
-  /// The same image listed cube by cube, for the oracle of --check; null: the complex itself is.
+  /// The same image listed cube by cube, which the oracle of --check takes; null: it takes the
+  /// complex itself.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
 

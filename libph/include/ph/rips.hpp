@@ -128,7 +128,7 @@ class Rips {
   /// no subsample. Chooses them if need be. @throws Error (resource, cancelled).
   std::optional<double> covering_radius(const RunContext& context = default_context()) const;
 
-  /// Whether a form can be made of the input, or is the graph that was given.
+  /// True if a form can be made of the input, was made, or is the graph that was given.
   bool has_form(RipsForm form) const;
   /// The graph of a form, made if need be; lives as long as a copy of the filtration does. `edges`
   /// evaluates O(n^2) distances, or the distances within reach for Euclidean points with a
@@ -146,7 +146,7 @@ class Rips {
   /// Gives the input back: only what was made is left, of this and of all copies. No other thread
   /// uses one of them at the time.
   void forget_input();
-  /// Whether nobody else holds the input.
+  /// True if nobody else holds the filtration or its input.
   bool is_only_copy() const;
 
  private:
