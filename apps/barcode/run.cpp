@@ -213,10 +213,6 @@ class Run {
                                    plan.options.collapse == Collapse::on ? "on" : "off",
                                    plan.collapse_reason));
     explain_slabs(loaded.built, plan, arguments_, session_);
-    // A bar that the threshold cuts is infinite, however short it would have
-    // been.
-    if (loaded.built.cut)
-      plan.options.min_persistence = std::min(plan.options.min_persistence, 0.0);
     return plan;
   }
 
@@ -236,15 +232,8 @@ class Run {
     loaded.claim.reset();
   }
 
-  Barcode bars_of(const AnyComplex& complex, const RunPlan& plan, const Loaded& loaded) const {
-    Barcode bars = ph::run(complex, plan, context());
-    if (loaded.built.cut)
-      bars = cut_at(bars, complex, *loaded.built.cut, arguments_.options.min_persistence);
-    return bars;
-  }
-
   Result compute(const Loaded& loaded, const RunPlan& plan) {
-    Result result{bars_of(loaded.built.complex, plan, loaded), {}, {}};
+    Result result{ph::run(loaded.built.complex, plan, context()), {}, {}};
     watch_.lap("persistence");
     if (writes_loops(job_, arguments_)) {
       const bool is_tight = arguments_.loops.value_or(LoopChoice::tight) == LoopChoice::tight;
@@ -270,7 +259,7 @@ class Run {
     if (plan.form) plan.form = RipsForm::edges;
     const auto& by_definition = loaded.built.by_definition;
     const AnyComplex complex = by_definition ? by_definition(context()) : loaded.built.complex;
-    const std::string difference = first_difference(result.bars, bars_of(complex, plan, loaded));
+    const std::string difference = first_difference(result.bars, ph::run(complex, plan, context()));
     watch_.lap("check");
     if (difference.empty()) {
       session_.explain("check: the reference engine agrees");

@@ -35,7 +35,7 @@ std::optional<MergeTree> tree_of(const Cubical& cubical, const RunContext& conte
 }
 
 std::optional<MergeTree> tree_of(const ExplicitComplex& complex, const RunContext& context) {
-  if (!complex.edges_join_vertices()) return std::nullopt;
+  if (!complex.edges_join_vertices() || complex.threshold()) return std::nullopt;
   return merge_tree(complex, context);
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What is computed of a recipe: its barcode, an estimate, the collapsed edges.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bindings.hpp"
+#include "core/format_size.hpp"
 #include "data/arrays.hpp"
 #include "facade/adjust.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
@@ -13,19 +16,16 @@
 #include "ph/loops.hpp"
 #include "recipes.hpp"
 #include "run.hpp"
+#include "words.hpp"
 
 namespace ph::python {
 namespace {
 
 Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) {
   Built built = recipe.build(context);
-  RunPlan planned = plan(built.complex, task.options, context);
-  // A bar that the threshold cuts is infinite, however short it would have been.
-  if (built.cut) planned.options.min_persistence = std::min(planned.options.min_persistence, 0.0);
+  const RunPlan planned = plan(built.complex, task.options, context);
 
   Bars bars{run(built.complex, planned, context)};
-  if (built.cut)
-    bars.barcode = cut_at(bars.barcode, built.complex, *built.cut, task.options.min_persistence);
   if (task.loops != LoopChoice::none)
     bars.loops = loops(built.complex, bars.barcode, planned.options,
                        task.loops == LoopChoice::tight, context);
@@ -69,6 +69,28 @@ Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& o
     const Built built = recipe.build(context);
     return estimate(built.complex, task.options, context);
   });
+}
+
+/// One way to make a computation fit its memory: keywords to change together, and a text that names
+/// them with the memory that the computation then takes.
+using WayOut = std::pair<std::vector<std::pair<std::string, std::string>>, std::string>;
+
+std::vector<WayOut> ways_to_fit(const Recipe& recipe, const Task& task, const RunOptions& options) {
+  const std::vector<Fit> fits = run(options, false, [&](const RunContext& context) {
+    return what_fits(recipe.build(context).complex, task.options, context);
+  });
+  std::vector<WayOut> ways;
+  for (const Fit& fit : fits) {
+    WayOut& way = ways.emplace_back();
+    for (const auto& [setting, value] : fit.changes) {
+      const Keyword keyword = keyword_of(setting, value);
+      way.first.emplace_back(keyword.name, keyword.value);
+      way.second += (way.second.empty() ? "" : ", ") + kWords.setting(setting, value);
+    }
+    way.second +=
+        fmt::format(" ({} to {})", format_size(fit.bytes_low), format_size(fit.bytes_high));
+  }
+  return ways;
 }
 
 /// The edges that are left: larger end, smaller end, value.
@@ -149,6 +171,7 @@ void bind_computations(py::module_& m) {
   m.def("barcode", &barcode, py::arg("recipe"), py::arg("task"), py::arg("run"));
   m.def("barcodes", &barcodes, py::arg("recipes"), py::arg("tasks"), py::arg("run"));
   m.def("estimate", &estimate_of, py::arg("recipe"), py::arg("task"), py::arg("run"));
+  m.def("ways_to_fit", &ways_to_fit, py::arg("recipe"), py::arg("task"), py::arg("run"));
   m.def("collapsed_edges", &collapsed_edges, py::arg("recipe"), py::arg("run"));
 }
 

@@ -121,7 +121,9 @@ bool CubicalRecipe::is_short(const Options& task) const {
 Built ListedRecipe::build(const RunContext& context) const {
   Facts facts;
   facts.threshold = threshold_;
-  return {list_(context), std::move(facts), threshold_};
+  ExplicitComplex complex = list_(context);
+  if (threshold_) complex.set_threshold(*threshold_);
+  return {std::move(complex), std::move(facts)};
 }
 
 bool ListedRecipe::is_short(const Options& task) const {

@@ -28,8 +28,6 @@ struct Task {
 struct Built {
   AnyComplex complex;
   Facts facts = {};
-  /// A threshold that has to be applied to the bars, because the complex holds larger values too.
-  std::optional<double> cut = std::nullopt;
 };
 
 /// What a complex is built of, and how. It is built within a run, which can be stopped.

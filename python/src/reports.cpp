@@ -85,7 +85,7 @@ py::bytes page_of_bars(const Bars& bars, const Recipe* recipe, const Task& task,
     page.point_ids = recipe->vertex_ids();
     page.is_euclidean = recipe->is_euclidean();
     std::optional<report::ShownTree> shown;
-    auto tree = built.cut ? std::nullopt : report::whole_tree(built.complex, context);
+    auto tree = report::whole_tree(built.complex, context);
     if (tree) {
       shown = report::shown_tree(std::move(*tree), bars.barcode, built.complex, context);
       require_bars(*shown, bars.barcode);

@@ -48,8 +48,7 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
     const Alpha alpha(points, options, context);
     // A triangulation is many blocks, each too small to go back to the system by itself.
     app::give_back_freed_memory();
-    BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0,
-                       std::nullopt};
+    BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";
     auto& values = built.alpha.emplace();
     values.squared = options.unit == AlphaOptions::Unit::squared;

@@ -149,7 +149,7 @@ class Builder {
   BuiltComplex cubical(const Image& image) const {
     const CubicalOptions options = cubical_options(arguments_, image, periodic_);
     BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
-                       image.values.empty(), std::nullopt};
+                       image.values.empty()};
     built.cubical = options;
     if (arguments_.check)
       built.by_definition = [image, options](const RunContext& context) {
@@ -181,11 +181,7 @@ class Builder {
                   fmt::format("--engine: found {}, which needs points", wanted.engine.name()));
     options.births = values_by_point(arguments_.vertex_weights, size, 0, "a finite number >= 0");
     return in_name_of(name_, [&] {
-      BuiltComplex built{rips_of(data, std::move(options)),
-                         "rips",
-                         std::nullopt,
-                         empty,
-                         std::nullopt,
+      BuiltComplex built{rips_of(data, std::move(options)), "rips", std::nullopt, empty,
                          weights_text()};
       built.metric = std::same_as<Data, Points>
                          ? metric_name(arguments_.rips.distance, arguments_.rips.minkowski_p)
@@ -243,7 +239,8 @@ class Builder {
 
   BuiltComplex stored(ExplicitComplex complex, std::string name) const {
     const bool empty = complex.size() == 0;
-    return {std::move(complex), std::move(name), arguments_.threshold, empty, arguments_.threshold};
+    if (arguments_.threshold) complex.set_threshold(*arguments_.threshold);
+    return {std::move(complex), std::move(name), arguments_.threshold, empty};
   }
 
   /// Values of the vertices for the lower star of listed simplices: from --values, or from the
@@ -335,7 +332,7 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
 }
 
 std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context) {
-  if (built.cut || built.empty) return std::nullopt;
+  if (built.empty) return std::nullopt;
   return report::whole_tree(built.complex, context);
 }
 

@@ -16,8 +16,6 @@ struct BuiltComplex {
   std::string name;                 ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   std::optional<double> threshold;  ///< that its values obey; nothing: all are there
   bool empty = false;               ///< there are no points or cells at all
-  /// A threshold that has to be applied to the bars, because the complex holds larger values too.
-  std::optional<double> cut;
   // As in BarcodeInfo.
   std::string vertex_weights = {};
   std::string metric = {};

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,6 +69,14 @@ class ExplicitComplex {
   static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {},
                                        const RunContext& context = default_context());
 
+  /// The largest value that bars and merge trees take into account, inclusive: `persistence`, `run`
+  /// and `merge_tree` answer for the subcomplex of all cells up to it. All cells stay listed, so the
+  /// choice of an engine and the cells of the bars are the same whatever the threshold.
+  /// @throws Error (usage) on a NaN.
+  void set_threshold(double largest);
+  /// Empty: all cells count.
+  std::optional<double> threshold() const { return threshold_; }
+
   /// Whether incidence numbers are known; without them only Z/2 makes sense.
   bool has_incidences() const { return has_incidences_; }
   /// Cells that enter.
@@ -129,6 +138,7 @@ class ExplicitComplex {
   void sort_by_dimension(const std::vector<int>& dims);
 
   CellKind kind_ = CellKind::row;
+  std::optional<double> threshold_;
   bool has_incidences_ = true;
   bool edges_join_vertices_ = true;
   std::pmr::vector<double> values_;                 // distinct values, ascending

@@ -258,6 +258,11 @@ void ExplicitComplex::sort_by_dimension(const std::vector<int>& dims) {
   }
 }
 
+void ExplicitComplex::set_threshold(double largest) {
+  if (std::isnan(largest)) throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
+  threshold_ = largest;
+}
+
 std::size_t ExplicitComplex::vertex_number(Cell vertex) const {
   return static_cast<std::size_t>(std::ranges::lower_bound(vertices_, input_position_[vertex.id]) -
                                   vertices_.begin());

@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "ph/detail/complex/cubical_cells.hpp"
+#include "ph/explicit.hpp"
 
 namespace ph {
 namespace {
@@ -34,21 +34,16 @@ void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const 
   to.set_representative(from.representatives(), numbers, coefficients);
 }
 
-/// The cells beyond a value, dimension by dimension as their number of vertices tells, or by row.
-std::set<Numbers> cells_beyond(const AnyComplex& complex, double threshold) {
+/// The cells beyond a value, each with its numbers in the input.
+std::set<Numbers> cells_beyond(const ExplicitComplex& complex, double threshold) {
   std::set<Numbers> beyond;
-  const auto collect = [&]<class F>(const F& filtration) {
-    if constexpr (Filtration<F>) {
-      for (int dim = 0; dim <= filtration.top_dim(); ++dim)
-        filtration.for_each_cell(dim, [&](const auto& cell) {
-          if (filtration.value(cell) <= threshold) return;
-          Numbers numbers;
-          filtration.append_input_cell(dim, cell, numbers);
-          beyond.insert(std::move(numbers));
-        });
-    }
-  };
-  std::visit(collect, complex);
+  for (int dim = 0; dim <= complex.top_dim(); ++dim)
+    complex.for_each_cell(dim, [&](const auto& cell) {
+      if (complex.value(cell) <= threshold) return;
+      Numbers numbers;
+      complex.append_input_cell(dim, cell, numbers);
+      beyond.insert(std::move(numbers));
+    });
   return beyond;
 }
 
@@ -105,7 +100,7 @@ MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t
   return tree;
 }
 
-Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
+Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,
                double min_persistence) {
   // A cycle has no cell after its birth; a cocycle has all kinds.
   std::set<Numbers> beyond;

@@ -20,10 +20,11 @@ void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 /// Precondition: an id for each vertex, below `size`.
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
-/// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
-/// dies later is alive. Cocycles are restricted to the subcomplex.
-/// @param min_persistence bars that die in the subcomplex after no longer than this are left out.
-Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
+/// The barcode of the subcomplex of all cells up to a value: a bar born later is left out, and a
+/// class that dies later is alive. Cocycles are restricted to the subcomplex.
+/// @param barcode of the whole complex, with all bars of positive length.
+/// @param min_persistence bars that die in the subcomplex and are no longer than this are left out.
+Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,
                double min_persistence);
 
 }  // namespace ph

@@ -169,7 +169,14 @@ MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context) 
   if (!complex.edges_join_vertices()) {
     throw Error(ErrorKind::usage, "a merge tree needs edges that join two vertices");
   }
-  return tree_of(complex, context);
+  MergeTree tree = tree_of(complex, context);
+  if (const std::optional<double> largest = complex.threshold()) {
+    std::ranges::replace_if(
+        tree.births, [&](double birth) { return birth > *largest; }, kInfinity);
+    const auto later = std::ranges::upper_bound(tree.merges, *largest, {}, &Merge::value);
+    tree.merges.erase(later, tree.merges.end());
+  }
+  return tree;
 }
 
 }  // namespace ph

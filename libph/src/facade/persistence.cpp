@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "facade/adjust.hpp"
 #include "facade/rips_plan.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
@@ -37,7 +38,12 @@ Barcode persistence(const Cubical& cubical, const Options& options, const RunCon
 
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
                     const RunContext& context) {
-  return detail::compute(complex, options, context);
+  if (!complex.threshold()) return detail::compute(complex, options, context);
+  // A class that outlives the threshold is alive, however short its bar would have been.
+  Options all = options;
+  all.min_persistence = std::min(options.min_persistence, 0.0);
+  return cut_at(detail::compute(complex, all, context), complex, *complex.threshold(),
+                options.min_persistence);
 }
 
 Barcode persistence(const Alpha& alpha, const Options& options, const RunContext& context) {

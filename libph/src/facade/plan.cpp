@@ -40,6 +40,9 @@ template <class Complex>
 Barcode run_one(const Complex& complex, const RunPlan& plan, const RunContext& context) {
   return detail::compute(complex, plan.options, context);
 }
+Barcode run_one(const ExplicitComplex& complex, const RunPlan& plan, const RunContext& context) {
+  return persistence(complex, plan.options, context);
+}
 Barcode run_one(const Rips& rips, const RunPlan& plan, const RunContext& context) {
   return detail::run_rips(rips, plan, context);
 }

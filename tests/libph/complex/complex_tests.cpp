@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the stored complexes refuse, and in which words; how they name their cells.
+#include <algorithm>
 #include <limits>
 
 #include "ph/detail/complex/filtered_graph.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
@@ -68,6 +70,37 @@ TEST(ExplicitComplexes, TheEmptyComplex) {
   check(none, 2);
   EXPECT_TRUE(persistence(none).empty());
   EXPECT_TRUE(persistence(ExplicitComplex::from_boundary({})).empty());
+}
+
+// The oracle gives the cells beyond the threshold the value infinity, with which they never enter.
+TEST(ExplicitComplexes, AThresholdLeavesTheSubcomplexBelowIt) {
+  InputGenerator gen(RandomChoices(7));
+  for (int round = 0; round < 60; ++round) {
+    const SimplexList list = gen.simplices(9, 3, 14, round % 2 == 0);
+    const double threshold = gen.value(round % 2 == 0);
+    SimplexList below = list;
+    for (double& value : below.values)
+      if (value > threshold) value = kInfinity;
+    const ExplicitComplex oracle = ExplicitComplex::from_simplices(below);
+    ExplicitComplex complex = ExplicitComplex::from_simplices(list);
+    complex.set_threshold(threshold);
+    for (const double least : {-1.0, 0.0, 0.3})
+      for (const Engine engine : {Engine::automatic, Engine::twist, Engine::standard}) {
+        SCOPED_TRACE(testing::Message() << round << ", " << least << ", " << engine.name());
+        const Options options{.field = 3, .engine = engine, .min_persistence = least};
+        const Barcode expected =
+            persistence(oracle, {.field = 3, .engine = Engine::standard, .min_persistence = least});
+        EXPECT_EQ(first_difference(persistence(complex, options), expected), "");
+        EXPECT_EQ(first_difference(run(complex, plan(complex, options)), expected), "");
+      }
+    const MergeTree tree = merge_tree(complex), of_oracle = merge_tree(oracle);
+    EXPECT_EQ(tree.births, of_oracle.births);
+    EXPECT_TRUE(
+        std::ranges::equal(tree.merges, of_oracle.merges, {}, &Merge::value, &Merge::value));
+    EXPECT_EQ(tree.components(kInfinity), of_oracle.components(kInfinity));
+  }
+  ExplicitComplex none = ExplicitComplex::from_simplices({});
+  expect_error(ErrorKind::usage, "threshold: found nan", [&] { none.set_threshold(kNan); });
 }
 
 // A triangle with its boundary, by columns.
