@@ -88,7 +88,7 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     except Error as error:
         if error._input is None or error._cause is None:
             raise
-        reason = requests[error._input].told(error._cause)
+        reason = requests[error._input]._replace(options=run).told(error._cause)
         raise reworded(reason, f"{what} {error._input}: {reason}") from None
     return [Barcode._of(b, request.meta) for b, request in zip(bars, requests)]
 

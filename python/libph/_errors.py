@@ -17,7 +17,8 @@ class Error(Exception):
     ----------
     remedies : tuple of (str, str)
         Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty
-        where several help.
+        where several help. Of a `MemoryLimitError` they are to be set together: the first of the
+        ways out that the message names.
     """
 
     remedies: tuple[tuple[str, str], ...] = ()

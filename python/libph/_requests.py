@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _core, _options, _run
-from ._errors import DataError, Error, MemoryLimitError, NotBuiltIn, UsageError, reworded
+from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn, UsageError,
+                      reworded)
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
@@ -61,9 +62,8 @@ class Request(NamedTuple):
     def told(self, error: Error) -> Error:
         """What is wrong, with a way out where a keyword is one."""
         message = str(error)
-        if isinstance(error, MemoryLimitError) and self.meta["complex"] == "rips":
-            return reworded(error, f"{message}; a smaller max_dim or threshold, subsample or "
-                            "approximation takes less, ph.estimate says how much")
+        if isinstance(error, MemoryLimitError):
+            return self._with_ways_to_fit(error)
         kind, _, place = error._place.partition(" ")
         if error._found != "nan" or kind not in ("point", "voxel"):
             return error
@@ -73,6 +73,23 @@ class Request(NamedTuple):
         return reworded(error, f"image: {_arrays.place_of([int(i) for i in index])}: found nan, "
                         "expected a number; nan='drop' leaves out what is NaN or masked",
                         ("nan", "drop"))
+
+
+    def _with_ways_to_fit(self, error: MemoryLimitError) -> MemoryLimitError:
+        """The error, with changes of the keywords that keep the computation within the limit."""
+        if self.task is None:
+            return error
+        try:
+            ways = _run.run(_core.ways_to_fit, self.recipe, self.task,
+                            options={**self.options, "progress": False},
+                            slab_layers=self.slab_layers)
+        except (Cancelled, MemoryLimitError):
+            return error
+        if not ways:
+            return error
+        fit = "may fit" if self.meta["complex"] == "cubical" else "would fit"
+        return reworded(error, f"{error}; what {fit}: {'; '.join(text for _, text in ways)}; or a "
+                        "larger memory_limit", *ways[0][0])
 
 
 def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,

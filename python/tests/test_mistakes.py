@@ -94,8 +94,13 @@ def test_files_are_read_by_read(X):
 
 def test_a_limit_that_is_met_says_what_takes_less():
     X = np.random.default_rng(0).random((2000, 3))
-    with pytest.raises(ph.MemoryLimitError, match="more needed; a smaller max_dim or threshold"):
-        ph.rips(X, memory_limit="1MB")
+    for options in ({"max_dim": 2}, {"max_dim": 1, "representatives": "cocycles"}):
+        with pytest.raises(ph.MemoryLimitError, match="more needed; what would fit: ") as caught:
+            ph.rips(X, memory_limit="20MB", **options)
+        assert str(caught.value).endswith("; or a larger memory_limit")
+        changes = {name: int(value) if name in ("max_dim", "subsample") else value
+                   for name, value in caught.value.remedies}
+        ph.rips(X, memory_limit="20MB", **{**options, **changes})  # it does fit
     for less in ({"max_dim": 0}, {"threshold": 0.02}, {"subsample": 20}, {"approximation": 0.5}):
         assert ph.estimate(X, **less).bytes_high < ph.estimate(X).bytes_high
 

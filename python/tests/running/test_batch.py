@@ -61,7 +61,7 @@ def test_any_iterable():
     ([[[0.0]]], {"max_dm": 4}, TypeError, "rips.* 'max_dm'; did you mean 'max_dim'"),
     ([[[0.0]]], {"thread": 4}, TypeError, "rips.* 'thread'; did you mean 'threads'"),
     ([RNG.random((3000, 3))], {"max_dim": 2, "memory_limit": "1MiB"}, ph.MemoryLimitError,
-     "input 0: memory limit .* a smaller max_dim"),
+     "input 0: memory limit .*; what would fit: max_dim=0 .*; or a larger memory_limit$"),
 ])
 def test_errors_name_the_input(inputs, options, error, words):
     with pytest.raises(error, match=words):
