@@ -13,9 +13,9 @@
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
-// The constructor of Alpha, and alpha_support, are in a library of their own, ph::alpha. It uses
-// triangulations of CGAL, which are under the GNU General Public License: so is a program that
-// links it. All else is in ph::core.
+// The constructor of Alpha, and alpha_support, are in a library of their own, ph::alpha. That
+// library uses triangulations of CGAL, which are under the GNU General Public License; a program
+// that links it is under that licence as well. Everything else is in ph::core.
 
 namespace ph {
 
@@ -23,91 +23,94 @@ namespace alpha {
 struct AlphaCells;
 }
 
-/// What triangulates, by name and version; empty if nothing does: then the constructor of Alpha
-/// throws Error (not_built_in).
+/// Name and version of the library that triangulates. Empty if libph was built without one; the
+/// constructor of Alpha then throws Error (not_built_in).
 std::string alpha_support();
 
-/// What an alpha complex is made of.
+/// The settings of an alpha complex.
 struct AlphaOptions {
-  /// One for each point, or none: the square of a ball's radius where that is 0 at first. The power
-  /// distance |x - p|² - w takes the place of the square of the distance.
+  /// One weight per point, or none: the square of the radius that a ball has when the filtration's
+  /// radius is 0. The power distance |x - p|² - w replaces the square of the distance.
   std::vector<double> weights = {};
-  /// Of a periodic space: the length of each axis after which it closes up, or 0 of one that does
-  /// not. None: no axis does. Points may lie anywhere; coordinates are taken modulo the lengths.
+  /// For a periodic space: the length of each axis after which it closes up, or 0 for an axis that
+  /// does not. If empty, no axis closes up. Points may lie anywhere; coordinates are taken modulo
+  /// the lengths.
   std::vector<double> period = {};
-  /// What is asked of a simplex of the triangulation, in radii.
+  /// The condition under which a simplex of the triangulation enters, in terms of radii.
   enum class Value {
-    alpha,  ///< that its balls meet, each cut to its Voronoi cell
-    /// that its balls meet. The bars are those of `alpha`, the cells may be others.
+    alpha,  ///< its balls meet, each cut to its Voronoi cell
+    /// its balls meet; the bars are the same as with `alpha`, the cells may differ
     delaunay_cech,
-    delaunay_rips,  ///< that each two of its balls meet: half its longest edge
+    delaunay_rips,  ///< every two of its balls meet: half the longest edge
   } value = Value::alpha;
-  /// Of what values are. Those of weighted points may be negative: `squared` only.
+  /// The unit of values. Values of weighted points may be negative: only `squared` is allowed.
   enum class Unit {
-    radius,   ///< the radius of the balls
-    squared,  ///< its square
+    radius,   ///< radius of the balls
+    squared,  ///< square of that radius
   } unit = Unit::radius;
   double threshold = kInfinity;  ///< largest value that enters, inclusive
 };
 
 /// The alpha complex of points of R², R³ (or R¹): the simplices of their Delaunay triangulation. A
 /// simplex enters when the balls around its vertices, each cut to the Voronoi cell of its centre,
-/// meet. Its bars are those of the union of balls of that radius, which is why they are half as
-/// long as those of edges.
+/// meet. The bars are the bars of the union of balls of that radius; they are therefore half as
+/// long as bars measured by edge lengths.
 ///
-/// Any finite points will do. Coplanar and collinear ones have the triangulation of their affine
-/// hull. A copy is joined to the first of its kind by an edge of value 0, or hidden, of weighted
-/// points. Which simplices there are and which values are equal is decided exactly; values have an
-/// error of some last places, and no face has a larger one than a coface. (Radii below
-/// 1e-150 or beyond 1e150 times the largest coordinate are less precise.) Among
-/// cospherical points some triangulation is taken that depends on where they are alone, not on
-/// their order.
+/// Any finite points are allowed. Coplanar and collinear points have the triangulation of their
+/// affine hull. An edge of value 0 joins a copy to the first point at the same place; a weighted
+/// copy is hidden instead. Two things are decided exactly: which simplices there are, and which
+/// values are equal. Values themselves have rounding errors in the last few places, and no face has
+/// a larger value than a coface. (Radii below 1e-150 or beyond 1e150 times the largest coordinate
+/// are less precise.) Cospherical points have several triangulations; the choice depends on their
+/// coordinates alone, not on their order.
 ///
-/// Other values than alpha are for points without weights, and are computed simplex by simplex, by
-/// engines for any filtration: they take several times as long.
+/// Values other than alpha need points without weights. Engines for any filtration compute them
+/// simplex by simplex, which takes several times as long.
 ///
 /// In a periodic space the balls grow around a torus, or around a cylinder if not all axes close
-/// up. Any number of points will do, one as well. A cell is known by its points all the same,
-/// though it may have one of them several times (an edge of a point with its own image is [v, v])
-/// and two cells may have the same ones. Coordinates of axes that close up, and their lengths, are
-/// rounded to multiples of a power of two, at most 2^-50 of the diagonal of the box, so that
-/// translates are the same to the last bit; numbers that are such multiples stay what they are.
-/// Points that are the same modulo the lengths are copies. On a torus the complex ends with the
-/// Betti numbers 1, 3, 3, 1, in the plane 1, 2, 1.
+/// up. Any number of points is allowed, even one. A cell is still known by its points, although one
+/// point may occur several times in it (an edge of a point with its own image is [v, v]) and two
+/// cells may have the same points. Coordinates of axes that close up, and the lengths of these
+/// axes, are rounded to multiples of a power of two (at most 2^-50 of the diagonal of the box),
+/// which makes translates equal to the last bit; numbers that already are such multiples do not
+/// change. Points that are the same modulo the lengths are copies. On a torus the complex ends with
+/// the Betti numbers 1, 3, 3, 1; in the plane, 1, 2, 1.
 ///
-/// Holds the triangulation: about 110 bytes a tetrahedron. What generic engines need, each simplex
-/// by itself, is made once, by `prepare` or else when a cell is first asked for. Order: (value,
-/// dimension, vertices in an order of space, the last one first).
+/// The filtration holds the triangulation: about 110 bytes per tetrahedron. Generic engines need
+/// the single simplices; these are made once, by `prepare` or when a cell is first asked for. The
+/// order is (value, dimension, vertices in an order of space, last vertex first).
 class Alpha {
  public:
   using Cell = ExplicitComplex::Cell;
   static constexpr bool first_equal_cofacet_is_oldest =
       ExplicitComplex::first_equal_cofacet_is_oldest;
 
-  /// O(n log n) for points that lie evenly, O(n²) at worst. On threads, but for the triangulation.
-  /// @param context outlives the filtration.
-  /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
-  ///         or other values of weighted points; on lengths that are not one an axis, negative or
-  ///         not finite, and other values in a periodic space; Error (bad_data) on numbers that are
-  ///         not finite, on coordinates whose magnitudes differ beyond what doubles can square, and
-  ///         of squared values on coordinates of which no double can be the square; Error
-  ///         (resource, cancelled, not_built_in).
+  /// O(n log n) for evenly spread points, O(n²) at worst. Uses threads for everything except the
+  /// triangulation.
+  /// @param context must outlive the filtration.
+  /// @throws Error (usage) on points of R^4 or beyond; if there is not one weight per point; on
+  ///         radii or other values of weighted points; on lengths that are negative, not finite or
+  ///         not one per axis; and on other values in a periodic space. Error (bad_data) on numbers
+  ///         that are not finite, on coordinates whose magnitudes differ too much for their squares
+  ///         to be doubles, and, for squared values, on coordinates whose square is not a double.
+  ///         Error (resource, cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 
-  /// Points that have no part in the complex, ascending: other points with large weights outdo them
-  /// everywhere.
+  /// Points that are not part of the complex, ascending: other points with large weights outweigh
+  /// them everywhere.
   std::span<const std::uint32_t> hidden() const;
   /// Copies of other points, ascending; empty if points are weighted.
   std::vector<Index> copies() const;
-  /// Simplices by dimension, those beyond the threshold and edges of copies included.
+  /// Number of simplices by dimension, including those beyond the threshold and the edges that join
+  /// copies.
   std::vector<std::size_t> simplex_counts() const;
 
-  /// Makes every simplex, unless they are there. It takes about 5 kB a point of R³ and stays
-  /// with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
+  /// Makes every simplex, unless this was done before. The simplices take about 5 kB per point of
+  /// R³ and stay with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
   void prepare(const RunContext& context) const;
-  /// The same complex, simplex by simplex, as the other parts of libph take it. Made by `prepare`
-  /// or by the first call. Values are squares in units that are a power of two.
+  /// The same complex, simplex by simplex, in the form that other parts of libph take. Made by
+  /// `prepare` or by the first call. Values are squares in units that are a power of two.
   const ExplicitComplex& listed() const;
 
   int top_dim() const { return top_dim_; }
@@ -116,14 +119,14 @@ class Alpha {
   static bool precedes(Cell a, Cell b) { return ExplicitComplex::precedes(a, b); }
   std::size_t slot_count() const { return listed().slot_count(); }
   static std::size_t slot(Cell c) { return ExplicitComplex::slot(c); }
-  /// Not in a periodic space: an edge may be a loop.
+  /// False in a periodic space, where an edge may be a loop.
   bool edges_join_vertices() const { return !is_periodic(); }
   static CellKind cell_kind() { return CellKind::vertices; }
-  /// In a periodic space a point may come several times.
+  /// In a periodic space a point may occur several times.
   void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
-  /// How many points the input has, those without a part in the complex included.
+  /// Number of points of the input, including points that are not in the complex.
   std::size_t vertex_count() const;
-  /// The point of the input that is a vertex.
+  /// The number of the input point that a vertex stands for.
   std::size_t vertex_number(Cell vertex) const;
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const {
@@ -140,13 +143,13 @@ class Alpha {
 
   /// For engines: the triangulation with its intervals.
   const alpha::AlphaCells& cells() const { return *cells_; }
-  /// A squared radius of it as a value of this filtration.
+  /// Converts a squared radius of the triangulation into a value of this filtration.
   double to_value(double squared_radius) const;
   double threshold() const { return threshold_; }
   AlphaOptions::Value value_kind() const { return kind_; }
   AlphaOptions::Unit unit() const { return unit_; }
   bool is_weighted() const;
-  /// Whether an axis closes up.
+  /// True if an axis closes up.
   bool is_periodic() const;
 
  private:
@@ -160,24 +163,25 @@ class Alpha {
   int top_dim_ = -1;
 };
 
-/// Triangles on the surface of a set of simplices, each by its points.
+/// Triangles on the surface of a set of simplices, each given by its points.
 struct SurfaceMesh {
   std::vector<std::array<Index, 3>> triangles;
-  /// The first so many have a tetrahedron on one side, and are counterclockwise as seen from the
-  /// other. Those behind, *singular* ones, have none on either side.
+  /// The first `regular` triangles have a tetrahedron on exactly one side, and are counterclockwise
+  /// as seen from the other side. The remaining, *singular* ones have no tetrahedron on either
+  /// side.
   std::size_t regular = 0;
 };
 
-/// The surface of the simplices up to a value, in the unit of the complex, whatever its threshold:
-/// what the balls of that radius enclose, as a polyhedron. Of points in a plane all triangles up to
-/// it, counterclockwise if they are points of R². O(triangles · log). @throws Error (usage) on NaN,
-/// on values other than alpha, and in a periodic space: a triangle across a face of the box has no
-/// points for its corners.
+/// The surface of all simplices up to a value, given in the unit of the complex and regardless of
+/// its threshold: the body that the balls of that radius enclose, as a polyhedron. For points in a
+/// plane, all triangles up to the value, counterclockwise if the points are in R². O(triangles ·
+/// log). @throws Error (usage) on NaN, on values other than alpha, and in a periodic space: a
+/// triangle across a face of the box has no points for its corners.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
-/// The same of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
-/// space, 2003): the critical simplices up to a value with all that lies below them. It has the
-/// shape of the alpha complex, up to homotopy, and is a part of it without its frayed edges.
+/// The surface of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
+/// space, 2003): the critical simplices up to a value, and everything that lies below them. It has
+/// the shape of the alpha complex up to homotopy, and is the part of it without frayed edges.
 /// O(tetrahedra). @throws Error (usage) as alpha_shape; Error (resource, cancelled).
 SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context = default_context());
 

@@ -14,7 +14,8 @@ namespace ph {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One interval [birth, death) of the barcode: a class of H_dim born at `birth`, zero from `death`.
+/// One interval [birth, death) of the barcode: a class of H_dim that is born at `birth` and is zero
+/// from `death` on.
 struct Bar {
   int dim = 0;
   double birth = 0;
@@ -25,14 +26,14 @@ struct Bar {
   friend bool operator==(const Bar&, const Bar&) = default;
 };
 
-/// A cell as the user knows it. `numbers` points into the barcode it came from.
+/// A cell in terms of the user's input. `numbers` points into the barcode it came from.
 struct InputCell {
   CellKind kind;
   std::span<const Index> numbers;
 };
 
-/// A chain or cochain in terms of the input: cells of one dimension, each with its coefficient.
-/// Points into the barcode it came from.
+/// A chain or cochain in terms of the input: cells of one dimension, each with its coefficient. It
+/// points into the barcode that it came from.
 class InputChain {
  public:
   InputChain(CellKind kind, std::span<const Index> numbers,
@@ -53,14 +54,14 @@ class InputChain {
   std::span<const std::int64_t> coefficients_;
 };
 
-/// What comes with the bars to show where they are.
+/// The representative to compute with each bar, which shows where the bar is.
 enum class Representatives {
   none,
   cycles,    ///< a cycle born with the bar that is a boundary from its death on
   cocycles,  ///< a cochain, zero before the birth, whose coboundary is first non-zero at the death
-  /// Images only: with bars of H0 the voxels of the component that dies, just before it does; with
-  /// those of the highest dimension less one the voxels of the hollow, just after the birth; with
-  /// all others a cycle.
+  /// Images only. Bars of H0 get the voxels of the dying component just before it dies. Bars of the
+  /// second highest dimension get the voxels of the hollow just after its birth. All others get a
+  /// cycle.
   voxels,
 };
 
@@ -69,9 +70,9 @@ struct VoxelRange {
   std::size_t begin = 0, end = 0;
 };
 
-/// The result of persistent homology: bars ordered by dimension, birth, death (an infinite death
-/// last) and birth cell, each with the cell that gave birth to it and, if it died, the cell that
-/// killed it, unless they were not asked for (Options::cells). A value: it owns all it shows.
+/// The result of persistent homology: bars ordered by dimension, birth, death (infinite deaths
+/// last) and birth cell. Each bar has the cell that gave birth to it and, if it died, the cell that
+/// killed it, unless Options::cells is off. A barcode is a value: it owns everything that it shows.
 class Barcode {
  public:
   explicit Barcode(CellKind kind = CellKind::vertices) : kind_(kind) {}
@@ -84,14 +85,15 @@ class Barcode {
 
   /// The bars of one dimension, in order.
   std::span<const Bar> bars(int dim) const&;
-  /// Of a barcode that nobody keeps: `for (const Bar& bar : persistence(rips).bars(1))`.
+  /// For a temporary barcode: `for (const Bar& bar : persistence(rips).bars(1))`.
   std::vector<Bar> bars(int dim) &&;
-  /// Position of the longest bar of a dimension, infinite ones first, the first among equals.
+  /// Position of the longest bar of a dimension; infinite bars count as longest, and the first of
+  /// equal bars is taken.
   /// @throws Error (usage) if there is none.
   std::size_t longest(int dim) const;
 
   CellKind cell_kind() const { return kind_; }
-  /// The cell that gave birth to bar i; without numbers if cells are not kept.
+  /// The cell that gave birth to bar i; it has no numbers if cells are not kept.
   InputCell birth_cell(std::size_t i) const { return {kind_, birth_numbers(i)}; }
   /// The cell that killed bar i; nothing for an infinite bar, or if cells are not kept.
   std::optional<InputCell> death_cell(std::size_t i) const {
@@ -100,24 +102,24 @@ class Barcode {
     return InputCell{kind_, numbers};
   }
 
-  /// What `representative` gives: as asked for in Options.
+  /// The kind of chain that `representative` returns, as chosen in Options.
   Representatives representatives() const { return representatives_; }
-  /// The cycle or cocycle of bar i, the birth cell among its cells.
-  /// @throws Error (usage) if none were asked for.
+  /// The cycle or cocycle of bar i; the birth cell is one of its cells.
+  /// @throws Error (usage) if no representatives were asked for.
   InputChain representative(std::size_t i) const;
   /// The voxels of bar i as places in the image in C order (the last axis is the fastest), each
-  /// once, in no order that means anything: sets lie in each other as components do, and share
-  /// memory. None for a bar that has a cycle in their place, or if they were not asked for.
+  /// once, in no particular order: sets are nested as components are, and share memory. Empty if
+  /// the bar has a cycle instead, or if voxels were not asked for.
   std::span<const std::uint32_t> voxels(std::size_t i) const;
-  /// The coordinates of the voxel whose value is the birth of bar i, by axis of the input; none if
+  /// The coordinates of the voxel whose value is the birth of bar i, by axis of the input; empty if
   /// voxels were not asked for.
   std::span<const Index> birth_voxel(std::size_t i) const;
-  /// The same for its death; none for an infinite bar.
+  /// The same for the death of the bar; empty for an infinite bar.
   std::span<const Index> death_voxel(std::size_t i) const;
 
-  /// Makes room for so many more bars.
+  /// Makes room for that many more bars.
   void reserve_more(std::size_t count) {
-    // By a quarter: where many come without a word both the old and the new ones are there a while.
+    // Grows by a quarter, because the old and the new array exist side by side for a while.
     if (bars_.capacity() - bars_.size() < count)
       bars_.reserve(bars_.size() + std::max(count, bars_.size() / 4));
   }
@@ -126,20 +128,20 @@ class Barcode {
     bars_.push_back(bar);
     if (!cells_.empty()) cells_.resize(bars_.size());
   }
-  /// Appends a bar. No `death_cell`: the class lives for ever.
+  /// Appends a bar. Without `death_cell` the class lives forever.
   void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
-  /// Gives the bar added last its representative: the numbers of all cells, one after another.
+  /// Gives the last bar added its representative: the numbers of all its cells, one after another.
   void set_representative(Representatives kind, std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients);
-  /// Keeps places of voxels. @return where they begin among all that are kept.
+  /// Keeps places of voxels. @return the position of the first among all places kept.
   std::size_t store_voxels(std::span<const std::uint32_t> places);
-  /// Gives the bar added last, which has a representative, some of the voxels that are kept, and
-  /// the voxels of its birth and death.
+  /// Gives the last bar added, which must have a representative, some of the stored voxels, and the
+  /// voxels of its birth and death.
   void set_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
                   std::span<const Index> death_voxel);
-  /// Brings the bars into the order stated above. @throws Error (resource, cancelled).
+  /// Sorts the bars into the order stated above. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
-  /// What has to be moved to make room for more: meanwhile it is there twice.
+  /// Bytes to be moved when room is made for more; they exist twice meanwhile.
   std::size_t bytes_moved_for(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                               std::size_t voxels = 0) const {
     const auto moved = [](const auto& all, std::size_t more) {
@@ -148,7 +150,7 @@ class Barcode {
     return moved(bars_, bars) + moved(cells_, bars) + moved(numbers_, numbers) +
            moved(coefficients_, coefficients) + moved(voxels_, voxels);
   }
-  /// What it holds; room for more is not touched yet.
+  /// Bytes that the barcode holds; reserved room is not counted, because it is not touched yet.
   std::size_t bytes() const {
     return bars_.size() * sizeof(Bar) + cells_.size() * sizeof(Cells) +
            chains_.size() * sizeof(Chain) +
@@ -169,7 +171,7 @@ class Barcode {
   };
   struct VoxelSet {
     VoxelRange voxels;
-    Range birth, death;  // coordinates in the numbers
+    Range birth, death;  // coordinates in numbers_
   };
   static constexpr std::size_t kNone = SIZE_MAX;
   std::span<const Index> birth_numbers(std::size_t i) const {
@@ -179,7 +181,7 @@ class Barcode {
   std::span<const Index> death_numbers(std::size_t i) const {
     return cells_.empty() ? std::span<const Index>() : numbers_of({cells_[i].death, cells_[i].end});
   }
-  // Of bar i; nothing if it has none.
+  // The entry of bar i in `table`, or nothing if it has none.
   template <class T>
   T part_of(std::size_t i, const std::vector<T>& parts) const {
     const std::size_t place = cells_.empty() ? kNone : cells_[i].chain;
@@ -193,12 +195,12 @@ class Barcode {
 
   CellKind kind_;
   std::vector<Bar> bars_;
-  std::vector<Cells> cells_;    // parallel to bars_, or empty: no bar has any
+  std::vector<Cells> cells_;    // parallel to bars_, or empty if no bar has cells
   std::vector<Index> numbers_;  // all cells, one after another
   Representatives representatives_ = Representatives::none;
   std::vector<Chain> chains_;
   std::vector<std::int64_t> coefficients_;
-  std::vector<VoxelSet> sets_;         // parallel to chains_, or empty
+  std::vector<VoxelSet> sets_;         // parallel to chains_, or empty if no bar has sets
   std::vector<std::uint32_t> voxels_;  // all sets, which may overlap
 };
 

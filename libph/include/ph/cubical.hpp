@@ -21,23 +21,25 @@ struct CubicalOptions {
     cells,  ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
   };
   Construction construction = Construction::vertices;
-  /// Superlevel sets of f: the sublevel filtration of -f; values are reported as -f.
+  /// Uses the superlevel sets of f: the sublevel filtration of -f, reported with the values of f.
   bool superlevel = false;
-  /// The axes (of the input) that close up on themselves; empty: none.
+  /// True for each axis (of the input) that closes up on itself; empty if none does.
   std::vector<bool> periodic = {};
   /// Largest value that enters, inclusive (of -f with `superlevel`).
   std::optional<double> threshold = std::nullopt;
 };
 
-/// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n
+/// The cubical filtration of an image of any dimension, in doubled grid coordinates. An axis of n
 /// voxels has 2n-1 coordinates in the V-construction (even: a voxel, odd: between two), 2n+1 in the
-/// T-construction (odd: a voxel), 2n in both if it is periodic. A cell's dimension is the number of
-/// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
+/// T-construction (odd: a voxel), and 2n in both if it is periodic. A cell's dimension is the
+/// number of its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid
+/// index).
 ///
-/// Holds the voxels, shared with the image. What generic engines need, 4 bytes a cell (2^d cells a
-/// voxel) and the sorted values, is made once, by `prepare` or else when a cell or value is first
-/// asked for; an engine that goes voxel by voxel does without. +infinity never enters; -infinity is
-/// born at -infinity (both after the sign of superlevel sets). Absent voxels never enter.
+/// The filtration holds the voxels, which it shares with the image. Generic engines need 4 bytes
+/// per cell (2^d cells per voxel) and the sorted values. These are made once, by `prepare` or when
+/// a cell or value is first asked for; an engine that goes voxel by voxel does not need them. A
+/// voxel of +infinity never enters; one of -infinity is born at -infinity (both after the sign
+/// change of superlevel sets). Absent voxels never enter.
 class Cubical {
  public:
   struct Cell {
@@ -48,25 +50,26 @@ class Cubical {
   static constexpr int kMaxDim = 8;
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
-  /// @param context outlives the filtration.
-  /// @throws Error (bad_data) on NaN unless the image is masked, an axis of length 0 or sizes that
-  ///         disagree; Error (usage) on more than 8 axes or a periodic axis that does not exist;
-  ///         Error (resource) beyond the context's memory limit.
+  /// @param context must outlive the filtration.
+  /// @throws Error (bad_data) on NaN unless the image is masked, on an axis of length 0 and on
+  ///         sizes that disagree; Error (usage) on more than 8 axes or a periodic axis that does
+  ///         not exist; Error (resource) beyond the context's memory limit.
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 
-  /// Makes what cells are made of, unless it is there. It stays with the filtration, and is counted
-  /// in the budget of the context that the filtration was built with; while it is made, with 32
-  /// bytes a voxel for sorting, `context` bounds, watches and stops it. O(cells). Thread-safe.
-  /// @throws Error (resource), also on more than 2^32 - 2 voxels, and (cancelled); it can be tried
-  ///         again.
+  /// Makes the table of cells, unless it exists. The table stays with the filtration and counts in
+  /// the budget of the context that the filtration was built with. Sorting takes 32 more bytes per
+  /// voxel; `context` limits the memory, sees the progress and can stop the work. O(cells).
+  /// Thread-safe.
+  /// @throws Error (resource), also on more than 2^32 - 2 voxels, and Error (cancelled); another
+  ///         call can try again.
   void prepare(const RunContext& context) const;
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
-  /// With ph/custom.hpp. @throws Error (resource) and (cancelled) if it is the first call and
-  ///         nobody has called `prepare`: it does so itself then, with the context of the
-  ///         construction.
+  /// Declared in ph/custom.hpp. The first call does the work of `prepare`, unless that was called,
+  /// with the context of the construction.
+  /// @throws Error (resource) and (cancelled) in that case.
   inline double value(const Cell& c) const;
   static bool precedes(const Cell& a, const Cell& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
@@ -76,17 +79,17 @@ class Cubical {
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::grid; }
   void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
-  /// The image as it is, in the order of this filtration.
+  /// The image itself, in the order of this filtration.
   CubicalImage cubical_image() const { return grid_; }
-  /// Bytes that the voxels take.
+  /// Bytes taken by the voxels.
   std::size_t voxel_bytes() const { return voxels_.bytes(); }
-  /// How many vertices the grid has, those that never enter included: voxels (V), corners (T).
+  /// Number of vertices of the grid, including those that never enter: voxels (V) or corners (T).
   std::size_t vertex_count() const;
-  /// The place of a vertex among them in C order.
+  /// The place of a vertex among all vertices in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
-  // With ph/custom.hpp, as `value`: what engines see. They throw, and take O(cells) the first time,
-  // as `value`.
+  // Declared in ph/custom.hpp, like `value`: the members that engines call. The first call may
+  // throw and takes O(cells), as with `value`.
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
   template <class Visit>
@@ -101,11 +104,11 @@ class Cubical {
     std::uint64_t length = 0;  // doubled coordinates
     bool periodic = false;
   };
-  /// What cells are made of.
+  /// The table that cells are made from.
   struct Table;
   struct Lazy;
   inline const Table& table() const;
-  /// Made by whichever thread comes first; the others wait.
+  /// The first thread to come makes the table; the others wait.
   const Table& make_table(const RunContext& context) const;
   Table new_table(const RunContext& context) const;
   /// Fills the layers between (V) or around (T) the voxels along an axis.
@@ -116,7 +119,7 @@ class Cubical {
   }
 
   int dim_ = 0;
-  std::array<Axis, kMaxDim> axes_;  // in the input's order, the last one fastest
+  std::array<Axis, kMaxDim> axes_;  // in the order of the input, fastest axis last
   std::size_t cells_ = 0;           // of the doubled grid
   Voxels voxels_;
   CubicalImage grid_;  // points into voxels_

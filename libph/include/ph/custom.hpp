@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// For a complex or an engine of your own: bases for complexes, and the engines for any filtration,
-// as templates. Costly to compile; whoever uses the complexes of libph needs persistence.hpp only.
+// For a complex or an engine of your own: base classes for complexes, and the engines for any
+// filtration, as templates. This header is costly to compile; persistence.hpp is enough to use the
+// complexes of libph.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -17,55 +18,56 @@
 namespace ph {
 
 // A COMPLEX is a type that models Filtration (ph/filtration.hpp). With the base SimplexFiltration
-// it has two members: how many vertices, and when a simplex enters. With the base CellFiltration it
-// has three: when a cell enters, all cells, and the facets of a cell. docs/how-to/own-complex.md
-// has programs.
+// you write two members: the number of vertices, and the value at which a simplex enters. With the
+// base CellFiltration you write three: the value at which a cell enters, a list of all cells, and
+// the facets of a cell. docs/how-to/own-complex.md has programs.
 
-/// The barcode of a complex of your own: anything that models Filtration. @throws as the others.
+/// The barcode of a complex of your own: any type that models Filtration. @throws as the other
+/// overloads.
 template <Filtration F>
 Barcode persistence(const F& filtration, const Options& options = {},
                     const RunContext& context = default_context()) {
   return detail::compute(filtration, options, context);
 }
 
-/// How `persistence` will go about it. @throws as `persistence`.
+/// The plan that `persistence` will follow. @throws as `persistence`.
 template <Filtration F>
 RunPlan plan(const F& filtration, const Options& options = {}) {
   const auto [max_dim, choice] = detail::plan_for(filtration, options);
   return detail::run_plan(options, max_dim, choice.engine->id, choice.reason);
 }
 
-/// The same complex cell by cell, for all that takes an ExplicitComplex: estimates, merge trees,
-/// loops, the programs. Cells that the complex names by vertices keep their names, others are named
-/// by their place: dimension by dimension, in the complex's order.
+/// The same complex, cell by cell, for everything that takes an ExplicitComplex: estimates, merge
+/// trees, loops, the programs. Cells that the complex names by their vertices keep these names;
+/// other cells are named by their place, dimension by dimension in the order of the complex.
 /// @throws Error (bad_data) if the complex breaks the contract; Error (resource) on lack of memory.
 template <Filtration F>
 ExplicitComplex listed(const F& filtration, const RunContext& context = default_context());
 
-// AN ENGINE is a struct of static members that says all about itself:
+// AN ENGINE is a struct whose static members describe it:
 //
 //   id                     its name: static constexpr ph::Engine id{"my-engine"}
-//   can_run(f, task)       whether it can do the task; false for complexes that it is not for
-//   suitability(f, task)   how well, where it can: the best of all engines is taken
-//   listed_dim(max_dim)    the highest dimension whose cells it lists; -1: it lists none
-//   run(f, field, bars, context)   computes: tells `bars` each pair and each essential class
+//   can_run(f, task)       true if it can do the task; false for complexes that it does not support
+//   suitability(f, task)   how well it suits the task, if it can run: the best engine is chosen
+//   listed_dim(max_dim)    the highest dimension whose cells it lists; -1 if it lists none
+//   run(f, field, bars, context)   computes: reports each pair and each essential class to `bars`
 //
-// and, where they are not false or absent, goes_by_edges, stops_early, is_oracle,
+// and, where they differ from false or null, goes_by_edges, stops_early, is_oracle,
 // rips_bytes(vertices, edges), rips_forms, obstacle(input, task) and suitability(input, task),
-// which EngineFacts explains. can_run, suitability and run are templates of the filtration;
-// detail/reduction/twist.hpp is a short one to look at.
+// which EngineFacts explains. can_run, suitability and run are templates of the filtration.
+// detail/reduction/twist.hpp is a short example.
 
-/// Adds an engine of your own to all complexes of libph, for the rest of the program: Options can
-/// name it, `engine_names` lists it, and it is chosen where it suits best. Add engines before
-/// other threads compute. @throws Error (usage) if its name is taken.
+/// Adds an engine of your own to all complexes of libph until the program ends: Options can name
+/// it, `engine_names` lists it, and it is chosen where it suits best. Add engines before other
+/// threads compute. @throws Error (usage) if its name is taken.
 template <class E>
 void add_engine();
-/// Adds it to a complex of your own as well, which has the engines for any filtration.
+/// Also adds it to a complex of your own, which has the engines for any filtration.
 template <class E, Filtration F>
 void add_engine_for();
 
 namespace detail {
-/// @throws Error (usage) if there is an engine of that name.
+/// @throws Error (usage) if an engine of that name exists.
 void add_facts(const EngineFacts& facts);
 }  // namespace detail
 

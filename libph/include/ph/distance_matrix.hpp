@@ -8,19 +8,19 @@
 
 namespace ph {
 
-/// All distances of a finite set, stored once for each pair: the strict lower triangle row by row,
-/// d(1,0), d(2,0), d(2,1), d(3,0), … Points may have births, as on the diagonal of a matrix that
-/// gives each vertex the value at which it enters. The numbers never change, and copies share them.
+/// All distances of a finite set, stored once per pair: the strict lower triangle row by row,
+/// d(1,0), d(2,0), d(2,1), d(3,0), … Points may have births, the values at which they enter; some
+/// matrices have them on the diagonal. The numbers never change, and copies share them.
 class DistanceMatrix {
  public:
   /// @param size number of points. @param lower size*(size-1)/2 distances, each >= 0 or +infinity.
-  /// @param births one a point, finite and >= 0, or none.
-  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance. (Births are looked at
-  /// by who uses them.)
+  /// @param births one per point, finite and >= 0, or none.
+  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance. (The code that uses
+  /// births checks them.)
   DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births = {});
 
   Index size() const { return size_; }
-  /// By point; empty: all are there from 0 on.
+  /// By point; if empty, all points enter at 0.
   std::span<const double> births() const { return numbers_->births; }
   double operator()(Index i, Index j) const {
     if (i == j) return 0.0;
@@ -34,7 +34,7 @@ class DistanceMatrix {
   };
   Index size_;
   std::shared_ptr<const Numbers> numbers_;
-  const double* lower_;  // in numbers_
+  const double* lower_;  // points into numbers_
 };
 
 }  // namespace ph

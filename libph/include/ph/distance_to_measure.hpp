@@ -11,16 +11,16 @@
 namespace ph {
 
 // The distance of each point to the empirical measure (Chazal, Cohen-Steiner, Mérigot, Geometric
-// inference for probability measures, 2011): the root of the mean square of the distances to its k
-// nearest points, of which it is the first itself. In units of the distance; small where points are
-// dense, large at outliers. Twice as much, taken for the births of a Rips filtration with
-// WeightExponent::one, gives the DTM filtration of Anai et al. in diameters.
+// inference for probability measures, 2011): the root mean square of the distances to its k nearest
+// points, the first of which is the point itself. It has the unit of the distance, and is small
+// where points are dense and large at outliers. Twice this distance, used as births of a Rips
+// filtration with WeightExponent::one, gives the DTM filtration of Anai et al. in diameters.
 
-/// Of points. With a k-d tree where that pays (Euclidean, Manhattan, Chebyshev and Minkowski
-/// distance in few dimensions): O(n k log n) as a rule, else O(n^2).
-/// @param points one point a row. @param p exponent of PointDistance::minkowski.
+/// For points. Uses a k-d tree where that is faster (Euclidean, Manhattan, Chebyshev and Minkowski
+/// distance in few dimensions): usually O(n k log n), otherwise O(n^2).
+/// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @param neighbours k, from 1 to the number of points.
-/// @throws Error (usage) on another k; Error (bad_data) as PointMetric.
+/// @throws Error (usage) if k is out of range; Error (bad_data) as PointMetric.
 std::vector<double> distance_to_measure(PointsView points, Index neighbours,
                                         PointDistance distance = PointDistance::euclidean,
                                         double p = 2,
@@ -28,11 +28,11 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours,
 
 namespace detail {
 void check_neighbours(Index neighbours, Index size);
-/// The root of the mean square of distances and of one that is 0.
+/// The root mean square of these distances and one more distance, which is 0.
 double root_mean_square(std::span<const double> distances);
 }  // namespace detail
 
-/// Of any metric. O(n^2).
+/// For any metric. O(n^2).
 template <Metric M>
 std::vector<double> distance_to_measure(const M& metric, Index neighbours,
                                         const RunContext& context = default_context()) {
@@ -50,7 +50,7 @@ std::vector<double> distance_to_measure(const M& metric, Index neighbours,
     if (others < distances.size())
       std::ranges::nth_element(distances, distances.begin() + static_cast<std::ptrdiff_t>(others));
     const std::span<double> nearest = std::span(distances).first(others);
-    std::ranges::sort(nearest);  // one order, one sum
+    std::ranges::sort(nearest);  // a fixed order gives a fixed sum
     result.push_back(detail::root_mean_square(nearest));
     ticker.tick();
     ticker.work(static_cast<std::uint64_t>(n));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Points and matrices of Eigen, without a copy where there need not be one. libph itself does not
-// need Eigen. An Eigen matrix, Map or Block of doubles is a PointsView as it is: no header at all.
+// Points and matrices of Eigen, copied only where necessary. libph itself does not need Eigen. An
+// Eigen matrix, Map or Block of doubles converts to PointsView without this header.
 #include <Eigen/Core>
 
 #include "ph/points.hpp"
 
 namespace ph {
 
-/// One point a row.
+/// One point per row.
 using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The points as a matrix: no copy; they must outlive it.
+/// The points as a matrix, without a copy; they must outlive it.
 inline Eigen::Map<const PointMatrix> as_matrix(const Points& points) {
   return {points.data(), static_cast<Eigen::Index>(points.rows()),
           static_cast<Eigen::Index>(points.cols())};

@@ -33,23 +33,23 @@ struct SimplexList {
   }
 };
 
-/// A boundary matrix by columns: column i is cell i, of dimension dims[i], with the facets
-/// rows[offsets[i] … offsets[i+1]) and, beside them, their incidence numbers.
+/// A boundary matrix by columns: column i is cell i of dimension dims[i], with the facets
+/// rows[offsets[i] … offsets[i+1]) and their incidence numbers beside them.
 struct BoundaryMatrix {
   std::vector<int> dims;
   std::vector<std::size_t> offsets{0};
   std::vector<Index> rows;
-  std::vector<int> incidences;  ///< empty: all 1, meaningful over Z/2 only
-  std::vector<double> values;   ///< empty: the cell's position in the order
+  std::vector<int> incidences;  ///< if empty, all are 1, which is meaningful only over Z/2
+  std::vector<double> values;   ///< if empty, a cell's value is its position in the order
 
   std::size_t size() const { return dims.size(); }
 };
 
-/// Names a cell of the input in an error message ("mesh.txt:12"); by default its position.
+/// Names a cell of the input in an error message ("mesh.txt:12"); by default it gives the position.
 using CellNamer = std::function<std::string(std::size_t)>;
 
 /// A filtered complex stored cell by cell, with facets and cofacets. A cell of value +infinity
-/// never enters: it is looked at for mistakes and then left out. Order: (value, dimension, position
+/// never enters: it is checked for mistakes and then left out. Order: (value, dimension, position
 /// in the input).
 class ExplicitComplex {
  public:
@@ -59,12 +59,12 @@ class ExplicitComplex {
   };
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
-  /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is
-  ///         older than a facet of its own, or has a NaN value; if sizes disagree.
+  /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is older
+  ///         than one of its facets or has a NaN value; also if sizes disagree.
   static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
                                         const RunContext& context = default_context());
-  /// @throws Error (bad_data) if a facet is out of range, is not of one dimension less or is
-  ///         younger than its coface; if sizes disagree, a value is NaN, or the boundary of a
+  /// @throws Error (bad_data) if a facet is out of range, is not exactly one dimension lower or is
+  ///         younger than its coface; also if sizes disagree, a value is NaN, or the boundary of a
   ///         boundary is not zero (over the integers, or over Z/2 without incidences).
   static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {},
                                        const RunContext& context = default_context());
@@ -77,13 +77,13 @@ class ExplicitComplex {
   /// Empty: all cells count.
   std::optional<double> threshold() const { return threshold_; }
 
-  /// Whether incidence numbers are known; without them only Z/2 makes sense.
+  /// True if incidence numbers are known; without them only Z/2 makes sense.
   bool has_incidences() const { return has_incidences_; }
-  /// Cells that enter.
+  /// Number of cells that enter.
   std::size_t size() const { return input_position_.size(); }
-  /// How many vertices the input has, those that never enter included.
+  /// Number of vertices of the input, including those that never enter.
   std::size_t vertex_count() const { return vertices_.size(); }
-  /// The place of a vertex among them, in the order of the input.
+  /// The place of a vertex among all vertices, in the order of the input.
   std::size_t vertex_number(Cell vertex) const;
 
   int top_dim() const { return static_cast<int>(first_of_dim_.size()) - 2; }
@@ -143,19 +143,21 @@ class ExplicitComplex {
   bool edges_join_vertices_ = true;
   std::pmr::vector<double> values_;                 // distinct values, ascending
   std::pmr::vector<std::uint32_t> key_;             // by id: index into values_
-  std::pmr::vector<std::uint32_t> input_position_;  // by id: which cell of the input it is
-  std::pmr::vector<std::uint32_t> id_of_;           // its inverse, of all cells of the input
-  std::pmr::vector<std::uint32_t> vertices_;        // their positions in the input, ascending
-  std::pmr::vector<std::size_t> first_of_dim_;      // ranges of of_dim_
-  std::pmr::vector<std::uint32_t> of_dim_;          // ids sorted by dimension, then order
+  std::pmr::vector<std::uint32_t> input_position_;  // by id: its cell of the input
+  std::pmr::vector<std::uint32_t> id_of_;           // the inverse, for all cells of the input
+  // Positions of the vertices in the input, ascending.
+  std::pmr::vector<std::uint32_t> vertices_;
+  std::pmr::vector<std::size_t> first_of_dim_;  // ranges of of_dim_
+  std::pmr::vector<std::uint32_t> of_dim_;      // ids sorted by dimension, then order
   Incidence facets_, cofacets_;
-  SimplexList simplices_;  // for kind vertices: the input's simplices, vertices ascending
+  SimplexList simplices_;  // for kind `vertices`: the simplices of the input, vertices ascending
 };
 
 /// The lower-star filtration: a simplex enters with the last of its vertices. The simplices may
-/// come without their faces (the triangles of a mesh, say): faces are added. Values of the list are
-/// ignored.
-/// @param vertex_values a value for each vertex id 0 … size-1, not NaN; +infinity never enters.
+/// come without their faces (the triangles of a mesh, for example); faces are added. The values of
+/// the list are ignored.
+/// @param vertex_values a value for each vertex id 0 … size-1, not NaN; a vertex of value +infinity
+/// never enters.
 /// @throws Error (bad_data) on a vertex id without a value or a NaN, or if sizes disagree.
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
                            const CellNamer& name = {},

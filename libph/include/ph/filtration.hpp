@@ -10,32 +10,33 @@ namespace ph {
 
 struct RunContext;
 
-/// A number of the input: a vertex, a grid coordinate, a row. Never negative.
+/// A number from the input: a vertex, a grid coordinate, a row. Never negative.
 using Index = std::int64_t;
 
-/// What the numbers that name a cell mean to the user who supplied the input.
+/// The meaning of the numbers that name a cell to the user who supplied the input.
 enum class CellKind {
   vertices,  ///< the vertices of a simplex, ascending: vertex i is input point i
-  grid,      ///< doubled grid coordinates, one an axis: 2i is voxel i, 2i+1 spans voxels i and i+1
+  grid,      ///< doubled grid coordinates, one per axis: 2i is voxel i, 2i+1 spans voxels i and i+1
   row,       ///< the row of an explicit boundary matrix (one number)
 };
 
 // THE CONTRACT
 // ============
-// Data become a filtration, an engine turns a filtration into a barcode. An engine knows nothing of
-// a complex but what stands here; a complex knows nothing of engines.
+// Data become a filtration, and an engine turns a filtration into a barcode. An engine knows only
+// this contract about a complex; a complex knows nothing about engines.
 //
 // Order. Each filtration owns one strict total order of its cells that refines the value and puts
 // faces before cofaces: (key, dimension, index). Engines only ever compare cells of one dimension
-// (`precedes`); a pairing depends on nothing else. The order is a function of the input alone, so
-// two engines give the same pairs, cell by cell, ties included.
+// (`precedes`); a pairing depends on nothing else. The order is a function of the input alone;
+// therefore two engines give the same pairs, cell by cell, including ties.
 //
 // Cells. `Cell` is a small regular value (copied freely, hashed by std::hash) that is unique within
-// its dimension. The dimension is always passed beside it. Cells that never enter (a distance above
+// its dimension. The dimension is always passed with it. Cells that never enter (a distance above
 // the threshold, an infinite voxel) are never visited, neither as cells nor as facets or cofacets.
 //
-// Chains. A facet comes with its incidence number, an ordinary int. Boundary of boundary is zero
-// over the integers, or at least over the field in use. A facet is visited at most once a cell.
+// Chains. A facet comes with its incidence number, an ordinary int. The boundary of a boundary is
+// zero over the integers, or at least over the field in use. A facet is visited at most once per
+// cell.
 
 // clang-format off
 
@@ -55,7 +56,7 @@ concept Filtration =
       /// Calls `visit(Cell facet, int incidence)` for each facet of a cell of dimension `dim`.
       f.for_each_facet(dim, cell, [](const typename F::Cell&, int) {});
       { f.cell_kind() } -> std::same_as<CellKind>;
-      /// Appends the numbers by which the user knows the cell.
+      /// Appends the numbers that name the cell to the user.
       f.append_input_cell(dim, cell, numbers);
     };
 
@@ -69,31 +70,31 @@ concept CofacetFiltration =
       { f.key(cell) } -> std::unsigned_integral;
       /// Calls `visit(Cell cofacet, int incidence)`, which returns false to stop.
       f.for_each_cofacet(dim, cell, [](const typename F::Cell&, int) { return true; });
-      /// Capability: among the cofacets with the cell's own key the first visited precedes the
-      /// others. `false` is always safe and costs speed. A wrong `true` gives wrong barcodes.
+      /// Capability: the first visited cofacet with the cell's own key precedes all others with
+      /// that key. `false` is always safe and costs speed; a wrong `true` gives wrong barcodes.
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
     };
 
-/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without going
-/// through facets and cofacets. They must be the ones that a search of all facets and cofacets
-/// finds.
+/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without a search
+/// of facets and cofacets. They must be the same pairs that such a search finds.
 template <class F>
 concept ApparentFiltration =
     CofacetFiltration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
-      /// The cofacet, or facet, with which a cell of dimension `dim` is an apparent pair.
+      /// The cofacet, or facet, that forms an apparent pair with a cell of dimension `dim`.
       { f.apparent_cofacet(dim, cell) } -> std::same_as<std::optional<typename F::Cell>>;
       { f.apparent_facet(dim, cell) } -> std::same_as<std::optional<typename F::Cell>>;
-      /// The cells of dimension >= 1 come in that many groups; a cell of a group precedes those of
-      /// later groups.
+      /// The number of groups of the cells of dimension >= 1; a cell of a group precedes the cells
+      /// of later groups.
       { f.group_count() } -> std::convertible_to<std::size_t>;
-      /// The cells of dimension `dim` >= 1 in no apparent pair: `for_each(first, last, visit, on_step)`
-      /// of it calls `visit(Cell)` for those in the groups first … last - 1, youngest first, and
-      /// `on_step()` now and then. Fastest if ranges descend from call to call.
+      /// The cells of dimension `dim` >= 1 in no apparent pair: the member `for_each(first, last,
+      /// visit, on_step)` of the result calls `visit(Cell)` for such cells in the groups first …
+      /// last - 1, youngest first, and calls `on_step()` now and then. It is fastest if ranges
+      /// descend from call to call.
       f.unmatched_cells(dim).for_each(std::size_t{}, std::size_t{},
                                       [](const typename F::Cell&) {}, [] {});
     };
 
-/// Capability: the cells are numbered densely, so that an engine may use arrays in place of hash
+/// Capability: the cells are numbered densely, which lets an engine use arrays instead of hash
 /// tables. `slot` is below `slot_count()` and unique within a dimension.
 template <class F>
 concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename F::Cell& cell) {
@@ -101,17 +102,17 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
   { f.slot(cell) } -> std::convertible_to<std::size_t>;
 };
 
-/// Capability: something is made when a cell, facet or value is first asked for, which takes time and
-/// memory. A function that has a context of its own has it made beforehand, by prepare_cells.
+/// Capability: some data are made when a cell, facet or value is first asked for, which takes time
+/// and memory. A function with its own context has the data made beforehand, by prepare_cells.
 template <class F>
 concept LazyFiltration = Filtration<F> && requires(const F& f, const RunContext& context) {
-  /// Makes it unless that has been done. Stopped, watched and bounded by `context`, which need not
-  /// outlive the filtration.
+  /// Makes these data, unless they exist. `context` limits, watches and stops it; the context need
+  /// not outlive the filtration.
   f.prepare(context);
 };
 
 /// Capability: each 1-cell has the boundary (vertex) - (other vertex), or none at all (a loop).
-/// Union-find computes H0 then. A property of the data for complexes read from files.
+/// Union-find computes H0 then. For complexes read from files, this depends on the data.
 template <class F>
 concept GraphFiltration = Filtration<F> && requires(const F& f) {
   { f.edges_join_vertices() } -> std::same_as<bool>;
@@ -119,8 +120,8 @@ concept GraphFiltration = Filtration<F> && requires(const F& f) {
 
 // clang-format on
 
-/// Makes what a lazy filtration needs for its cells. Whoever lists cells calls it first.
-/// @throws Error (resource) and (cancelled), of that context.
+/// Makes the data that a lazy filtration needs for its cells. Code that lists cells calls it first.
+/// @throws Error (resource) and (cancelled), by the limits of that context.
 template <Filtration F>
 void prepare_cells(const F& filtration, const RunContext& context) {
   if constexpr (LazyFiltration<F>) filtration.prepare(context);

@@ -12,36 +12,36 @@
 
 namespace ph {
 
-/// How far a greedy permutation goes: to the first that is reached.
+/// Limits of a greedy permutation; it ends at the first one reached.
 struct GreedyLimits {
-  Index points = std::numeric_limits<Index>::max();  ///< so many points, >= 1
-  double radius = 0;  ///< a covering radius, >= 0; 0: until every point or a copy of it is there
+  Index points = std::numeric_limits<Index>::max();  ///< number of points, >= 1
+  double radius = 0;  ///< covering radius, >= 0; 0: until every point or a copy of it is taken
 };
 
 /// Points in the order of farthest-point sampling (Gonzalez, Clustering to minimize the maximum
-/// intercluster distance, 1985): after point 0 always the point farthest from all before, the one
-/// of the smallest number among equals.
+/// intercluster distance, 1985): after point 0, each is the point farthest from all points before
+/// it; among equals, the one with the smallest number.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
-  /// Of points[k] the distance to the nearest of points[0 … k); infinite for k = 0. Never
+  /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. Never
   /// increases.
   std::vector<double> radii;
-  /// Each point of the whole set is at most so far from one of `points`.
+  /// Each point of the entire set is at most this far from one of `points`.
   double covering_radius = 0;
 
-  /// The points, ascending: as RipsOptions::vertices wants them.
+  /// The points, ascending, as RipsOptions::vertices requires.
   std::vector<std::uint32_t> ascending() const;
 };
 
-// Both take O(n k) distances for k points of n and O(n) memory.
+// Both functions take O(n k) distances for k points of n and O(n) memory.
 //
-// What a subsample is worth. Let e be its covering radius and the triangle inequality hold. The
-// Rips barcodes of the whole set and of the subsample can be matched such that in the subsample
-// bars are born and die at the same value or later, by 2e at most; only bars no longer than 2e,
-// of either, are left unmatched. See docs/explanation/approximation.md.
+// The quality of a subsample: Let e be its covering radius, and let the triangle inequality hold.
+// The Rips barcodes of the entire set and of the subsample can be matched such that in the
+// subsample bars are born and die at the same value or later, by at most 2e; only bars no longer
+// than 2e, of either, are left unmatched. See docs/explanation/approximation.md.
 
-/// Of points: the same permutation as that of the metric.
-/// @param points one point a row. @param p exponent of PointDistance::minkowski.
+/// For points: the same permutation as for the metric.
+/// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @throws Error (bad_data) as PointMetric; Error (usage) on limits out of range.
 GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits = {},
                                      PointDistance distance = PointDistance::euclidean,
@@ -51,7 +51,7 @@ namespace detail {
 void check(const GreedyLimits& limits, Index size);
 }
 
-/// Of any metric.
+/// For any metric.
 template <Metric M>
 GreedyPermutation greedy_permutation(const M& metric, const GreedyLimits& limits = {},
                                      const RunContext& context = default_context()) {

@@ -16,33 +16,33 @@
 
 namespace ph {
 
-/// What the numbers of an image may be: the types that VoxelType names.
+/// The types that the numbers of an image may have: those that VoxelType names.
 template <class T>
 concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
     std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
 
-/// Numbers of an image that stay where they are: in an array of the caller's, or in a mapped file.
+/// Numbers of an image that are used in place: in an array of the caller, or in a mapped file.
 struct BorrowedVoxels {
   VoxelType type;
-  const void* data;  ///< the first number, aligned; the others follow it
+  const void* data;  ///< the first number, aligned; the others follow
   std::size_t count;
-  /// Lives until the last copy of the numbers is gone; null: the caller keeps them as long.
+  /// Lives until the last copy of the numbers is gone; if null, the caller keeps them that long.
   std::shared_ptr<const void> owner = nullptr;
-  /// Whether they are a mapped file: what was read may leave the memory and come back from the file
-  /// (ph/detail/core/file_pages.hpp). Of an array it would be lost.
+  /// True if they are a mapped file: numbers already read may leave the memory and come back from
+  /// the file (ph/detail/core/file_pages.hpp). Numbers of an array would be lost that way.
   bool is_file = false;
 };
 
-/// The numbers of an image, stored as they came: a byte stays a byte. Read as doubles. Copies share
-/// the numbers; whoever changes them gets numbers of his own. Threads may go on with a copy each as
-/// if it were not shared. What was moved from is empty.
+/// The numbers of an image, stored as they came: a byte stays a byte. They are read as doubles.
+/// Copies share the numbers; changing a copy gives it numbers of its own. Threads may use a copy
+/// each as if it were not shared. A moved-from object is empty.
 class Voxels {
   using Numbers =
       std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
                    std::vector<float>, std::vector<double>, BorrowedVoxels>;
-  /// What copies have in common. They are counted here because the last owner, who changes numbers
-  /// in place, must see that the others, on their threads, are done reading: an acquiring load says
-  /// so, std::shared_ptr::use_count() does not.
+  /// The part that copies share. Owners are counted here because the last owner, which changes
+  /// numbers in place, must be sure that the others, on their threads, are done reading: an
+  /// acquiring load guarantees this, std::shared_ptr::use_count() does not.
   struct Shared {
     Numbers numbers;
     std::atomic<std::size_t> owners{1};
@@ -79,8 +79,8 @@ class Voxels {
     const BorrowedVoxels* borrowed = this->borrowed();
     return borrowed != nullptr ? borrowed->type : static_cast<VoxelType>(shared_->numbers.index());
   }
-  /// The first number, of the type that type() says; the next ones follow it. Null or not to be
-  /// read if there is none.
+  /// The first number, of the type that type() names; the others follow. Null, or not to be read,
+  /// if there are no numbers.
   const void* data() const {
     if (shared_ == nullptr) return nullptr;
     return std::visit([](const auto& all) { return data_of(all); }, shared_->numbers);
@@ -90,26 +90,26 @@ class Voxels {
     return std::visit([](const auto& all) { return size_of(all); }, shared_->numbers);
   }
   bool empty() const { return size() == 0; }
-  /// Whether they stay in a file: they take no memory but while they are read.
+  /// True if they stay in a file: they take memory only while they are read.
   bool is_in_file() const { return is_borrowed() && borrowed()->is_file; }
-  /// Whether they are somebody else's.
+  /// True if they belong to somebody else.
   bool is_borrowed() const { return borrowed() != nullptr; }
-  /// Memory that they take; what is borrowed takes none.
+  /// Memory that the numbers take; borrowed numbers take none.
   std::size_t bytes() const { return is_borrowed() ? 0 : size() * bytes_of(type()); }
   /// Precondition: i < size().
   double operator[](std::size_t i) const {
     return with_voxels(type(), data(),
                        [i](const auto* first) { return static_cast<double>(first[i]); });
   }
-  /// A copy, 8 bytes a number.
+  /// A copy, 8 bytes per number.
   std::vector<double> doubles() const;
   /// Precondition: !empty().
   double front() const { return (*this)[0]; }
   /// Precondition: !empty().
   double back() const { return (*this)[size() - 1]; }
 
-  /// Calls `use(std::vector<T>&)` with the numbers, for the type T that they have, to change them.
-  /// Copies them first if they are shared or borrowed.
+  /// Calls `use(std::vector<T>&)`, which may change the numbers; T is their type. Copies the
+  /// numbers first if they are shared or borrowed.
   template <class Use>
   void change(Use&& use) {
     if (shared_ == nullptr)
@@ -125,7 +125,7 @@ class Voxels {
         shared_->numbers);
   }
 
-  /// Gives doubles.
+  /// Iterates over the numbers as doubles.
   class Iterator {
    public:
     using iterator_category = std::input_iterator_tag;
@@ -182,7 +182,7 @@ class Voxels {
                     kStores<VoxelType::float64, double>,
                 "type() is the place of the alternative");
 
-  Shared* shared_ = nullptr;  // null: no numbers
+  Shared* shared_ = nullptr;  // null if there are no numbers
 };
 
 /// A dense array of any dimension: `extents[k]` voxels along axis k, the last axis fastest (C
@@ -190,20 +190,20 @@ class Voxels {
 struct Image {
   std::vector<Index> extents;
   Voxels values;
-  /// Whether NaN marks an absent voxel, which never enters: neither in sublevel nor in superlevel
-  /// sets. An infinite value is no such mark: it has a sign. Without a mask NaN is refused.
+  /// True if NaN marks an absent voxel, which never enters, in sublevel and in superlevel sets. An
+  /// infinite value is not such a mark, because it has a sign. Without a mask, NaN is an error.
   bool masked = false;
 
   int dim() const { return static_cast<int>(extents.size()); }
 };
 
-/// An image of an array in memory, of any layout: voxel (i, j, …) is
-/// data[i * strides[0] + j * strides[1] + …]. It is borrowed where it lies in C order without gaps,
-/// and copied, in its own type, where it does not. Of borrowed numbers the caller must change none
-/// as long as there is a copy of the image, or of a Cubical of it.
-/// @param strides one an axis, negative ones allowed; empty: C order without gaps.
-/// @param owner keeps the array; null: the caller does.
-/// @throws Error (usage) on a negative extent, on another number of strides than axes, or on more
+/// An image from an array in memory of any layout: voxel (i, j, …) is data[i * strides[0] + j *
+/// strides[1] + …]. The array is borrowed if it is in C order without gaps; otherwise it is copied,
+/// in its own type. The caller must not change borrowed numbers as long as there is a copy of the
+/// image, or a Cubical made from it.
+/// @param strides one per axis, negative ones allowed; if empty, C order without gaps.
+/// @param owner keeps the array; if null, the caller does.
+/// @throws Error (usage) on a negative extent, if there is not one stride per axis, or on more
 /// voxels than a size can count.
 Image image_of_array(VoxelType type, const void* data, std::vector<Index> extents,
                      std::span<const std::ptrdiff_t> strides = {},

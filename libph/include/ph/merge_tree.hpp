@@ -15,20 +15,21 @@ class Cubical;
 class Alpha;
 class ExplicitComplex;
 
-/// Two components become one. The elder lives on: the one born first; among equals the one whose
-/// oldest vertex comes first in the order of the filtration (in Rips: the smaller number).
+/// Two components become one. The elder component lives on. It is the one born first; among equals,
+/// the one whose oldest vertex comes first in the order of the filtration (in Rips, the smaller
+/// number).
 struct Merge {
   double value = 0;        ///< filtration value of the edge
   Index u = 0, v = 0;      ///< the edge that joined them: an edge of a minimum spanning forest
   Index elder = 0;         ///< vertex that gave birth to the surviving component
   Index younger = 0;       ///< vertex that gave birth to the component that dies here
-  Index elder_size = 0;    ///< vertices of the surviving component just before
-  Index younger_size = 0;  ///< vertices of the dying component just before
+  Index elder_size = 0;    ///< vertices of the surviving component just before the merge
+  Index younger_size = 0;  ///< vertices of the dying component just before the merge
   double elder_birth = 0;  ///< filtration value at which each was born
   double younger_birth = 0;
 
   double persistence() const { return value == younger_birth ? 0 : value - younger_birth; }
-  /// Whether both components are there to stay, by size and by the persistence of the younger one.
+  /// True if both components are significant, by size and by the persistence of the younger one.
   bool separates(double min_persistence, Index min_size) const {
     return persistence() >= min_persistence && std::min(elder_size, younger_size) >= min_size;
   }
@@ -36,7 +37,7 @@ struct Merge {
 };
 
 /// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
-/// the Rips filtration this is the single-linkage dendrogram and `u`, `v` are the edges of the
+/// the Rips filtration, this is the single-linkage dendrogram, and `u`, `v` are the edges of the
 /// Euclidean minimum spanning tree (Gower & Ross 1969), which takes near-linear time for millions
 /// of points.
 struct MergeTree {
@@ -44,45 +45,47 @@ struct MergeTree {
   std::vector<Merge> merges;   ///< in the order of the filtration
 
   Index size() const { return static_cast<Index>(births.size()); }
-  /// For each vertex the vertex that gave birth to its component in the sublevel set `value`
-  /// (merges at values <= value done); -1 for a vertex that has not entered.
+  /// For each vertex, the vertex that gave birth to its component in the sublevel set of `value`
+  /// (after all merges at values <= value); -1 for a vertex that has not entered.
   std::vector<Index> components(double value) const;
-  /// The basins that are left when all merges are done but those that separate two of them (see
-  /// Merge::separates): for each vertex one of its basin, the same for all of it; -1 for a vertex
-  /// that never enters. A vertex goes with the side from which the spanning forest reaches it, so
-  /// that a basin grows up to where it meets another one, as in ToMATo (Chazal, Guibas, Oudot &
-  /// Skraba 2013). O(vertices); any cut is as quick as the first.
+  /// The basins that are left after all merges except those that separate two basins (see
+  /// Merge::separates). For each vertex, a vertex of its basin, the same one for the entire basin;
+  /// -1 for a vertex that never enters. A vertex belongs to the side from which the spanning forest
+  /// reaches it, which makes a basin grow until it meets another one, as in ToMATo (Chazal, Guibas,
+  /// Oudot & Skraba 2013). O(vertices); every cut is as quick as the first.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
-  /// A class of H0: what a vertex gave birth to, until it merges into something older.
+  /// A class of H0: the component that a vertex gave birth to, until it merges into something
+  /// older.
   struct Class {
     double birth, death;
     Index vertex;
-    Index merge;  ///< in which it dies, its place in `merges`; -1: it never dies
+    Index merge;  ///< position in `merges` of the merge in which it dies; -1 if it never dies
   };
-  /// All classes, those of no length included, by (birth, death, vertex): the order of a barcode.
+  /// All classes, including those of length zero, by (birth, death, vertex): the order of a
+  /// barcode.
   std::vector<Class> classes() const;
   /// The same classes as branches, by the vertex that gave birth to each.
   std::vector<Branch> branches() const;
 };
 
-/// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices, cluster
-/// n + i is what row i makes.
+/// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices; row i
+/// makes cluster n + i.
 struct LinkageRow {
   Index first = 0, second = 0;  ///< the clusters, the smaller number first
   double value = 0;             ///< filtration value at which they join
   Index size = 0;               ///< vertices of the new cluster
   friend bool operator==(const LinkageRow&, const LinkageRow&) = default;
 };
-/// The merges in the form that programs for hierarchical clustering use (for one, SciPy's
-/// `cluster.hierarchy`): a row a merge, in order; n - 1 of them if all becomes one.
+/// The merges in the form that programs for hierarchical clustering use (for example SciPy's
+/// `cluster.hierarchy`): one row per merge, in order; n - 1 rows if everything becomes one cluster.
 std::vector<LinkageRow> linkage(const MergeTree& tree);
 
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
-/// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
-/// Of a Rips filtration a spanning forest is made, not all edges.
-/// @throws Error (usage) on a Rips that has not all points as vertices (some were chosen, equal
-///         points were to be merged, or births lie beyond the threshold); on an Alpha of a periodic
-///         space.
+/// (V-construction; grid corners in the T-construction), vertices of a complex in input order. For
+/// a Rips filtration, a spanning forest is made instead of all edges.
+/// @throws Error (usage) on a Rips filtration whose vertices are not all points (some were chosen,
+///         equal points were to be merged, or births lie beyond the threshold); on an Alpha of a
+///         periodic space.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
 MergeTree merge_tree(const Alpha& alpha, const RunContext& context = default_context());

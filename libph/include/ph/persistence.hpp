@@ -17,36 +17,39 @@
 
 namespace ph {
 
-/// Whether the edges of a Rips complex are collapsed before its homology is computed: the bars of
+/// Controls the collapse of edges before the homology of a Rips complex is computed. Bars of
 /// positive length stay the same, see docs/explanation/engines/edge-collapse.md.
 enum class Collapse {
-  automatic,  ///< where it is allowed and a sample of the edges says that it pays
+  automatic,  ///< where it is allowed, and worthwhile by a sample of the edges
   on,
   off,
 };
 
-/// What to compute, and how.
+/// The task, and the way to compute it.
 struct Options {
-  /// Highest homology dimension reported; default: 1 for Rips, all dimensions otherwise.
+  /// Highest dimension of homology that is reported; default: 1 for Rips, otherwise all dimensions.
   std::optional<int> max_dim = std::nullopt;
-  int min_dim = 0;  ///< lowest one reported: where that saves work, lower ones are not computed
+  int min_dim = 0;  ///< lowest dimension reported; lower ones are not computed if that saves work
   std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
-  Engine engine = Engine::automatic;  ///< which engine
-  /// Rips only. With it, birth and death cells have the values of their bar, but among the many of
-  /// one value others may be named; zero-length bars and cocycles exclude it.
+  Engine engine = Engine::automatic;  ///< the engine
+  /// Rips only. With a collapse, birth and death cells have the values of their bar, but a
+  /// different cell of the same value may be named; zero-length bars and cocycles exclude a
+  /// collapse.
   Collapse collapse = Collapse::automatic;
-  double min_persistence = 0;  ///< bars with death - birth <= this are left out; < 0: none
+  /// Bars with death - birth <= this are left out; < 0: keeps all bars.
+  double min_persistence = 0;
   Representatives representatives = Representatives::none;  ///< chains that come with the bars
-  bool cells = true;  ///< whether bars know the cells of their birth and death: time and memory
+  /// True if bars have their birth and death cells, which takes time and memory.
+  bool cells = true;
 };
 
 /// The barcode of a filtered complex: `plan`, then `run`.
-/// @throws Error (usage) on a field that is not one, a negative dimension, a NaN, an engine that
-///         cannot do the task or a collapse that would spoil it; Error (resource) beyond the memory
-///         limit; Error (cancelled) on a stop request.
+/// @throws Error (usage) on an invalid field, a negative dimension, a NaN, an engine that cannot do
+///         the task or a collapse that would spoil it; Error (resource) beyond the memory limit;
+///         Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
                     const RunContext& context = default_context());
-/// Gives the input back once the form that was planned is there, unless there are other copies.
+/// Frees the input once the planned form is made, unless there are other copies.
 Barcode persistence(Rips&& rips, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const Cubical& cubical, const Options& options = {},
@@ -57,13 +60,13 @@ Barcode persistence(const Alpha& alpha, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
-// For a complex of your own there is a template: ph/custom.hpp.
+// For a complex of your own, ph/custom.hpp has a template.
 
-/// Data that no complex has been chosen for.
+/// Data for which a complex must still be chosen.
 template <class T>
 concept DataWithoutComplex = std::convertible_to<const T&, PointsView> ||
     std::same_as<T, DistanceMatrix> || std::same_as<T, SparseDistances> || std::same_as<T, Image>;
-/// Does not compile: says which complex to choose.
+/// Does not compile; the error says which complex to choose.
 template <DataWithoutComplex Data>
 Barcode persistence(const Data&, const Options& = {}, const RunContext& = default_context()) {
   static_assert(!DataWithoutComplex<Data>,
@@ -72,48 +75,50 @@ Barcode persistence(const Data&, const Options& = {}, const RunContext& = defaul
   return Barcode(CellKind::vertices);
 }
 
-/// Any of the complexes above, for programs that learn at run time what they have.
+/// Any of the complexes above, for programs that learn the type at run time.
 using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex, Alpha>;
 Barcode persistence(const AnyComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
 
-/// How a barcode will be computed. A function of complex and options alone: it depends neither on
-/// what was made before nor on threads or memory.
+/// The plan of a computation. It is a function of complex and options alone: it depends neither on
+/// earlier computations nor on threads or memory.
 struct RunPlan {
-  Options options;               ///< settled: engine, highest dimension, and collapse on or off
-  std::optional<RipsForm> form;  ///< of a Rips filtration, which it needs; none: another complex
-  std::string reason;            ///< why this engine was chosen, one phrase
-  std::string collapse_reason;   ///< why edges are collapsed, or not; empty: no Rips filtration
+  Options options;  ///< decided: engine, highest dimension, and collapse on or off
+  /// The form of a Rips filtration that it needs; empty for other complexes.
+  std::optional<RipsForm> form;
+  std::string reason;  ///< the reason for this engine, in one phrase
+  /// The reason to collapse edges or not; empty unless it is a Rips filtration.
+  std::string collapse_reason;
 };
-/// Decides as `persistence` does. Of most tasks of a Rips filtration no edge is made; where the
-/// choice depends on the edges they are made, and a sample of them is collapsed.
+/// Decides in the same way as `persistence`. For most tasks on a Rips filtration no edges are made;
+/// if the choice depends on the edges, they are made, and a sample of them is collapsed.
 /// @throws as `persistence`.
 RunPlan plan(const AnyComplex& complex, const Options& options = {},
              const RunContext& context = default_context());
-/// Makes what the plan needs, which `run` would do otherwise. @throws Error (resource, cancelled);
-/// of a Rips filtration as Rips::graph.
+/// Makes the data that the plan needs, which `run` would do otherwise. @throws Error (resource,
+/// cancelled); for a Rips filtration as Rips::graph.
 void build(const AnyComplex& complex, const RunPlan& plan,
            const RunContext& context = default_context());
-/// Computes as planned. @param plan of this complex. @throws as `persistence`.
+/// Computes as planned. @param plan a plan for this complex. @throws as `persistence`.
 Barcode run(const AnyComplex& complex, const RunPlan& plan,
             const RunContext& context = default_context());
-/// Gives the input of a Rips filtration back once the form is there, unless there are other copies.
+/// Frees the input of a Rips filtration once the form is made, unless there are other copies.
 Barcode run(AnyComplex&& complex, const RunPlan& plan,
             const RunContext& context = default_context());
 
-/// What is known of a complex once it is built as planned.
+/// Facts about a complex that is built as planned.
 struct RunFacts {
-  std::optional<Index> vertices;          ///< of a Rips filtration, as all that follows
-  std::optional<std::size_t> edges;       ///< none: points alone are held
-  std::optional<double> threshold;        ///< none: there is no limit
-  std::optional<double> covering_radius;  ///< of the subsample, if there is one
+  std::optional<Index> vertices;          ///< only for a Rips filtration, as everything below
+  std::optional<std::size_t> edges;       ///< empty if only points are held
+  std::optional<double> threshold;        ///< empty if there is no limit
+  std::optional<double> covering_radius;  ///< of the subsample; empty if there is none
 };
-/// Builds what is not there yet. @throws as `build`.
+/// Builds the data that are still missing. @throws as `build`.
 RunFacts facts(const AnyComplex& complex, const RunPlan& plan,
                const RunContext& context = default_context());
 
 /// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
-/// equal, else the first bar that one has and the other has not, in words.
+/// equal, otherwise the first bar that only one of them has, in words.
 std::string first_difference(const Barcode& a, const Barcode& b);
 
 }  // namespace ph

@@ -4,11 +4,11 @@
 /* Persistent homology from C, and from all languages that call C: points, distances or an image
  * in, a barcode out. Link ph::c (libph_c.so).
  *
- * - What can fail returns a ph_status; ph_last_error() then has the words, of this thread.
- * - Handles that a function gives are freed by the caller. No handle keeps what it was made from.
+ * - A function that can fail returns a ph_status; ph_last_error() then has this thread's message.
+ * - The caller frees the handles that a function returns. No handle keeps its input.
  * - No C++ exception leaves the library. Different threads may call at once.
  * - The layout of this header is version PH_ABI_VERSION. Structs may grow at their end: the member
- *   `size`, which ph_options_init fills in, says what the caller knows. */
+ *   `size`, which ph_options_init fills in, tells the library which members the caller knows. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 #define PH_ABI_VERSION 1
-/** That of the library: refuse one that is not PH_ABI_VERSION. */
+/** The version of the library: refuse any other than PH_ABI_VERSION. */
 PH_API int ph_abi_version(void);
-/** As "0.1.0". */
+/** Such as "0.1.0". */
 PH_API const char* ph_version(void);
 
 typedef enum ph_status {
@@ -33,15 +33,15 @@ typedef enum ph_status {
   PH_USAGE = 1,     /**< an argument or option makes no sense */
   PH_BAD_DATA = 2,  /**< the input is malformed or breaks a precondition */
   PH_RESOURCE = 3,  /**< memory or another limit would be exceeded */
-  PH_CANCELLED = 4, /**< ph_options::cancel said so */
+  PH_CANCELLED = 4, /**< ph_options::cancel asked to stop */
   PH_INTERNAL = 5   /**< a bug in libph */
 } ph_status;
 
-/** One line about the last call of this thread that did not return PH_OK; never NULL. */
+/** One line about this thread's last call that did not return PH_OK; never NULL. */
 PH_API const char* ph_last_error(void);
 
 /** How voxels become cubes: a voxel is a vertex, and a cube enters with its last vertex; or a voxel
- * is a top cube, and a face enters with its first one. */
+ * is a top cube, and a face enters with its first cube. */
 typedef enum ph_construction { PH_VERTICES = 0, PH_CELLS = 1 } ph_construction;
 typedef enum ph_distance {
   PH_EUCLIDEAN = 0,
@@ -51,7 +51,7 @@ typedef enum ph_distance {
   PH_COSINE = 4,
   PH_HAMMING = 5
 } ph_distance;
-#ifdef __cplusplus /* Any other number may be passed, too, and is refused. */
+#ifdef __cplusplus /* Any other number may be passed as well, and is refused. */
 typedef enum ph_number : unsigned int {
 #else
 typedef enum ph_number {
@@ -63,29 +63,29 @@ typedef enum ph_number {
   PH_FLOAT64 = 4
 } ph_number;
 
-/** Asked about every 20 ms, on the thread that called. @return not 0 to stop. */
+/** Called about every 20 ms, on the calling thread. @return a number other than 0 to stop. */
 typedef int (*ph_cancel)(void* user);
 
 typedef struct ph_options {
-  size_t size;            /**< of this struct; see ph_options_init */
+  size_t size;            /**< size of this struct; see ph_options_init */
   int32_t max_dim;        /**< highest dimension; -1: 1 for points, all for images */
   int32_t min_dim;        /**< lowest dimension */
   int64_t field;          /**< characteristic of the coefficients: a prime below 2^31 */
-  double threshold;       /**< largest value that enters, inclusive; NaN: none was chosen */
-  double min_persistence; /**< bars with death - birth <= this are left out; < 0: none */
-  int32_t cells;          /**< whether bars know the cells of their birth and death */
-  int32_t threads;        /**< 0: one for each core */
+  double threshold;       /**< largest value that enters, inclusive; NaN: the default */
+  double min_persistence; /**< bars with death - birth <= this are left out; < 0: keeps all */
+  int32_t cells;          /**< not 0: bars have the cells of their birth and death */
+  int32_t threads;        /**< 0: one per core */
   uint64_t memory_limit;  /**< bytes that the computation may take; 0: no limit */
   ph_cancel cancel;       /**< may be NULL */
-  void* cancel_user;      /**< its argument */
+  void* cancel_user;      /**< argument of `cancel` */
   /* points only */
   int32_t distance;   /**< a ph_distance */
   double minkowski_p; /**< >= 1 */
   /* images only */
-  int32_t construction; /**< a ph_construction */
-  int32_t superlevel;   /**< not 0: superlevel sets of f as sublevel sets of -f, by values of -f */
-  int32_t masked;       /**< not 0: NaN marks an absent voxel; else NaN is refused */
-  const uint8_t* periodic; /**< one a axis, not 0: the axis closes up; NULL: none does */
+  int32_t construction;    /**< a ph_construction */
+  int32_t superlevel;      /**< not 0: superlevel sets of f, as sublevel sets of -f */
+  int32_t masked;          /**< not 0: NaN marks an absent voxel; otherwise NaN is an error */
+  const uint8_t* periodic; /**< one per axis, not 0: the axis closes up; NULL: none does */
 } ph_options;
 
 /** Fills in the defaults. */
@@ -101,36 +101,37 @@ typedef struct ph_bar {
 typedef struct ph_barcode ph_barcode;
 
 /** The Vietoris-Rips filtration of points: point i, coordinate k is
- * data[i * row_stride + k * column_stride]. Row after row: strides `columns` and 1. Of equal points
- * the first stands for all, unless bars of length 0 are asked for (min_persistence < 0).
+ * data[i * row_stride + k * column_stride]. Rows one after another have the strides `columns`
+ * and 1. The first of equal points stands for all, unless bars of length 0 are asked for
+ * (min_persistence < 0).
  * @param options NULL: the defaults. @param out set on PH_OK only. */
 PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns,
                                 int64_t row_stride, int64_t column_stride,
                                 const ph_options* options, ph_barcode** out);
 
-/** The same of distances: the strict lower triangle row by row, d(1,0), d(2,0), d(2,1), …;
+/** The same for distances: the strict lower triangle row by row, d(1,0), d(2,0), d(2,1), …;
  * size * (size - 1) / 2 numbers, each >= 0 or +infinity. */
 PH_API ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
                                    ph_barcode** out);
 
 /** The cubical filtration of an image: voxel (i, j, …) is data[i * strides[0] + j * strides[1] +
- * …]. It is read where it is if it is aligned and in C order without gaps, and copied else.
+ * …]. It is read in place if it is aligned and in C order without gaps; otherwise it is copied.
  * @param data numbers of type `type`. @param extents `axes` lengths, 1 to 8 of them.
  * @param strides NULL: C order, the last axis the fastest. */
 PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes,
                                   const int64_t* extents, const int64_t* strides,
                                   const ph_options* options, ph_barcode** out);
 
-/** ph_rips_points of many clouds, several at a time: many small inputs are faster so than by a call
- * for each. ph_options::threads and memory_limit are of all together.
- * @param clouds where each begins: rows[i] points of `columns` numbers, row after row.
+/** ph_rips_points for many clouds, several at a time: for many small inputs this is faster than one
+ * call each. ph_options::threads and memory_limit hold for all inputs together.
+ * @param clouds the start of each: rows[i] points of `columns` numbers, row after row.
  * @param out an array of `count`, set on PH_OK only. Otherwise ph_last_error() names the input,
  * counted from 0. */
 PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
                                       int64_t columns, size_t count, const ph_options* options,
                                       ph_barcode** out);
 
-/** ph_cubical_image of many images of the same extents, each in C order; as above. */
+/** ph_cubical_image for many images of the same extents, each in C order; as above. */
 PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number type, int32_t axes,
                                         const int64_t* extents, size_t count,
                                         const ph_options* options, ph_barcode** out);
@@ -139,14 +140,14 @@ PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number typ
 PH_API size_t ph_barcode_size(const ph_barcode* bars);
 /** An array of all bars, which lives as long as the handle. */
 PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
-/** The cell that gave birth to bar i, death: that killed it. Points: its vertices, ascending.
- * Images: its doubled grid coordinates, 2k for voxel k and 2k + 1 between k and k + 1
+/** The cell that gave birth to bar i; for the death, the cell that killed it. Points: its vertices,
+ * ascending. Images: its doubled grid coordinates, 2k for voxel k and 2k + 1 between k and k + 1
  * (PH_VERTICES).
- * @param numbers set to an array that lives as long as the handle. @return how many numbers; 0 for
- * the death of a bar that lives on, without ph_options::cells, or beyond the last bar. */
+ * @param numbers set to an array that lives as long as the handle. @return the number of numbers; 0
+ * for the death of a bar that lives on, without ph_options::cells, or beyond the last bar. */
 PH_API size_t ph_barcode_birth_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
 PH_API size_t ph_barcode_death_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
-/** NULL is fine. */
+/** The handle may be NULL. */
 PH_API void ph_barcode_free(ph_barcode* bars);
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The umbrella: complexes, engines, barcodes. Files: ph/io/read.hpp, ph/io/write.hpp.
+// The umbrella header: complexes, engines, barcodes. For files see ph/io/read.hpp and
+// ph/io/write.hpp.
 #include "ph/cubical.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/estimate.hpp"

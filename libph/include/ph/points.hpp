@@ -16,7 +16,7 @@
 
 namespace ph {
 
-/// A dense matrix of doubles of another library: one of Eigen's, or a Map or Block of one. Strides
+/// A dense matrix of doubles from another library, such as an Eigen matrix, Map or Block. Strides
 /// are counted in numbers.
 template <class M>
 concept MatrixOfDoubles = requires(const M& m) {
@@ -27,9 +27,9 @@ concept MatrixOfDoubles = requires(const M& m) {
   { m.colStride() } -> std::convertible_to<Index>;
 };
 
-/// Points of R^d that somebody else holds: a matrix with one point a row. The rows may follow each
-/// other (C order) or the columns (F order), with gaps or backwards: strides say so. Copies are
-/// cheap; the numbers must outlive them.
+/// Points of R^d in memory that somebody else holds: a matrix with one point per row. Rows may be
+/// contiguous (C order) or columns (F order), with gaps or backwards, as the strides say. Copies
+/// are cheap; the numbers must outlive them.
 class PointsView {
  public:
   constexpr PointsView() = default;
@@ -37,27 +37,29 @@ class PointsView {
   constexpr PointsView(const double* data, Index rows, Index columns)
       : PointsView(data, rows, columns, columns, 1) {}
   /// @param data coordinate 0 of point 0.
-  /// @param row_stride numbers from a coordinate to that of the next point; may be negative.
-  /// @param column_stride numbers from a coordinate to the next one of its point.
+  /// @param row_stride numbers from a coordinate to the same one of the next point; may be
+  /// negative.
+  /// @param column_stride numbers from a coordinate to the next one of the same point.
   constexpr PointsView(const double* data, Index rows, Index columns, Index row_stride,
                        Index column_stride)
       : data_(data),
         rows_(rows),
         columns_(columns),
-        row_stride_(columns > 0 ? row_stride : 0),  // data may be null: nothing is beside it
+        // Data may be null, and then a stride must not be added to it.
+        row_stride_(columns > 0 ? row_stride : 0),
         column_stride_(column_stride) {}
   template <MatrixOfDoubles M>
   constexpr PointsView(const M& matrix)
       : PointsView(matrix.data(), matrix.rows(), matrix.cols(), matrix.rowStride(),
                    matrix.colStride()) {}
 
-  constexpr Index rows() const { return rows_; }     ///< points
-  constexpr Index cols() const { return columns_; }  ///< coordinates of each
+  constexpr Index rows() const { return rows_; }     ///< number of points
+  constexpr Index cols() const { return columns_; }  ///< number of coordinates of each point
   constexpr Index size() const { return rows_ * columns_; }
   constexpr double operator()(Index i, Index k) const {
     return data_[i * row_stride_ + k * column_stride_];
   }
-  /// Whether the coordinates of each point lie side by side.
+  /// True if the coordinates of each point lie side by side.
   constexpr bool has_whole_rows() const { return column_stride_ == 1 || columns_ <= 1; }
   /// The coordinates of a point. Precondition: has_whole_rows().
   constexpr const double* row(Index i) const { return data_ + i * row_stride_; }
@@ -67,19 +69,19 @@ class PointsView {
   Index rows_ = 0, columns_ = 0, row_stride_ = 0, column_stride_ = 1;
 };
 
-/// Points of R^d, one a row, row after row. What was moved from is empty.
+/// Points of R^d, one per row, row after row. A moved-from object is empty.
 class Points {
  public:
   Points() = default;
   /// All coordinates are 0. @throws Error (usage) on a negative size; std::bad_alloc.
   Points(Index rows, Index columns) : rows_(rows), columns_(columns), data_(zeros(rows, columns)) {}
-  /// One list a point: `Points{{0, 0}, {1, 0}}`. @throws Error (usage) if their lengths differ.
+  /// One list per point: `Points{{0, 0}, {1, 0}}`. @throws Error (usage) if their lengths differ.
   Points(std::initializer_list<std::initializer_list<double>> rows);
-  /// A copy.
+  /// Copies the points.
   explicit Points(PointsView view) : Points(view.rows(), view.cols()) {
     fill([&](Index i, Index k) { return view(i, k); });
   }
-  /// A copy of numbers of any type. Strides as in PointsView.
+  /// Copies numbers of any type. Strides are as in PointsView.
   template <class Number>
   requires std::is_arithmetic_v<Number>
   static Points of(const Number* data, Index rows, Index columns, Index row_stride,
@@ -104,8 +106,8 @@ class Points {
   ~Points() = default;
 
   operator PointsView() const { return {data_.get(), rows_, columns_}; }
-  Index rows() const { return rows_; }     ///< points
-  Index cols() const { return columns_; }  ///< coordinates of each
+  Index rows() const { return rows_; }     ///< number of points
+  Index cols() const { return columns_; }  ///< number of coordinates of each point
   Index size() const { return rows_ * columns_; }
   double* data() { return data_.get(); }
   const double* data() const { return data_.get(); }
@@ -113,13 +115,13 @@ class Points {
   double operator()(Index i, Index k) const { return data_.get()[i * columns_ + k]; }
   std::span<double> row(Index i) { return {data() + i * columns_, to_size(columns_)}; }
   std::span<const double> row(Index i) const { return {data() + i * columns_, to_size(columns_)}; }
-  /// @throws Error (usage) unless there are as many coordinates as columns.
+  /// @throws Error (usage) unless the numbers of coordinates and columns agree.
   void set_row(Index i, std::initializer_list<double> coordinates);
   /// All coordinates, point after point.
   std::span<double> coordinates() { return {data(), to_size(size())}; }
   std::span<const double> coordinates() const { return {data(), to_size(size())}; }
 
-  /// Leaves the first `rows` points. Precondition: rows <= rows().
+  /// Keeps the first `rows` points. Precondition: rows <= rows().
   void keep_rows(Index rows);
 
   friend bool operator==(const Points& a, const Points& b) {
@@ -131,7 +133,8 @@ class Points {
   struct Free {
     void operator()(double* data) const { std::free(data); }
   };
-  // From calloc: pages that nobody writes to take no memory, and realloc gives back the end.
+  // Allocated by calloc: pages that nobody writes to take no memory, and realloc gives back the
+  // end.
   using Data = std::unique_ptr<double, Free>;
   static Data zeros(Index rows, Index columns);
   static std::size_t to_size(Index n) { return static_cast<std::size_t>(n); }
@@ -145,8 +148,8 @@ class Points {
   Data data_;
 };
 
-/// Points whose coordinates lie side by side: those of a view where they do, else a copy.
-/// PointMetric has one, and what looks at whole rows takes its points.
+/// Points whose coordinates lie side by side: the points of a view if they do, otherwise a copy.
+/// PointMetric has one; code that reads entire rows uses its points.
 class WholeRows {
  public:
   explicit WholeRows(PointsView view) : view_(view) {
@@ -161,17 +164,19 @@ class WholeRows {
   PointsView view_;
 };
 
-/// The delay embedding of a time series: point i has its values at times i, i + delay,
-/// i + 2 delay, … (F. Takens, Detecting strange attractors in turbulence, 1981).
-/// @param series one time a row, one quantity a column.
-/// @param dimension times that a point has, > 0. @param delay rows between two of them, > 0.
+/// The delay embedding of a time series: point i has the values at times i, i + delay, i + 2 delay,
+/// … (F. Takens, Detecting strange attractors in turbulence, 1981).
+/// @param series one time per row, one quantity per column.
+/// @param dimension number of times per point, > 0. @param delay rows between two of these times, >
+/// 0.
 /// @return rows - (dimension - 1) * delay points of dimension * columns coordinates: all quantities
-///         of the first time, then those of the next one. Linear in their number.
+///         of the first time, then all quantities of the next. Takes time in proportion to the
+///         number of points.
 /// @throws Error (usage) on a dimension or delay below 1; Error (bad_data) if the series is too
 ///         short for one point.
 Points delay_embedding(PointsView series, Index dimension, Index delay = 1);
 
-/// The largest absolute value of a coordinate; 0 if there is none, ignores NaN.
+/// The largest absolute value of a coordinate, ignoring NaN; 0 if there is none.
 double largest_coordinate(PointsView points);
 
 }  // namespace ph

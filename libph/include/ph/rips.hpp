@@ -19,77 +19,79 @@ namespace ph {
 /// The edges under a Vietoris-Rips filtration; see ph/custom.hpp.
 class RipsGraph;
 
-/// Which Vietoris-Rips filtration is meant. How it is held while its homology is computed is
-/// planned: see RipsForm.
+/// Options that define a Vietoris-Rips filtration. They do not decide the form in which it is held
+/// while its homology is computed: see RipsForm.
 struct RipsOptions {
-  /// Largest distance at which two points are joined, inclusive. Default: the enclosing radius
-  /// min_i max_j d(i,j) if all distances are known (beyond it nothing but one component is left,
-  /// so the barcode is complete), no limit for sparse distances.
+  /// Largest distance at which two points are joined, inclusive. By default: the enclosing radius
+  /// min_i max_j d(i,j) if all distances are known (beyond it only one component is left, and the
+  /// barcode is complete), and no limit for sparse distances.
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
-  /// The points that are vertices, ascending and named as in the input; empty: all. The filtration
-  /// is that of these points alone.
+  /// The points that are vertices, ascending, numbered as in the input; if empty, all points are.
+  /// The filtration is the filtration of these points alone.
   std::vector<std::uint32_t> vertices = {};
   /// The diameter at which each point enters, by point of the input: finite, >= 0; default: 0, or
   /// the births of a DistanceMatrix that has some. An edge enters when the balls of its ends meet,
   /// see VertexWeights. A point born after the threshold is left out.
   std::vector<double> births = {};
-  /// K: each point is born at twice its distance to the measure of its K nearest points, itself
-  /// included (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp). From 1 to the
-  /// number of points; needs all distances, and takes the place of `births`.
+  /// K: each point is born at twice its distance to the measure of its K nearest points, which
+  /// include the point itself (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp).
+  /// K is from 1 to the number of points; it needs all distances and replaces `births`.
   std::optional<Index> dtm_neighbours = std::nullopt;
-  /// How balls grow from a birth on; default: WeightExponent::one with dtm_neighbours, else
-  /// WeightExponent::infinity.
+  /// Growth of the balls after their births; default: WeightExponent::one with dtm_neighbours,
+  /// otherwise WeightExponent::infinity.
   std::optional<WeightExponent> weight_exponent = std::nullopt;
-  /// Farthest-point sampling chooses the vertices, in the place of `vertices`: see
-  /// greedy_permutation. Needs all distances.
+  /// Farthest-point sampling chooses the vertices, instead of `vertices`: see greedy_permutation.
+  /// It needs all distances.
   std::optional<GreedyLimits> subsample = std::nullopt;
-  /// Epsilon > 0: the sparse Rips filtration in its place, with fewer edges and bars that are born
-  /// and die later by a factor of 1 + epsilon at most, see SparseRips. Needs all distances, the
-  /// triangle inequality and no births. The default threshold is where one component is left.
+  /// Epsilon > 0 selects the sparse Rips filtration instead: it has fewer edges, and its bars are
+  /// born and die later by a factor of at most 1 + epsilon, see SparseRips. It needs all distances
+  /// and the triangle inequality, and allows no births. Its default threshold is the value from
+  /// which only one component is left.
   std::optional<double> approximation = std::nullopt;
-  /// True: equal points become one vertex, named by the first of them, unless they have births.
-  /// All bars of positive length stay the same; the bars of length zero that copies cause are left
-  /// out. Cycles stay cycles of all points; cocycles are those of the distinct points. False: each
-  /// point is a vertex. Default: points are merged where that changes nothing that is asked for.
+  /// True: equal points become one vertex, named by the first of them, unless they have births. All
+  /// bars of positive length stay the same; bars of length zero that copies cause are left out.
+  /// Cycles are cycles of all points; cocycles are cocycles of the distinct points. False: each
+  /// point is a vertex. Default: points are merged if that does not change the result.
   std::optional<bool> merge_equal_points = std::nullopt;
-  /// Device::gpu: the spanning forest of H0 is found there, the same one, edge for edge. For
-  /// Euclidean points without births, whose largest coordinate is 0 or of a size from 1e-140 to
-  /// 1e150.
+  /// With Device::gpu, the GPU finds the spanning forest of H0; it is the same forest, edge by
+  /// edge. Only for Euclidean points without births whose largest coordinate is 0 or between 1e-140
+  /// and 1e150.
   Device device = Device::cpu;
 };
 
-/// What an engine sees of a Rips filtration before any form of it is made.
+/// The view that an engine has of a Rips filtration before any form of it is made.
 struct RipsInput {
-  Index size;                        ///< at most so many points become vertices
-  std::optional<PointsView> points;  ///< none: it is a filtration of distances
+  Index size;                        ///< the largest possible number of vertices
+  std::optional<PointsView> points;  ///< empty for a filtration of distances
   const RipsOptions& options;
 };
 
-/// What a sample of pairs of points says of the edges of a Rips filtration.
+/// An estimate of the edges of a Rips filtration from a sample of pairs of points.
 struct RipsSample {
-  Index vertices = 0;             ///< at most so many, equal points counted one by one
-  double pairs = 0;               ///< of these vertices, or those whose distance is known
-  double edges = 0;               ///< about so many pairs are within the threshold
-  std::vector<double> distances;  ///< of pairs taken at random, ascending
+  Index vertices = 0;             ///< an upper bound; equal points are counted separately
+  double pairs = 0;               ///< pairs of these vertices, or pairs whose distance is known
+  double edges = 0;               ///< approximate number of pairs within the threshold
+  std::vector<double> distances;  ///< distances of pairs taken at random, ascending
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
 /// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i,
-/// unless some points are no vertices or equal points are merged. Weighted Rips filtrations have
-/// births of vertices and edges at which balls meet in the place of 0 and distances.
+/// unless some points are left out or equal points are merged. In weighted Rips filtrations,
+/// vertices enter at their births instead of 0, and edges enter when balls meet instead of at the
+/// distance.
 ///
-/// It is a question: the constructor looks at options and coordinates and makes no edge. Forms are
-/// made when a computation needs them, each one once. A value: copies are cheap and share all that
-/// is made; const members may be called by several threads.
+/// An object defines a filtration: the constructor checks options and coordinates and makes no
+/// edges. Forms are made when a computation needs them, each form once. It is a value: copies are
+/// cheap and share everything that is made; several threads may call const members.
 ///
-/// The context of the constructor counts the memory of the forms, and of points that were copied or
-/// moved in; it outlives all copies. The context of a call bounds, watches and stops what that call
-/// makes.
+/// The context of the constructor counts the memory of the forms and of points that were copied or
+/// moved in; it must outlive all copies. The context of a call limits, watches and stops the work
+/// of that call.
 class Rips {
  public:
-  /// @param points one point a row; moved in, or copied: n * d numbers.
+  /// @param points one point per row, moved in or copied (n * d numbers).
   /// @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or negative threshold, an
   /// epsilon that is not above 0, or births with an approximation; Error (usage, bad_data) as
   /// RipsVertices; Error (resource) if the context's memory limit would be exceeded.
@@ -97,54 +99,55 @@ class Rips {
                 const RunContext& context = default_context());
   explicit Rips(PointsView points, RipsOptions options = {},
                 const RunContext& context = default_context());
-  /// The numbers are shared, not copied, here and with SparseDistances.
+  /// Shares the numbers without a copy, as does the constructor from SparseDistances.
   explicit Rips(DistanceMatrix distances, RipsOptions options = {},
                 const RunContext& context = default_context());
-  /// @throws Error (usage) also on options that need all distances.
+  /// @throws Error (usage) also on options that require all distances.
   explicit Rips(SparseDistances distances, RipsOptions options = {},
                 const RunContext& context = default_context());
-  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`. A copy of the object is
-  /// kept; what it refers to has to live as long. A NaN or negative distance is an error once a
-  /// form is made.
+  /// Any metric of the user: an object with `size()` and `operator()(Index, Index)`. A copy of the
+  /// object is kept; data that it refers to must live as long. A NaN or negative distance is an
+  /// error once a form is made.
   template <Metric M>
   explicit Rips(M metric, RipsOptions options = {}, const RunContext& context = default_context())
       : Rips(std::make_shared<const M>(std::move(metric)), std::move(options), context) {}
-  /// The flag complex of any graph, which is the only form that it has.
+  /// The flag complex of any graph, which is its only form.
   explicit Rips(RipsGraph&& graph);
-  /// Of points that the caller keeps as they are while there is a copy of the filtration.
+  /// For points that the caller keeps unchanged as long as there is a copy of the filtration.
   static Rips borrowed(PointsView points, RipsOptions options = {},
                        const RunContext& context = default_context());
 
-  /// Another question about the same data, which are shared. @throws as the constructor; Error
-  /// (usage) if the data are not there any more.
+  /// Another filtration of the same data, which are shared. @throws as the constructor; Error
+  /// (usage) if the data were freed.
   Rips with(RipsOptions options, const RunContext& context = default_context()) const;
 
-  Index size() const;  ///< points of the input, or vertices of the graph that was given
+  Index size() const;  ///< number of points of the input, or of vertices of the given graph
   const RipsOptions& options() const;
-  std::optional<PointsView> points() const;  ///< none: it is of distances or of a graph
-  bool has_input() const;                    ///< points or distances that were not given back
-  bool has_births() const;                   ///< vertices enter at births of their own
-  /// Each point is at most so far from a vertex that the subsample has chosen; nothing if there is
-  /// no subsample. Chooses them if need be. @throws Error (resource, cancelled).
+  std::optional<PointsView> points() const;  ///< empty if it was made from distances or a graph
+  /// True if it holds points or distances that were not freed.
+  bool has_input() const;
+  bool has_births() const;  ///< true if vertices enter at births of their own
+  /// The distance that no point exceeds to the nearest vertex chosen by the subsample; nothing if
+  /// there is no subsample. Chooses the vertices if necessary. @throws Error (resource, cancelled).
   std::optional<double> covering_radius(const RunContext& context = default_context()) const;
 
-  /// True if a form can be made of the input, was made, or is the graph that was given.
+  /// True if a form can be made from the input, was made, or is the given graph.
   bool has_form(RipsForm form) const;
-  /// The graph of a form, made if need be; lives as long as a copy of the filtration does. `edges`
-  /// evaluates O(n^2) distances, or the distances within reach for Euclidean points with a
-  /// threshold.
-  /// @throws Error (usage) if it does not have that form, or the input was forgotten before the
-  /// form was made; Error (bad_data) on a distance that is negative or NaN; Error (resource,
-  /// cancelled); for the forest of another device Error (usage) if that cannot do what is asked
-  /// for, Error (not_built_in) also if there is none, Error (resource) if its memory is too small.
+  /// The graph of a form, made if necessary; it lives as long as a copy of the filtration. The form
+  /// `edges` evaluates O(n^2) distances or, for Euclidean points with a threshold, the distances
+  /// within it.
+  /// @throws Error (usage) if it does not have that form, or if the input was freed before the form
+  /// was made; Error (bad_data) on a distance that is negative or NaN; Error (resource, cancelled).
+  /// For a forest on another device also: Error (usage) if that device cannot do the task, Error
+  /// (not_built_in) if there is none, Error (resource) if its memory is too small.
   const RipsGraph& graph(RipsForm form, const RunContext& context = default_context()) const;
 
-  /// Evaluates some 20 000 distances, and without a threshold all distances of 32 points.
-  /// @throws Error (usage) if there is no input any more; Error (bad_data) as a metric.
+  /// Evaluates about 20 000 distances and, without a threshold, all distances of 32 points.
+  /// @throws Error (usage) if the input was freed; Error (bad_data) as a metric.
   RipsSample sample(const RunContext& context = default_context()) const;
 
-  /// Gives the input back: only what was made is left, of this and of all copies. No other thread
-  /// uses one of them at the time.
+  /// Frees the input, for this object and all copies: only the forms that were made are left. No
+  /// other thread may use one of the copies meanwhile.
   void forget_input();
   /// True if nobody else holds the filtration or its input.
   bool is_only_copy() const;

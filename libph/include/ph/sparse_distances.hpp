@@ -24,7 +24,7 @@ class SparseDistances {
   SparseDistances(Index size, std::vector<WeightedEdge> edges);
 
   /// All pairs of points at Euclidean distance <= radius: O(n log n + edges).
-  /// @param points one point a row. @param radius in units of the coordinates, >= 0.
+  /// @param points one point per row. @param radius in units of the coordinates, >= 0.
   /// @throws Error (usage) on another radius; Error (bad_data) on a coordinate that is not finite.
   static SparseDistances within(PointsView points, double radius);
 

@@ -15,64 +15,65 @@
 
 namespace ph {
 
-// The readers throw as those of read.hpp do. A cloud without points is an error unless
-// options.allow_empty; a NaN coordinate is a hole and no error.
+// The readers throw the same errors as the readers of read.hpp. A cloud without points is an error
+// unless options.allow_empty; a NaN coordinate is a hole, not an error.
 
-/// By content (PCD, PLY, NPY), else text: see read_xyz and read_pts. A cloud without the fields x,
-/// y and z is an error.
+/// Recognises PCD, PLY and NPY by content; anything else is text, see read_xyz and read_pts. A
+/// cloud without the fields x, y and z is an error.
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 
 /// PCD 0.7 (and 0.5, 0.6): ascii, binary, binary_compressed; organised or not; all fields.
 Cloud read_pcd(const Input& input, const ReadOptions& options = {});
 
-/// PLY 1.0: ascii, both byte orders. The vertices with all their scalar properties; lists of a
-/// vertex and all other elements are checked and skipped.
+/// PLY 1.0: ascii, both byte orders. Reads the vertices with all their scalar properties; lists of
+/// a vertex and all other elements are checked and skipped.
 Cloud read_ply(const Input& input, const ReadOptions& options = {});
 
-/// Text, one point a line: x y z, then more columns. Columns are named by a header line if there is
-/// one; without it columns 4 to 6 are red green blue if all are integers of 0…255, else field_3, ….
-/// Coordinates are kept as float64. "nan" is a hole.
+/// Text, one point per line: x y z, then more columns. A header line, if there is one, names the
+/// columns; without it columns 4 to 6 are red green blue if all are integers in 0…255, otherwise
+/// field_3, …. Coordinates are kept as float64. "nan" is a hole.
 Cloud read_xyz(const Input& input, const ReadOptions& options = {});
 
-/// PTS: the number of points on the first line, then x y z, with an intensity (4 columns), red
-/// green blue (6) or both (7) behind them.
+/// PTS: the number of points on the first line, then lines of x y z, followed by an intensity (4
+/// columns), red green blue (6) or both (7).
 Cloud read_pts(const Input& input, const ReadOptions& options = {});
 
-/// The coordinates of all points, holes (NaN) included, in double precision.
+/// The coordinates of all points, including holes (NaN), in double precision.
 /// @throws Error (bad_data) if x, y or z is missing.
 Points points_of(const Cloud& cloud);
 
-/// Array of NumPy (.npy), floats: shape (n, 3) or more columns, or (rows, columns, 3) or more, an
-/// organised cloud. The columns are those of read_xyz without a header; red green blue may be
-/// numbers of 0…1, too. NaN is a hole.
+/// NumPy array (.npy) of floats: shape (n, 3) or more columns, or (rows, columns, 3) or more for an
+/// organised cloud. The columns have the meaning of read_xyz without a header; red green blue may
+/// also be numbers in 0…1. NaN is a hole.
 Cloud read_npy_cloud(const Input& input, const ReadOptions& options = {});
 
-/// A depth image as its file has it.
+/// A depth image in the form of its file.
 struct DepthImage {
   Image depth;          ///< two axes: rows, columns
-  double scale = 1000;  ///< depth units a metre where nobody says them: floats are metres, whole
+  double scale = 1000;  ///< depth units per metre if nothing else says so: floats are metres, whole
                         ///< numbers millimetres
 };
-/// A PNG of one channel, PGM, or an array of NumPy (.npy) with two axes. NaN is an absent pixel: a
-/// hole for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
+/// A PNG of one channel, PGM, or a NumPy array (.npy) with two axes. NaN is an absent pixel: a hole
+/// for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
 
-/// What became of the pixels of a depth image.
+/// Counts of the pixels of a depth image by what became of them.
 struct DepthCounts {
-  Index negative = 0;  ///< of a depth below 0: holes
-  Index unseen = 0;    ///< of a depth, but where the lens shows no ray: holes
+  Index negative = 0;  ///< depth below 0: holes
+  Index unseen = 0;    ///< have a depth, but the lens shows no ray there: holes
 };
 
 /// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
-/// and, with a colour image, rgba (uint32). Depth is along z. One that is not above 0 and finite is
-/// a hole.
+/// and, with a colour image, rgba (uint32). Depth is along z. A depth that is not finite and above
+/// 0 is a hole.
 /// @param depth two axes. @param colour grey or RGB(A), of the same size.
-/// @param camera its size is that of the image, or 0.
-/// @param depth_scale depth units a metre: 1000 for millimetres.
-/// @param counts receives what it says; may be null.
-/// @throws Error (bad_data) if the colours have another size; Error (usage) if the camera has, on
-///         focal lengths or a scale that are not positive, or another number of axes.
+/// @param camera its size must be the size of the image, or 0.
+/// @param depth_scale depth units per metre: 1000 for millimetres.
+/// @param counts receives the counts; may be null.
+/// @throws Error (bad_data) if the colours have another size; Error (usage) if the camera has
+///         another size, on focal lengths or a scale that are not positive, or on another number of
+///         axes.
 Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
                        const Camera& camera, double depth_scale = 1000,
                        DepthCounts* counts = nullptr);
@@ -80,17 +81,20 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
 enum class PcdData { ascii, binary, binary_compressed };
 enum class PlyData { ascii, little_endian };
 
-/// All fields, bytes unchanged; ascii numbers are the shortest text that reads back the same.
+/// Writes all fields with their bytes unchanged; ascii numbers are the shortest text that reads
+/// back the same.
 /// @throws Error (io) if the stream fails.
 void write_pcd(std::ostream& out, const Cloud& cloud, PcdData data = PcdData::binary_compressed);
 
-/// All fields as vertex properties. PLY knows no rgb packed in a float and no 64-bit integers: a
-/// field rgb or rgba becomes red green blue (alpha); fields with a count become name_0, name_1, ….
+/// Writes all fields as vertex properties. PLY has no rgb packed in a float and no 64-bit integers:
+/// a field rgb or rgba becomes red green blue (alpha); fields with a count become name_0, name_1,
+/// ….
 /// @throws Error (bad_data) on a 64-bit integer field; Error (io) if the stream fails.
 void write_ply(std::ostream& out, const Cloud& cloud, PlyData data = PlyData::little_endian);
 
-/// One label a point as NPY, uint32 little endian: shape (height, width) if height > 1, else
-/// (width). @throws Error (bad_data) if there are not so many; Error (io) if the stream fails.
+/// Writes one label per point as NPY, uint32 little endian: shape (height, width) if height > 1,
+/// otherwise (width). @throws Error (bad_data) if the number of labels differs from the number of
+/// points; Error (io) if the stream fails.
 void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
                Index height = 1);
 

@@ -12,26 +12,26 @@
 
 namespace ph {
 
-/// The loops of one part of a volume: bars that come from all layers together, dimension 1 first of
-/// all. Parts work side by side, in any processes on any machines, and send each other messages
-/// until nothing is on its way. Who works when, and in which order messages arrive, is all the
-/// same: the bars are those of the whole volume. See docs/explanation/engines/slabs.md.
+/// The loops of one part of a volume: bars that need all layers together, above all in dimension 1.
+/// Parts work side by side, in any processes on any machines, and send each other messages until
+/// none is on its way. The order of work and of messages does not matter: the bars are always the
+/// bars of the entire volume. See docs/explanation/engines/slabs.md.
 ///
 ///     ImageLoops loops(part);                      // then `part` is joined with the others
-///     loops.begin(whole.told_to_loops(number));    // a few bytes from where the whole is
+///     loops.begin(whole.told_to_loops(number));    // a few bytes from the process with the whole
 ///     do {
 ///       loops.work();
 ///       for (auto& message : loops.take_messages()) send(message.to, message.bytes);
 ///       for (auto& bytes : received()) loops.receive(bytes);
 ///     } while (any part has sent something);
-///     Barcode bars = loops.barcode();              // with those of the others all there are
+///     Barcode bars = loops.barcode();              // the bars of all parts together are complete
 class ImageLoops {
  public:
-  /// @param part right after it was computed, as one part that has_loops(). It lends its voxels and
-  ///        what it knows of loops; bars and seams stay.
+  /// @param part must have just been computed, as a single part with has_loops(). It lends its
+  ///        voxels and its data on loops; it keeps bars and seams.
   /// @param field the characteristic of the coefficients; the same in all parts.
-  /// @param context outlives this.
-  /// @throws Error (usage) if the part is not that, or on a field that is none.
+  /// @param context must outlive this object.
+  /// @throws Error (usage) on any other part, or on an invalid field.
   explicit ImageLoops(ImagePart& part, std::int64_t field = 2,
                       const RunContext& context = default_context());
   ImageLoops(ImageLoops&&) noexcept;
@@ -39,30 +39,32 @@ class ImageLoops {
   ~ImageLoops();
 
   int part() const;
-  /// @param told what `ImagePart::told_to_loops` says of this part. @throws Error (bad_data).
+  /// @param told the result of `ImagePart::told_to_loops` for this part. @throws Error (bad_data).
   void begin(std::span<const std::byte> told);
-  /// Takes in a message for this part; also before it begins. Each must come once, in any order.
-  /// @throws Error (bad_data) if it is damaged, or has come before; what is found from then on is
-  ///         of no use.
+  /// Takes in a message for this part, which may come even before `begin`. Each message must come
+  /// once, in any order.
+  /// @throws Error (bad_data) if a message is damaged or has come before; later results are useless
+  ///         then.
   void receive(std::span<const std::byte> message);
-  /// Whether there is nothing to do until something is received.
+  /// True if there is nothing to do until a message is received.
   bool is_idle() const;
-  /// Works on so many columns until all are done or wait for others. @throws Error (cancelled).
+  /// Works on up to `most` columns, until all are done or wait for other parts. @throws Error
+  /// (cancelled).
   void work(std::size_t most = SIZE_MAX);
 
   struct Message {
     int to;
     std::vector<std::byte> bytes;
   };
-  /// What is to be sent, one for each part at most.
+  /// The messages to send, at most one per part.
   std::vector<Message> take_messages();
 
-  /// Its own bars of positive length. Precondition: all parts are idle, and all that was sent has
-  /// been received.
+  /// The part's own bars of positive length. Precondition: all parts are idle, and every message
+  /// sent has been received.
   Barcode barcode() const;
 
-  /// What has been sent and received so far. Of all parts together as much is received as is sent
-  /// once nothing is on its way.
+  /// Amounts sent and received until now. Once no message is on its way, the sums over all parts
+  /// are equal.
   struct Traffic {
     std::uint64_t columns_sent = 0, columns_received = 0, bytes_sent = 0;
     std::uint64_t messages_sent = 0, messages_received = 0;
