@@ -7,16 +7,17 @@
 
 namespace ph {
 
-/// A base for a complex of your own: it has all members of Filtration but three, which Derived has:
+/// A base class for a complex of your own: it provides all members of Filtration except three,
+/// which Derived provides:
 ///
 ///   double value(Cell) const                    when a cell enters
 ///   void for_each_cell(int dim, visit) const    calls visit(Cell) for each cell of that dimension
 ///   void for_each_facet(int dim, Cell, visit) const    calls visit(Cell, int incidence)
 ///
-/// as ph/filtration.hpp explains them. The others are as below, unless Derived has them, too.
-/// Members of the other capabilities, edges_join_vertices() say, can be added.
-/// @tparam TopDim no cell has a higher dimension.
-/// @tparam C a cell, with <.
+/// ph/filtration.hpp explains them. Derived may replace the other members, defined below. It can
+/// also add members of further capabilities, such as edges_join_vertices().
+/// @tparam TopDim the highest dimension of a cell.
+/// @tparam C the type of a cell; it has the operator <.
 template <class Derived, int TopDim, std::totally_ordered C = Index>
 class CellFiltration {
   static_assert(TopDim >= 0);
@@ -24,7 +25,7 @@ class CellFiltration {
  public:
   using Cell = C;
 
-  /// Found by listing cells.
+  /// Found by listing the cells.
   int top_dim() const {
     for (int dim = TopDim; dim >= 0; --dim) {
       bool has_cell = false;
@@ -33,13 +34,13 @@ class CellFiltration {
     }
     return -1;
   }
-  /// By value, and cells of one value by <.
+  /// Orders by value, and cells of equal value by <.
   bool precedes(const Cell& a, const Cell& b) const {
     const double x = derived().value(a), y = derived().value(b);
     return x != y ? x < y : a < b;
   }
   static CellKind cell_kind() { return CellKind::row; }
-  /// A cell that is a number is called by it.
+  /// A cell that is a number is named by that number.
   void append_input_cell(int, const Cell& cell,
                          std::vector<Index>& numbers) const requires std::integral<Cell> {
     numbers.push_back(static_cast<Index>(cell));

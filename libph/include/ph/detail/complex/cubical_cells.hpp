@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// How Cubical visits cells, facets and cofacets, for who lists them; ph/custom.hpp brings it.
+// How Cubical lists cells, facets and cofacets; included by ph/custom.hpp.
 #include <array>
 #include <atomic>
 #include <bit>
@@ -16,7 +16,7 @@
 namespace ph {
 
 struct Cubical::Table {
-  std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever: never enters
+  std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever if the cell never enters
   std::pmr::vector<double> values;       // by key
 };
 
@@ -38,7 +38,7 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
   if (dim < 0 || dim > dim_ || cells_ == 0) return;
   const auto& keys = table().keys;
   const auto axes = static_cast<std::size_t>(dim_);
-  // One set of odd axes after the other; within a set the cells in grid order.
+  // One set of odd axes after the other; the cells of a set come in grid order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
     std::array<std::uint64_t, kMaxDim> at{};
@@ -95,8 +95,9 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
     std::uint64_t index;
     int incidence;
   };
-  // Visited in grid order, so that the first with the cell's key is the oldest. Without wrapping
-  // that is: downwards from the slowest axis to the fastest, then upwards from the fastest.
+  // Visited in grid order: the first cofacet with the key of the cell is therefore the oldest.
+  // Without wrapping, grid order means downwards from the slowest axis to the fastest, then upwards
+  // from the fastest to the slowest.
   std::array<Cofacet, 2 * kMaxDim> cofacets;
   int down = 0, up = 2 * kMaxDim;
   int sign = 1;
@@ -110,7 +111,7 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
     }
     if (axis.periodic && axis.length == 2) continue;
     const std::uint64_t last = axis.length - 1;
-    // The cell is the upper end of the cofacet below it and the lower end of the one above.
+    // The cell is the upper end of the cofacet below it and the lower end of the cofacet above it.
     if (x > 0) {
       cofacets[down++] = {cell.index - axis.stride, sign};
     } else if (axis.periodic) {
@@ -122,7 +123,7 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
   int count = down;
   for (; up < 2 * kMaxDim; ++up) cofacets[count++] = cofacets[up];
   if (wrapped) {
-    for (int i = 1; i < count; ++i)  // insertion sort: a handful, nearly in order
+    for (int i = 1; i < count; ++i)  // insertion sort: the array is short and nearly sorted
       for (int j = i; j > 0 && cofacets[j].index < cofacets[j - 1].index; --j)
         std::swap(cofacets[j], cofacets[j - 1]);
   }

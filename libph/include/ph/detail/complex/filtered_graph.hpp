@@ -12,29 +12,29 @@
 
 namespace ph {
 
-/// A graph whose vertices and edges have values, as a filtration: all that H0 and its merge tree
-/// need, in 16 bytes an edge. What has the value +infinity never enters. Order: (value, dimension,
-/// vertex number or position of the edge).
+/// A graph whose vertices and edges have values, as a filtration: it is enough for H0 and its merge
+/// tree, and takes 16 bytes per edge. Vertices and edges of value +infinity never enter. Order:
+/// (value, dimension, vertex number or position of the edge).
 class FilteredGraph {
  public:
   using Cell = std::uint32_t;  ///< vertex v is v; the edge at position i of the order is size() + i
 
   /// @param births a value for each vertex 0 … size-1. @param edges in any order, parallel ones and
   /// loops allowed; ties are broken by position. O(vertices log vertices + edges).
-  /// @throws Error (bad_data) on NaN, a vertex out of range or an edge older than one of its ends;
-  ///         Error (resource) beyond 2^32 - 2 cells or the memory limit.
+  /// @throws Error (bad_data) on NaN, on a vertex out of range and on an edge that is older than
+  ///         one of its ends; Error (resource) beyond 2^32 - 2 cells or the memory limit.
   FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,
                 const RunContext& context = default_context());
 
   /// The lower-star filtration of a graph: each edge enters with the later of its ends.
-  /// @param edges their values are ignored. O(vertices log vertices + edges).
+  /// @param edges the edges, whose values are ignored. O(vertices log vertices + edges).
   static FilteredGraph lower_star(std::span<const double> vertex_values,
                                   std::span<const WeightedEdge> edges,
                                   const RunContext& context = default_context());
 
   Index size() const { return static_cast<Index>(births_.size()); }
-  std::size_t edge_count() const { return edges_.size(); }  ///< that enter
-  /// As many as there are, those that never enter included.
+  std::size_t edge_count() const { return edges_.size(); }  ///< number of edges that enter
+  /// Number of vertices, including those that never enter.
   std::size_t vertex_count() const { return births_.size(); }
   static std::size_t vertex_number(Cell vertex) { return vertex; }
 
@@ -66,7 +66,7 @@ class FilteredGraph {
   void for_each_facet(int dim, Cell cell, Visit&& visit) const {
     if (dim != 1) return;
     const Edge& e = edges_[cell - births_.size()];
-    if (e.u == e.v) return;  // the ends of a loop cancel
+    if (e.u == e.v) return;  // the two ends of a loop cancel
     visit(Cell{e.v}, 1);
     visit(Cell{e.u}, -1);
   }
@@ -77,7 +77,7 @@ class FilteredGraph {
     double value;
   };
   FilteredGraph(std::span<const double> births, std::size_t edge_count, const RunContext& context);
-  /// With the value of its later end. @throws Error (bad_data) on a vertex out of range.
+  /// The edge with the value of its later end. @throws Error (bad_data) on a vertex out of range.
   Edge edge_between(const WeightedEdge& edge) const;
 
   /// Edges that never enter come last in the order.
@@ -85,7 +85,7 @@ class FilteredGraph {
 
   std::pmr::vector<double> births_;
   std::pmr::vector<Edge> edges_;  // in the order of the filtration
-  bool none_enters_ = true;       // no vertex
+  bool none_enters_ = true;       // no vertex enters
 };
 
 }  // namespace ph

@@ -18,7 +18,7 @@ struct ValuedSimplex {
   double value = 0;
   std::array<Index, TopDim + 1> vertices{};  ///< ascending; 0 beyond the dimension
 
-  /// Those of its dimension.
+  /// The vertices of a simplex of that dimension.
   std::span<const Index> span(int dim) const {
     return std::span(vertices).first(static_cast<std::size_t>(dim) + 1);
   }
@@ -34,20 +34,21 @@ namespace detail {
                                    std::span<const Index> coface, double coface_value);
 }  // namespace detail
 
-/// A base for a filtration of simplices that a function gives: it has all members of Filtration,
-/// CofacetFiltration and GraphFiltration, so that every engine for any filtration runs on it.
-/// Derived has two:
+/// A base class for a filtration of simplices whose values a function gives: it provides all
+/// members of Filtration, CofacetFiltration and GraphFiltration, which means that every engine for
+/// any filtration runs on it. Derived provides two:
 ///
 ///   Index vertex_count() const                                    vertices are 0, 1, …
-///   double simplex_value(std::span<const Index> vertices) const   when a simplex enters
+///   double simplex_value(std::span<const Index> vertices) const   value at which a simplex enters
 ///
-/// The vertices of a simplex come ascending. A simplex of value +infinity never enters, and none
-/// may enter before one of its faces. Engines throw an Error (bad_data) where they see that one
-/// does, or a NaN. Several threads may ask at once.
+/// The vertices of a simplex are ascending. A simplex of value +infinity never enters, and none may
+/// enter before one of its faces. An engine that notices a violation or a NaN throws an Error
+/// (bad_data). Several threads may call these members at once.
 ///
-/// Nothing is stored. A cell of dimension d costs up to d + 1 calls for its facets, and one for
-/// each vertex for its cofacets. Order: (value, dimension, vertices).
-/// @tparam TopDim no simplex of a higher dimension enters: homology below it is that of all.
+/// Nothing is stored. Listing the facets of a cell of dimension d costs up to d + 1 calls; listing
+/// its cofacets costs one call per vertex. Order: (value, dimension, vertices).
+/// @tparam TopDim simplices of higher dimensions are left out, which does not change the homology
+/// below TopDim.
 template <class Derived, int TopDim>
 class SimplexFiltration {
   static_assert(TopDim >= 0);
@@ -63,7 +64,7 @@ class SimplexFiltration {
     return dim - 1;
   }
   static double value(const Cell& cell) { return cell.value; }
-  /// Ascends as the values do.
+  /// Keys have the same order as values.
   static std::uint64_t key(const Cell& cell) {
     const auto bits = std::bit_cast<std::uint64_t>(cell.value);
     constexpr std::uint64_t sign = std::uint64_t{1} << 63;
@@ -102,7 +103,7 @@ class SimplexFiltration {
     }
   }
 
-  /// The new vertex ascends, and with it the cofacet in the order.
+  /// The new vertex ascends, and the order of the cofacets ascends with it.
   template <class Visit>
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     if (dim >= TopDim) return;
@@ -130,7 +131,7 @@ class SimplexFiltration {
   static Index at(const Cell& cell, int i) { return cell.vertices[static_cast<std::size_t>(i)]; }
 
   /// Visits the simplices of dimension `dim` that begin with the first `count` vertices of a cell,
-  /// until `visit` returns false. @return whether it never did.
+  /// until `visit` returns false. @return true if it never did.
   template <class Visit>
   bool extend(Cell& cell, int count, int dim, const Visit& visit) const {
     const Index n = derived().vertex_count();
@@ -147,7 +148,7 @@ class SimplexFiltration {
   }
   /// @throws Error (bad_data) on NaN.
   double value_of(const Cell& cell, int dim) const {
-    const double value = derived().simplex_value(cell.span(dim)) + 0.0;  // -0 is 0
+    const double value = derived().simplex_value(cell.span(dim)) + 0.0;  // turns -0 into 0
     if (value != value) detail::refuse_nan(cell.span(dim));
     return value;
   }

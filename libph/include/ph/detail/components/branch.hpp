@@ -9,7 +9,8 @@ namespace ph {
 struct Branch {
   double birth = 0;
   double death = kInfinity;
-  Index elder = -1;  ///< the place of that one in the list of branches; -1: it never dies
+  /// Position of the elder branch in the list of branches; -1 if this class never dies.
+  Index elder = -1;
 
   bool is_infinite() const { return elder < 0; }
   double persistence() const { return birth == death ? 0 : death - birth; }

@@ -10,10 +10,11 @@
 
 namespace ph {
 
-/// A map from the cells of one dimension to 32-bit numbers: an array where the filtration numbers
-/// its cells, else a hash table with linear probing. Allocates through the given resource.
+/// A map from the cells of one dimension to 32-bit numbers: an array if the filtration numbers its
+/// cells, otherwise a hash table with linear probing. Allocates through the given resource.
 ///
-/// No FlatMap, whose keys are 64 bits: a cell may be wider, and hashes itself.
+/// FlatMap cannot be used, because its keys have 64 bits; a cell may be wider, and has its own
+/// hash.
 template <Filtration F>
 class CellMap {
  public:
@@ -24,7 +25,7 @@ class CellMap {
 
   std::size_t size() const { return size_; }
 
-  /// The number stored for `cell`, kAbsent if there is none.
+  /// The number stored for `cell`, or kAbsent if there is none.
   std::uint32_t find(const Cell& cell) const {
     if (size_ == 0) return kAbsent;
     for (std::size_t i = start(cell);; i = (i + 1) & mask()) {

@@ -7,14 +7,14 @@
 
 namespace ph {
 
-/// Disjoint sets of 0 … size-1 by rank-free linking with path halving. The caller decides which
-/// root survives.
+/// Disjoint sets of 0 … size-1, with path halving and without ranks. The caller decides which root
+/// survives.
 class DisjointSets {
  public:
   DisjointSets(std::size_t size, std::pmr::memory_resource* memory) : parent_(size, memory) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
-  /// One more set. @return its only member.
+  /// Adds a set. @return its only member.
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     return parent_.back();
@@ -26,11 +26,11 @@ class DisjointSets {
     }
     return v;
   }
-  /// Some time before `find`: memory is slower than what else is done for a set.
+  /// To be called some time before `find`, because memory is slower than the other work on a set.
   void prefetch(std::uint32_t v) const { __builtin_prefetch(&parent_[v]); }
-  /// The same once `prefetch` has had its time: what `find` looks at next.
+  /// To be called once `prefetch` has had its time: it prefetches what `find` reads next.
   void prefetch_parent(std::uint32_t v) const { __builtin_prefetch(&parent_[parent_[v]]); }
-  /// Precondition: `child` is a root, and not that of `root`, which will be its parent.
+  /// Makes `root` the parent of `child`. Precondition: `child` is a root of another set.
   void link(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
 
  private:

@@ -13,7 +13,7 @@
 
 namespace ph {
 
-/// The vertices of each component, given by any of them: a ring for each.
+/// The vertices of each component as a ring, which any of its vertices gives.
 class ComponentRings {
  public:
   ComponentRings(std::size_t size, std::pmr::memory_resource* memory) : next_(size, memory) {
@@ -32,7 +32,8 @@ class ComponentRings {
   std::pmr::vector<std::uint32_t> next_;
 };
 
-/// By vertex: its position in the order of (birth, number). @param births empty: all are equal.
+/// By vertex: its position in the order of (birth, number). @param births if empty, all births are
+/// equal.
 inline std::pmr::vector<std::uint32_t> vertex_ages(std::size_t size, std::span<const double> births,
                                                    std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> order(size, memory);

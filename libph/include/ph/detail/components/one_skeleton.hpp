@@ -17,9 +17,8 @@
 namespace ph {
 
 /// The vertices and edges of a filtration, numbered and sorted for union-find. Vertices are
-/// numbered in the order in which the filtration visits them, those of flag filtrations as there.
-/// Precondition:
-/// `filtration.edges_join_vertices()`.
+/// numbered in the order in which the filtration visits them; flag filtrations number their own
+/// vertices. Precondition: `filtration.edges_join_vertices()`.
 template <GraphFiltration F>
 struct OneSkeleton {
   using Cell = typename F::Cell;
@@ -37,9 +36,10 @@ struct OneSkeleton {
   }
 
   std::pmr::vector<Cell> vertices;
-  std::pmr::vector<std::uint32_t> age;  ///< by vertex number: position in the order
-  std::pmr::vector<Cell> edges;         ///< in the order of the filtration
-  std::pmr::vector<GraphEdge> ends;     ///< by edge: vertex numbers; a loop joins 0 to 0
+  /// By vertex number: position in the order of the filtration.
+  std::pmr::vector<std::uint32_t> age;
+  std::pmr::vector<Cell> edges;      ///< in the order of the filtration
+  std::pmr::vector<GraphEdge> ends;  ///< by edge: vertex numbers; a loop joins 0 to 0
 
  private:
   void take_flag_graph(const F& filtration) {

@@ -14,7 +14,7 @@
 
 namespace ph {
 
-/// Whether H0 of a filtration can be computed by union-find.
+/// True if union-find can compute H0 of a filtration.
 template <Filtration F>
 bool is_graph_like(const F& f) {
   if constexpr (GraphFiltration<F>)
@@ -23,7 +23,7 @@ bool is_graph_like(const F& f) {
     return false;
 }
 
-/// Reports the pairs of H0, with representatives where they are wanted.
+/// Reports the pairs of H0, with representatives if they are wanted.
 /// @param on_killer called with each edge that kills a component.
 template <GraphFiltration F, Field K, class OnKiller>
 void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
@@ -45,7 +45,7 @@ void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const 
       representatives.give(v, std::nullopt, cell_of);
 }
 
-/// H0 by union-find with the elder rule. See merge_tree.hpp for the whole tree.
+/// H0 by union-find with the elder rule. See merge_tree.hpp for the entire tree.
 struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
   static constexpr std::array rips_forms{RipsForm::forest, RipsForm::edges};

@@ -11,15 +11,16 @@
 
 namespace ph {
 
-/// Where an engine puts its pairs: turns cells into bars and drops what the user does not want.
+/// Collects the pairs of an engine: it turns cells into bars and drops bars that the user does not
+/// want.
 template <Filtration F>
 class BarcodeBuilder {
  public:
   using Cell = typename F::Cell;
 
   /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
-  /// `min_persistence` keeps the zero-length bars too. What the bars take counts in the budget of
-  /// the context until they are finished.
+  /// `min_persistence` also keeps bars of length zero. The memory of the bars counts in the budget
+  /// of the context until they are finished.
   BarcodeBuilder(const F& filtration, int max_dim, double min_persistence,
                  Representatives representatives = Representatives::none, bool cells = true,
                  const RunContext& context = default_context())
@@ -33,23 +34,23 @@ class BarcodeBuilder {
         barcode_(filtration.cell_kind()) {}
 
   int max_dim() const { return max_dim_; }
-  /// Bars of lower dimensions are dropped, too; an engine may save itself the work.
+  /// Bars of lower dimensions are dropped as well; an engine need not compute them.
   int min_dim() const { return min_dim_; }
   void set_min_dim(int dim) { min_dim_ = dim; }
-  /// What an engine must hand over with each bar.
+  /// The representatives that an engine must pass with each bar.
   Representatives representatives() const { return representatives_; }
-  /// Whether bars keep their cells.
+  /// True if bars keep their cells.
   bool wants_cells() const { return cells_; }
-  /// Whether an engine must report pairs of equal value.
+  /// True if an engine must report pairs of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
-  /// Says that so many bars may come: a hint.
+  /// Announces that about `count` bars may come: a hint.
   void expect(std::size_t count) {
     require_room(count, 0);
     barcode_.reserve_more(count);
   }
   /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
-  /// @return whether the bar is kept: only then is a representative wanted.
+  /// @return true if the bar is kept; only then is a representative wanted.
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
     if (!wants(dim)) return false;
     const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
@@ -58,14 +59,14 @@ class BarcodeBuilder {
     add(bar, birth, &death);
     return true;
   }
-  /// A class of H_dim that never dies. What would be born at infinity never is.
+  /// A class of H_dim that never dies. A class that would be born at infinity is left out.
   bool add_essential(int dim, const Cell& birth) {
     if (!wants(dim) || filtration_.value(birth) == kInfinity) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
     return true;
   }
-  /// A bar whose cells, if they are kept, are known by their numbers; it never dies if its death is
-  /// infinite.
+  /// Adds a bar whose cells, if they are kept, are given by their numbers; the class never dies if
+  /// its death is infinite.
   bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
                std::span<const Index> death_cell) {
     if (!keeps(bar)) return false;
@@ -74,7 +75,7 @@ class BarcodeBuilder {
     claim_.grow_to(barcode_.bytes());
     return true;
   }
-  /// Several bars without cells.
+  /// Adds several bars without cells.
   void add_bars(std::span<const Bar> bars) {
     require_room(bars.size(), 0);
     barcode_.reserve_more(bars.size());
@@ -82,7 +83,7 @@ class BarcodeBuilder {
       if (keeps(bar)) barcode_.add(bar);
     claim_.grow_to(barcode_.bytes());
   }
-  /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.
+  /// Gives the last bar kept its representative: terms with `cell` and `coefficient()`.
   template <class Terms, Field K>
   void add_representative(int dim, const Terms& terms, const K& field) {
     numbers_.clear();
@@ -94,20 +95,20 @@ class BarcodeBuilder {
     add_representative(numbers_, coefficients_);
   }
 
-  /// The same in terms of the input.
+  /// The same, with the cells given by their numbers in the input.
   void add_representative(std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients) {
     require_room(0, numbers.size(), coefficients.size());
     barcode_.set_representative(representatives_, numbers, coefficients);
     claim_.grow_to(barcode_.bytes());
   }
-  /// @return where the places begin among all that are kept.
+  /// @return the position of the first place among all that are kept.
   std::size_t store_voxels(std::span<const std::uint32_t> places) {
     require_room(0, 0, 0, places.size());
     claim_.grow_to(barcode_.bytes() + places.size_bytes());
     return barcode_.store_voxels(places);
   }
-  /// Gives the bar kept last, which has a representative, its voxels.
+  /// Gives the last bar kept, which must have a representative, its voxels.
   void add_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
                   std::span<const Index> death_voxel) {
     barcode_.set_voxels(voxels, birth_voxel, death_voxel);
@@ -125,10 +126,11 @@ class BarcodeBuilder {
     return wants(bar.dim) && bar.birth < kInfinity &&
            (bar.is_infinite() || bar.persistence() > min_persistence_);
   }
-  /// @throws Error (resource) if what is moved to make room would exceed the budget meanwhile.
+  /// @throws Error (resource) if the arrays that are moved to make room would exceed the budget
+  /// meanwhile.
   void require_room(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                     std::size_t voxels = 0) const {
-    constexpr std::size_t little = std::size_t{4} << 20;  // as much is beside any budget
+    constexpr std::size_t little = std::size_t{4} << 20;  // too little to count in any budget
     const std::size_t moved = barcode_.bytes_moved_for(bars, numbers, coefficients, voxels);
     if (moved > little) context_.memory.require(moved);
   }

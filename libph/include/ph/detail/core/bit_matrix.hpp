@@ -7,7 +7,7 @@
 
 namespace ph {
 
-/// Rows of bits, 64 to a word; what is beyond the last column stays zero.
+/// Rows of bits, 64 to a word; the bits beyond the last column stay zero.
 class BitMatrix {
  public:
   using Word = std::uint64_t;
@@ -27,30 +27,31 @@ class BitMatrix {
   std::pmr::vector<Word> bits_;
 };
 
-/// What the inner loops of the sweep of edge links do to rows of bits; compiled for several
-/// instruction sets, the best of which is chosen at run time.
+/// The inner loops of the sweep of edge links on rows of bits, compiled for several instruction
+/// sets; the best one is chosen at run time.
 namespace bits {
 
 using Word = BitMatrix::Word;
 inline constexpr std::size_t kNone = SIZE_MAX;
 
-/// The first bit that `a` and `b` share; kNone if there is none.
+/// The first bit that `a` and `b` share, or kNone.
 std::size_t first_common(const Word* a, const Word* b, std::size_t words);
 
-/// Whether `a` and `b` share a bit.
+/// True if `a` and `b` share a bit.
 bool any_common(const Word* a, const Word* b, std::size_t words);
 
-/// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
+/// The first word, from `first` on, in which `a` has a bit that `b` lacks, or `words` if there is
+/// none.
 std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
 
-/// out = a & b. @return whether that is not empty.
+/// out = a & b. @return true if the result is not empty.
 bool intersect(const Word* a, const Word* b, Word* out, std::size_t words);
 
 /// Moves the bits that `from` and `mask` share out of `from` into `moved`, from word `first` on.
-/// @return whether anything is left in `from`.
+/// @return true if anything is left in `from`.
 bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words);
 
-/// The first bit of `set` that `row` lacks, `except` apart; kNone if there is none.
+/// The first bit of `set`, other than `except`, that `row` lacks, or kNone.
 std::size_t first_missing(const Word* set, const Word* row, std::size_t except, std::size_t words);
 
 std::size_t count_common(const Word* a, const Word* b, std::size_t words);
@@ -58,11 +59,11 @@ std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 /// row ^= other.
 void add(Word* row, const Word* other, std::size_t words);
 
-/// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return whether that is not zero.
+/// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return true if that is not zero.
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words);
 
-/// Calls `visit(bit)` for each bit set, ascending.
+/// Calls `visit(bit)` for each bit that is set, ascending.
 template <class Visit>
 void for_each(const Word* row, std::size_t first, std::size_t words, Visit&& visit) {
   for (std::size_t k = first; k < words; ++k)

@@ -10,25 +10,26 @@
 
 namespace ph {
 
-/// The name of a way to compute a barcode. Those of libph are listed below; a program can add its
-/// own, see add_engine in ph/custom.hpp.
+/// The name of a way to compute a barcode. The engines of libph are listed below; a program can add
+/// its own with add_engine, see ph/custom.hpp.
 class Engine {
  public:
   constexpr Engine() = default;  ///< Engine::automatic
-  /// @param name that lives as long as the program: words of lower case joined by hyphens.
+  /// @param name must live as long as the program: words in lower case joined by hyphens.
   explicit constexpr Engine(std::string_view name) : name_(name) {}
 
   constexpr std::string_view name() const { return name_; }
   friend constexpr bool operator==(Engine, Engine) = default;
 
-  static const Engine automatic;      ///< chosen from the complex and the task
-  static const Engine standard;       ///< the oracle: textbook reduction, slow, any filtration
-  static const Engine twist;          ///< boundary matrix with clearing
-  static const Engine cohomology;     ///< coboundary matrix with clearing and shortcuts
-  static const Engine union_find;     ///< H0 only
-  static const Engine edge_links;     ///< Rips, H0 to H3: edge by edge
-  static const Engine beta_skeleton;  ///< Rips of points of few coordinates, H0 and H1: no edges
-  static const Engine gradient;       ///< images voxel by voxel, alpha complexes by intervals
+  static const Engine automatic;   ///< chosen from the complex and the task
+  static const Engine standard;    ///< the oracle: textbook reduction, slow, for any filtration
+  static const Engine twist;       ///< boundary matrix with clearing
+  static const Engine cohomology;  ///< coboundary matrix with clearing and shortcuts
+  static const Engine union_find;  ///< H0 only
+  static const Engine edge_links;  ///< Rips, H0 to H3: edge by edge
+  /// Rips of points with few coordinates, H0 and H1: without listing edges.
+  static const Engine beta_skeleton;
+  static const Engine gradient;  ///< images voxel by voxel, alpha complexes by intervals
 
  private:
   std::string_view name_ = "auto";
@@ -43,60 +44,63 @@ inline constexpr Engine Engine::edge_links{"edge-links"};
 inline constexpr Engine Engine::beta_skeleton{"beta-skeleton"};
 inline constexpr Engine Engine::gradient{"gradient"};
 
-/// The engine of that name, or of that earlier name ("lens", "arrows", "union_find"); nothing if
-/// there is none.
+/// The engine with that name or that earlier name ("lens", "arrows", "union_find"), or nothing.
 std::optional<Engine> engine_named(std::string_view name);
-/// The names of all engines, "auto" first, those that the program added last.
+/// The names of all engines: "auto" first, engines that the program added last.
 std::vector<std::string_view> engine_names();
 
-/// How a Rips filtration is held while something is computed of it. Each form is enough for some
-/// tasks; `plan` chooses one (ph/persistence.hpp).
+/// The form in which a Rips filtration is held while something is computed from it. Each form is
+/// enough for some tasks; `plan` chooses one (ph/persistence.hpp).
 enum class RipsForm : std::uint8_t {
   edges,           ///< all edges up to the threshold: enough for everything
-  distinct_edges,  ///< the edges of the distinct points, see RipsOptions::merge_equal_points
-  forest,          ///< a minimum spanning forest: enough for H0, cell by cell, and merge trees
-  points,          ///< the distinct points alone: enough for Engine::beta_skeleton
+  distinct_edges,  ///< the edges of the distinct points; see RipsOptions::merge_equal_points
+  forest,          ///< a minimum spanning forest: enough for H0 with its cells, and for merge trees
+  points,          ///< only the distinct points: enough for Engine::beta_skeleton
 };
 
-/// A Rips filtration of which no form was made yet; see ph/rips.hpp.
+/// A Rips filtration that has no form yet; see ph/rips.hpp.
 struct RipsInput;
 
-/// What an engine is asked for.
+/// A task for an engine.
 struct Task {
   int max_dim = 0;  ///< highest dimension of homology
   Representatives representatives = Representatives::none;
-  bool zero_length = false;  ///< pairs of one value are asked for as well
-  bool collapses = false;    ///< an edge collapse is asked for
-  /// Whether chains are all that must come with the bars, if anything.
+  bool zero_length = false;  ///< pairs of equal value are wanted as well
+  bool collapses = false;    ///< an edge collapse is wanted
+  /// True if the bars need chains at most, and no sets of voxels.
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
 /// How well an engine suits a task.
 struct Suitability {
-  int rank = 0;             ///< the highest is taken; 0: never unless asked for
-  std::string_view reason;  ///< why it is taken, one phrase
+  /// The engine with the highest rank is chosen; one with rank 0 only on request.
+  int rank = 0;
+  std::string_view reason;  ///< the reason for choosing it, in one phrase
 };
 
-/// What an engine says about itself whatever the complex.
+/// Properties of an engine that hold for every complex.
 struct EngineFacts {
   Engine id;
-  bool goes_by_edges = false;  ///< it looks at nothing but vertices and edges
-  bool is_oracle = false;      ///< it is what the others are checked with
+  bool goes_by_edges = false;  ///< it looks at vertices and edges only
+  bool is_oracle = false;      ///< the other engines are checked against it
   bool stops_early = false;    ///< it may stop before it has seen the whole complex
-  /// The highest dimension of which it lists cells for homology up to max_dim; -1: of none.
+  /// The highest dimension of the cells that it lists for homology up to max_dim, or -1 if it lists
+  /// none.
   int (*listed_dim)(int max_dim) = nullptr;
-  /// Bytes that it takes for a Rips complex, whatever the homology; null: those of its adjacency.
+  /// Bytes that it takes for a Rips complex, whatever the homology; null if it takes as much as the
+  /// adjacency.
   double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
-  /// The forms of a Rips filtration that it takes, the best first; empty: all edges or those of the
-  /// distinct points.
+  /// The forms of a Rips filtration that it accepts, best first; empty if it takes all edges or the
+  /// edges of the distinct points.
   std::span<const RipsForm> rips_forms = {};
-  /// What it would need to take the best of these forms; empty: nothing more. Null: whatever
-  /// can_run says of the edges holds.
+  /// The condition that keeps it from taking the best of these forms; empty if nothing does. If
+  /// null, can_run decides by the edges.
   std::string_view (*rips_obstacle)(const RipsInput&, const Task&) = nullptr;
-  /// How well it suits a task by the best of these forms; null: as by the edges.
+  /// How well it suits a task by the best of these forms; if null, suitability is decided by the
+  /// edges.
   Suitability (*rips_suitability)(const RipsInput&, const Task&) = nullptr;
 };
-/// Those of an engine that is there. @throws Error (usage) if none has that name.
+/// The facts of an engine. @throws Error (usage) if none has that name.
 const EngineFacts& facts_of(Engine engine);
 
 }  // namespace ph

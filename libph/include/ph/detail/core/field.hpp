@@ -60,14 +60,15 @@ class Zp {
   std::int64_t p_;
 };
 
-/// Whether `p` can be the characteristic of a field here: a prime below 2^31.
+/// True if `p` can be the characteristic of a field here: a prime below 2^31.
 bool is_field_characteristic(std::int64_t p);
-/// @throws Error (usage) if it is none.
+/// @throws Error (usage) if `p` is not the characteristic of a field here.
 void require_field(std::int64_t p);
 
 namespace detail {
 
-/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
+/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if there is
+/// none.
 template <class Use>
 decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
   if (characteristic == 2) return use(Z2{});

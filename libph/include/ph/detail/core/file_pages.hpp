@@ -5,17 +5,17 @@
 
 namespace ph {
 
-/// Says that what was read or written of a mapped file in this range is not needed for now: it
-/// leaves the process's memory and comes back from the file when it is touched. So does what shares
-/// a page with its ends. A hint. Precondition: all of it is a file that is mapped, shared or never
-/// written to.
+/// Tells the system that this range of a mapped file is not needed for now: the range leaves the
+/// process's memory and comes back from the file when it is touched. The same happens to bytes that
+/// share a page with its ends. This is a hint. Precondition: the range belongs to a mapped file,
+/// and the mapping is shared or never written to.
 void forget_file_pages(const void* begin, std::size_t bytes);
 
-/// Memory that is a file without a name, in the folder for temporary files (TMPDIR): what is not in
-/// use can leave the process's memory, see `forget_file_pages`. Zero at first. Move only.
+/// Memory in a nameless file in the folder for temporary files (TMPDIR): parts that are not in use
+/// can leave the process's memory, see `forget_file_pages`. The bytes are zero at first. Move only.
 class ScratchFile {
  public:
-  /// Both throw Error (io) if there is no such folder, or no room in it.
+  /// Both constructors throw Error (io) if there is no such folder or no room in it.
   ScratchFile();
   explicit ScratchFile(std::size_t bytes) : ScratchFile() { resize(bytes); }
   ScratchFile(ScratchFile&& other) noexcept
@@ -33,7 +33,7 @@ class ScratchFile {
   char* data() { return data_; }
   const char* data() const { return data_; }
   std::size_t size() const { return size_; }
-  /// Keeps what is there; addresses change. @throws as the constructors.
+  /// Keeps the content; addresses change. @throws as the constructors.
   void resize(std::size_t bytes);
 
  private:
@@ -42,14 +42,14 @@ class ScratchFile {
   std::size_t size_ = 0;
 };
 
-/// Tells how much of mapped files is in the memory of the process.
+/// Tells how many bytes of mapped files are in the memory of the process.
 class ResidentFiles {
  public:
   ResidentFiles();
   ResidentFiles(const ResidentFiles&) = delete;
   ResidentFiles& operator=(const ResidentFiles&) = delete;
   ~ResidentFiles();
-  /// 0 where the system does not say. Quick; for several threads.
+  /// 0 if the system does not say. Quick; several threads may call it.
   std::size_t bytes() const;
 
  private:

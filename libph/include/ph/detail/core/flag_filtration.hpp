@@ -10,7 +10,7 @@
 
 namespace ph {
 
-/// An edge of a flag complex and when it enters; u > v.
+/// An edge of a flag complex with the value at which it enters; u > v.
 struct FlagEdge {
   double value;
   std::uint32_t u, v;
@@ -32,23 +32,23 @@ class BinnedEdges;
 template <class F>
 concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
   { f.vertex_count() } -> std::convertible_to<std::size_t>;
-  /// By vertex; empty: they all enter first.
+  /// By vertex; if empty, all vertices enter first.
   { f.vertex_births() } -> std::convertible_to<std::span<const double>>;
-  /// All edges in the order of the filtration, sorted as far as they are asked for.
+  /// All edges in the order of the filtration, sorted as far as anyone has asked.
   { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
   /// By position in their order.
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
-  /// And back, from its vertices.
+  /// The reverse: from the vertices of an edge to its position.
   { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;
-  /// The triangle of the edge at a position and another vertex; the edge is the last of the three.
+  /// The triangle of the edge at a position and another vertex; that edge is the last of its three.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
-  /// The tetrahedron of the edge at a position and two other vertices; the edge is its last one.
+  /// The tetrahedron of the edge at a position and two other vertices; that edge is its last one.
   { f.tetrahedron_cell(i, i, i) } -> std::same_as<typename F::Cell>;
-  /// The simplex of the edge at a position and three other vertices, descending; the edge is its
+  /// The simplex of the edge at a position and three other vertices, descending; that edge is its
   /// last one.
   { f.pentachoron_cell(i, std::array<std::uint32_t, 3>()) } -> std::same_as<typename F::Cell>;
-  /// The triangle of three vertices that edges join, descending.
+  /// The triangle of three vertices, descending, that are joined by edges.
   { f.triangle_cell_of(i, i, i) } -> std::same_as<typename F::Cell>;
 };
 

@@ -12,21 +12,21 @@
 
 namespace ph {
 
-/// Maps doubles other than NaN and -0.0 to integers of the same order: IEEE numbers are ordered as
-/// their bits once negative ones are turned around.
+/// Maps doubles other than NaN and -0.0 to integers in the same order: the bits of IEEE numbers
+/// order them once the bits of negative numbers are inverted.
 inline std::uint64_t ordered_bits(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
 }
 
-/// The number that `ordered_bits` made so.
+/// The number that `ordered_bits` mapped to these bits.
 inline double from_ordered_bits(std::uint64_t bits) {
   return std::bit_cast<double>(bits >> 63 ? bits & ~(std::uint64_t{1} << 63) : ~bits);
 }
 
 namespace detail {
 
-/// Stable; for a handful, as a rule.
+/// A stable sort, meant for a few items.
 template <class T, class Precedes>
 void sort_few(std::span<T> items, const Precedes& precedes) {
   constexpr std::size_t handful = 16;
@@ -44,14 +44,14 @@ void sort_few(std::span<T> items, const Precedes& precedes) {
 
 }  // namespace detail
 
-/// Sorts by a double, ascending; equal values keep their order. Values are not NaN, and zero has
-/// one sign. Two passes of 12 bits, of many items three, the least significant first, over the bits
-/// that begin with the highest one in which two values differ: enough for bytes, 16-bit integers
-/// and float32 of one magnitude. What is equal in them, a few neighbours as a rule, is sorted by
-/// comparison.
-/// @param buffer as many as items. @param value_of maps an item to its value.
-/// @param context polled between passes.
-/// @return where the sorted items are: `items` or `buffer`.
+/// Sorts by a double, ascending; equal values keep their order. Values must not be NaN, and zero
+/// must have one sign. Makes two passes (three for many items) of 12 bits, least significant first,
+/// over the bits that begin with the highest one in which two values differ: enough for bytes,
+/// 16-bit integers and float32 of one magnitude. Items that are equal in these bits, usually a few
+/// neighbours, are sorted by comparison.
+/// @param buffer as long as items. @param value_of maps an item to its value.
+/// @param context is polled between passes.
+/// @return the span that holds the sorted items: `items` or `buffer`.
 /// @throws Error (cancelled); the items are then in any order.
 template <class T, class ValueOf>
 std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueOf&& value_of,
@@ -101,7 +101,7 @@ std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueO
   return items;
 }
 
-/// The same with a buffer of its own.
+/// The same, with its own buffer.
 template <class T, class Allocator, class ValueOf>
 void radix_sort_by_value(std::vector<T, Allocator>& items, ValueOf&& value_of,
                          const RunContext& context = default_context()) {

@@ -6,16 +6,16 @@
 
 namespace ph {
 
-/// Capability: lists the cofacets of a range of keys faster than all of them. A column under
-/// reduction then holds few of those that are younger than its pivot; see CoboundaryColumn.
+/// Capability: lists the cofacets in a range of keys faster than it lists all of them. A column
+/// under reduction then holds few cofacets that are younger than its pivot; see CoboundaryColumn.
 template <class F>
 concept RangeFiltration = CofacetFiltration<F> &&
     requires(const F& f, int dim, const typename F::Cell& cell) {
-  /// `for_each_cofacet` for those with keys first … last alone, in the same order.
+  /// `for_each_cofacet`, but only for cofacets with keys first … last, in the same order.
   f.for_each_cofacet_within(dim, cell, f.key(cell), f.key(cell),
                             [](const typename F::Cell&, int) { return true; });
-  /// A key >= `key`: how far to list at first where cofacets from `key` on are wanted. The
-  /// largest number of the type, if all are to be listed at once.
+  /// A key >= `key`: the end of the first range to list when cofacets from `key` on are wanted. The
+  /// largest number of the type, if all should be listed at once.
   { f.horizon(f.key(cell)) } -> std::same_as<decltype(f.key(cell))>;
 };
 

@@ -7,7 +7,7 @@
 
 namespace ph {
 
-/// Leaves elements that are made without a value as the memory is.
+/// An allocator that leaves elements uninitialised if they are made without a value.
 template <class T>
 class RawAllocator : public std::pmr::polymorphic_allocator<T> {
  public:
@@ -20,8 +20,8 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   }
 };
 
-/// A vector for what is written before it is read: to resize it touches no memory, so that the
-/// threads that write are the first ones to do so.
+/// A vector for data that are written before they are read: resizing it touches no memory, which
+/// means that the writing threads are the first to touch each page.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 

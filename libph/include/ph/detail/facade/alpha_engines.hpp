@@ -5,7 +5,7 @@
 
 namespace ph::detail {
 
-// All engines for any filtration, and that of alpha complexes.
+// All engines for any filtration, and the engine of alpha complexes.
 template <>
 std::vector<EngineFor<Alpha>>& engines<Alpha>();
 

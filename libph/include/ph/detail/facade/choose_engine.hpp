@@ -7,24 +7,25 @@
 
 namespace ph::detail {
 
-/// @throws Error (usage) on dimensions below 0, a min_persistence that is no number, or a
-///         field that is none.
+/// @throws Error (usage) on dimensions below 0, on a min_persistence that is NaN, and on an invalid
+///         field.
 void check(const Options& options);
-/// Of a complex that is taken as it is.
-/// @throws Error (usage) also on an edge collapse, and a field that needs incidence numbers.
+/// For a complex without an edge collapse.
+/// @throws Error (usage) as check, and also on an edge collapse or a field that needs incidence
+/// numbers.
 void check_as_it_is(const Options& options, bool has_incidences);
 
-/// The engine that will run, with the reason.
+/// The engine that will run, and the reason.
 template <Filtration F>
 struct EngineChoice {
   const EngineFor<F>* engine = nullptr;
   std::string_view reason;
 };
 
-/// @throws Error (usage): an engine cannot do a task, or none can.
+/// @throws Error (usage): the engine asked for cannot do the task, or no engine can.
 [[noreturn]] void refuse(Engine asked, const Task& task);
 
-/// The engine asked for, or the one that suits the task best.
+/// The engine asked for, or the engine that suits the task best.
 /// @throws Error (usage) if the engine asked for cannot do it.
 template <Filtration F>
 EngineChoice<F> choose_engine(const F& f, Engine asked, const Task& task) {
@@ -48,7 +49,7 @@ inline Task task_of(const Options& options, int max_dim) {
           options.collapse == Collapse::on};
 }
 
-/// What will be computed: up to which dimension, by which engine.
+/// The highest dimension that will be computed, and the engine.
 template <Filtration F>
 struct Plan {
   int max_dim;
@@ -71,7 +72,7 @@ Plan<F> plan_for(const F& f, const Options& options) {
   return {max_dim, choose_engine(f, options.engine, task_of(options, max_dim))};
 }
 
-/// The plan with what was decided, no edge being collapsed.
+/// The plan with these decisions, without an edge collapse.
 inline RunPlan run_plan(Options options, int max_dim, Engine engine, std::string_view reason) {
   options.max_dim = max_dim;
   options.engine = engine;
@@ -79,7 +80,7 @@ inline RunPlan run_plan(Options options, int max_dim, Engine engine, std::string
   return {std::move(options), std::nullopt, std::string(reason), {}};
 }
 
-/// The barcode by one of the engines of the filtration; no edge is collapsed.
+/// The barcode, computed by one of the engines of the filtration without an edge collapse.
 template <Filtration F>
 Barcode compute(const F& filtration, const Options& options, const RunContext& context) {
   const auto [max_dim, choice] = plan_for(filtration, options);

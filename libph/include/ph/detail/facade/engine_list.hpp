@@ -19,12 +19,13 @@ struct EngineFor : EngineFacts {
 };
 
 /// The engines for one type of filtration: names on the command line, the choice of an engine, the
-/// conformance suite and the benchmarks go through this list. Of a type of your own: those of
+/// conformance suite and the benchmarks all use this list. A type of your own has the engines of
 /// generic_engines.hpp.
 template <Filtration F>
 std::vector<EngineFor<F>>& engines();
 
-// Those of libph have all engines, compiled once: engines times fields are costly to instantiate.
+// The complexes of libph have all engines, compiled once, because every engine with every field is
+// costly to instantiate.
 #define PH_WITH_ALL_ENGINES(...) \
   template <>                    \
   std::vector<EngineFor<__VA_ARGS__>>& engines<__VA_ARGS__>()
@@ -36,7 +37,7 @@ PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::sparse, 1>);
 PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::any, 4>);
 #undef PH_WITH_ALL_ENGINES
 
-/// What all engines say about themselves, in the order of their names in --help.
+/// The facts of all engines, in the order of their names in --help.
 std::vector<EngineFacts>& engine_facts();
 
 }  // namespace ph::detail

@@ -13,7 +13,7 @@
 
 namespace ph::detail {
 
-/// @tparam E what ph/custom.hpp calls an engine.
+/// @tparam E an engine as ph/custom.hpp describes it.
 template <class E>
 constexpr EngineFacts facts() {
   EngineFacts facts{.id = E::id, .listed_dim = [](int max_dim) { return E::listed_dim(max_dim); }};
@@ -36,7 +36,7 @@ constexpr EngineFacts facts() {
   return facts;
 }
 
-/// A filtration that holds the points alone has no cells for the engines that do not take them.
+/// A filtration that holds only points has no cells for engines that do not take points.
 template <class E, Filtration F>
 bool can_run(const F& f, const Task& task) {
   if constexpr (requires { f.points_alone(); }) {
@@ -66,7 +66,7 @@ std::vector<EngineFor<F>> engines_of_list(std::tuple<E...>*) {
   return {engine_for<E, F>()...};
 }
 
-/// The engines for any filtration. Those of one kind of complex beside them: all_engines.hpp.
+/// The engines for any filtration. all_engines.hpp adds the engines for one kind of complex.
 using GenericEngines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine>;
 
 template <Filtration F>

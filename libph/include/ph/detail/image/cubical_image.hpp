@@ -29,21 +29,22 @@ decltype(auto) with_voxels(VoxelType type, const void* data, Use&& use) {
   }
 }
 
-/// Bytes of a number of a type.
+/// Size of a number of a type, in bytes.
 inline std::size_t bytes_of(VoxelType type) {
   return with_voxels(type, nullptr, []<class T>(const T*) { return sizeof(T); });
 }
 
-/// The cubical filtration of an image as the image itself: what an engine needs that goes voxel by
-/// voxel and never lists cells. Points to voxels that outlive it. NaN is a voxel that is absent.
+/// The cubical filtration of an image, given by the image itself: all that an engine needs if it
+/// goes voxel by voxel and never lists cells. It points to voxels, which must outlive it. NaN marks
+/// an absent voxel.
 struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
-  std::vector<bool> periodic;  ///< as many as extents
+  std::vector<bool> periodic;  ///< as many as `extents`
   VoxelType type = VoxelType::float64;
-  const void* voxels = nullptr;     ///< null: there are none
+  const void* voxels = nullptr;     ///< null if there are none
   bool is_in_file = false;          ///< see ph/detail/core/file_pages.hpp
-  bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
-  bool superlevel = false;          ///< values are those of -f
+  bool voxels_are_vertices = true;  ///< V-construction; otherwise the voxels are top cubes (T)
+  bool superlevel = false;          ///< values are the values of -f
   /// Values above it never enter; below +infinity.
   double limit = std::numeric_limits<double>::max();
 
@@ -52,7 +53,7 @@ struct CubicalImage {
     for (const Index n : extents) product *= static_cast<std::size_t>(n);
     return product;
   }
-  /// The value at which a voxel enters; infinity if it is absent.
+  /// The value at which a voxel enters; infinity if the voxel is absent.
   double value(std::size_t i) const {
     const double v =
         with_voxels(type, voxels, [i](const auto* all) { return static_cast<double>(all[i]); });

@@ -13,29 +13,29 @@
 
 namespace ph {
 
-/// The reader of our output went away: the one output error that a program keeps quiet about.
+/// The reader of the output closed it: the only output error that a program does not report.
 class BrokenPipe : public Error {
  public:
   BrokenPipe() : Error(ErrorKind::io, "broken pipe") {}
 };
 
-/// @throws Error (usage) if the name of an output promises a packed file (.gz and the like), which
-/// nothing writes.
+/// @throws Error (usage) if the name of an output promises a compressed file (.gz and the like),
+/// because libph writes none.
 void require_unpacked(const std::string& path);
 
 /// A file that appears under its name only when it is complete.
 ///
 /// A regular file is written into an unnamed or temporary file in the same folder, which `commit`
-/// flushes to disk and renames; it may be the program's own input. Without `commit` nothing is left
-/// behind. What cannot be replaced is written directly: "-" (standard output), /dev/stdout and
-/// other names of descriptors, the file that standard output goes to, devices, FIFOs. A symbolic
-/// link is followed. A file that is replaced passes on its mode, but for set-ID bits, and its owner
-/// and group where that is allowed.
+/// flushes to disk and renames; the output may therefore be one of the program's own inputs.
+/// Without `commit` nothing is left behind. Some targets cannot be replaced and are written
+/// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file that
+/// standard output goes to, devices, FIFOs. A symbolic link is followed. A replaced file passes on
+/// its mode, except for set-ID bits, and also its owner and group if that is allowed.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
-  /// @throws Error (cannot_create) if the file cannot be created where it shall be, Error (usage)
-  ///         as require_unpacked.
+  /// @throws Error (cannot_create) if the file cannot be created at its place, Error (usage) as
+  ///         require_unpacked.
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
@@ -46,18 +46,19 @@ class OutputFile {
   void write(std::span<const std::byte> bytes) {
     write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
-  /// Hands over what was written so far: whoever reads along sees it now.
+  /// Passes on everything written until now, which shows it to a reader that follows the output.
   /// @throws Error (io), BrokenPipe.
   void flush();
-  /// Waits until what was written is on the disk; where that cannot be asked for it does nothing.
+  /// Waits until the bytes written are on the disk; it does nothing if the system cannot tell.
   /// @throws Error (io), BrokenPipe.
   void sync();
-  /// Completes the file, synchronised, and gives it its name. Nothing may be written afterwards.
+  /// Completes the file, flushes it to disk and gives it its name. Nothing may be written after
+  /// that.
   /// @throws Error (io or cannot_create), BrokenPipe.
   void commit();
 
   const std::string& path() const { return path_; }
-  /// The name that the file has until `commit`; empty where it has none. For whoever must end the
+  /// The name of the file before `commit`; empty if it has none. For a caller that must end the
   /// process without unwinding.
   std::string temporary_path() const { return temporary_.string(); }
 
@@ -67,12 +68,12 @@ class OutputFile {
   [[noreturn]] void fail_writing(int error) const;
 
   std::string path_;  // as the user gave it
-  // Paths, not texts: to remove a file must need no memory.
-  std::filesystem::path target_;     // the regular file to become; empty: written directly
-  std::filesystem::path temporary_;  // name until then; empty: none
+  // Paths, not texts, because removing a file must not need memory.
+  std::filesystem::path target_;     // the regular file to create; empty if written directly
+  std::filesystem::path temporary_;  // its name until `commit`; empty if it has none
   std::string buffer_;
   int descriptor_ = -1;
-  bool owned_ = false;  // whether to close the descriptor
+  bool owned_ = false;  // true if the descriptor must be closed
 };
 
 /// A stream into an output file, for writers that take a std::ostream. Errors of the file pass
@@ -91,7 +92,7 @@ class OutputStream : private std::streambuf, public std::ostream {
   OutputFile& file_;
 };
 
-/// Writes a whole file at once.
+/// Writes an entire file at once.
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace ph

@@ -11,7 +11,7 @@
 
 namespace ph {
 
-/// A picture: `channels` samples a pixel (1 grey, 2 grey + alpha, 3 RGB, 4 RGBA), row by row from
+/// A picture: `channels` samples per pixel (1 grey, 2 grey + alpha, 3 RGB, 4 RGBA), row by row from
 /// the top, each 0 … 2^bits - 1.
 struct Raster {
   Index width = 0;
@@ -19,24 +19,25 @@ struct Raster {
   int channels = 1;
   int bits = 8;                        ///< 8 or 16; images with fewer bits are expanded to 8
   std::vector<std::uint16_t> samples;  ///< width * height * channels
-  std::string name = "image";          ///< of the file, printable, for messages
-  double dots_per_inch = 0;            ///< how large it is on paper, when written; 0: not said
+  std::string name = "image";          ///< printable name of the file, for messages
+  /// Resolution to write into the file, for printing; 0 if none.
+  double dots_per_inch = 0;
 
-  /// @throws Error (bad_data) unless there are as many samples as pixels and channels say.
+  /// @throws Error (bad_data) unless the number of samples matches the pixels and channels.
   void check() const;
   std::uint16_t at(Index x, Index y, int channel = 0) const {
     return samples[static_cast<std::size_t>((y * width + x) * channels + channel)];
   }
 };
 
-/// Reads a PNG of at most 65,535 x 65,535 pixels; palettes become RGB(A). No gamma is applied.
-/// @throws Error (bad_data) if it is damaged, truncated or too large for its bytes; Error
-/// (no_input).
+/// Reads a PNG of at most 65,535 x 65,535 pixels; palettes become RGB(A). Gamma is not applied.
+/// @throws Error (bad_data) if the file is damaged, truncated or claims more pixels than its bytes
+/// can hold; Error (no_input).
 Raster read_png(const Input& input);
 Raster read_png(const std::filesystem::path& path, const RunContext* context = nullptr);
 
-/// Writes 8 or 16 bits, as the raster says. @throws Error (bad_data) if its sizes disagree;
-/// Error (io) if the stream fails.
+/// Writes 8 or 16 bits, as the raster says. @throws Error (bad_data) if its sizes disagree; Error
+/// (io) if the stream fails.
 void write_png(std::ostream& out, const Raster& raster);
 
 }  // namespace ph

@@ -22,53 +22,54 @@
 
 namespace ph {
 
-/// Bytes of a name or a cell as one printable line: control characters, newlines and bytes that are
-/// not UTF-8 become `\n`, `\t` or `\xNN`; longer than `max_bytes` is cut and ends in "...".
+/// The bytes of a name or a cell as one printable line: control characters, newlines and bytes that
+/// are not UTF-8 become `\n`, `\t` or `\xNN`; a text longer than `max_bytes` is cut and ends in
+/// "...".
 std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
 
-/// "FILE.npz:NAME" or "FILE.ply:NAME" as the file and the part of it that is asked for; any other
-/// path, and one that is there by the whole name, as the file alone.
+/// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into the file and the part of it that is asked for.
+/// Any other path, and any path that exists under its full name, stands for the file alone.
 std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path);
 
-/// What is wrong at one place of an input. Empty parts are left out of the message.
+/// The problem at one place of an input. Empty parts are left out of the message.
 struct Fault {
-  std::string what;      ///< "ragged row"
-  std::string found;     ///< "2 cells"
-  std::string expected;  ///< "3 cells, as in line 1"
-  Message hint;          ///< what the user can do
+  std::string what;      ///< such as "ragged row"
+  std::string found;     ///< such as "2 cells"
+  std::string expected;  ///< such as "3 cells, as in line 1"
+  Message hint;          ///< advice for the user
 };
 
 /// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
-/// Regular files above 16 MiB are mapped (another program must not shorten them meanwhile), smaller
-/// ones are copied; streams grow within the memory budget of the run. What is compressed with gzip
-/// is unpacked: its extension is then the one before ".gz", and lines and bytes are counted in what
-/// was unpacked. Move only.
+/// Regular files above 16 MiB are mapped (no other program may shorten them meanwhile), smaller
+/// ones are copied; streams grow within the memory budget of the run. Input compressed with gzip is
+/// unpacked: its extension is the one before ".gz", and lines and bytes are counted in the unpacked
+/// text. Move only.
 class Input {
  public:
-  /// What becomes of a regular file that exceeds the memory budget of the run, or unpacks to more.
+  /// The treatment of a regular file that exceeds the memory budget of the run, or unpacks to more.
   enum class Excess {
     refused,
-    stays_in_file,  ///< mapped, what was unpacked from a temporary file, and not counted
-    is_expected,    ///< the same of any file but a small one: only some of it will be looked at
+    stays_in_file,  ///< mapped (unpacked data in a temporary file), not counted
+    is_expected,    ///< the same, except for small files: only a part will be read
   };
 
-  /// @param path a file, a FIFO, or "-" for standard input; a part of one: see split_member.
-  /// @param context its memory budget bounds what a stream may hold and its stop token is polled;
-  ///        it must outlive the input. Without one a stream may take half of the machine's memory.
-  /// @throws Error (no_input) if it is missing, unreadable or a directory; Error (io) if reading
-  ///         breaks off; Error (resource) if a stream or what was unpacked is longer than the
+  /// @param path a file, a FIFO, or "-" for standard input; for a part of a file see split_member.
+  /// @param context its memory budget limits a stream, and its stop token is polled; it must
+  ///        outlive the input. Without a context, a stream may take half of the machine's memory.
+  /// @throws Error (no_input) if the file is missing, unreadable or a directory; Error (io) if
+  ///         reading breaks off; Error (resource) if a stream or the unpacked data exceed the
   ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
                     Excess excess = Excess::refused);
-  /// A view of bytes that outlive the input. @param context as of `open`.
+  /// A view of bytes that outlive the input. @param context as for `open`.
   static Input view(std::string_view bytes, const std::string& name,
                     const RunContext* context = nullptr);
-  /// An input that owns its bytes: what was unpacked from another one.
+  /// An input that owns its bytes, such as bytes unpacked from another input.
   static Input hold(std::pmr::vector<char> bytes, const std::string& name,
                     const RunContext* context = nullptr);
 
-  /// The same of bytes that stay in a file.
+  /// The same for bytes that stay in a file.
   static Input hold(ScratchFile bytes, const std::string& name,
                     const RunContext* context = nullptr);
 
@@ -81,29 +82,31 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< printable
   const std::string& extension() const { return extension_; }  ///< lower case, with its dot
-  /// The part of an archive or of a mesh that was asked for; empty: none.
+  /// The part of an archive or of a mesh that was asked for; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
-  /// Whether it exceeds the memory budget: to be read block by block, see `done_with`.
+  /// True if it exceeds the memory budget: read it block by block then, see `done_with`.
   bool stays_in_file() const;
-  /// For readers that take it as a whole: from now on it is counted, as if it had not exceeded.
+  /// For readers that need the input as a whole: from now on its memory is counted.
   /// @throws Error (resource) if it does not fit.
   void take_memory() const;
-  /// Says that these bytes are not needed for now.
+  /// Announces that these bytes are not needed for now.
   void done_with(std::size_t offset, std::size_t size) const;
-  /// Keeps the bytes where they are though the input is gone; from now on they are not counted.
-  /// Nothing if they are in no file.
+  /// Keeps the bytes at their place even after the input is destroyed; from now on they are not
+  /// counted. Returns null if they are not in a file.
   std::shared_ptr<const void> keep_in_file() const;
 
-  /// @throws Error (resource) if the run's budget does not allow `bytes` more. Allocates nothing.
+  /// @throws Error (resource) if the run's budget does not allow `bytes` more bytes. Allocates
+  /// nothing.
   void require_memory(std::size_t bytes) const;
-  /// Tells the run how many bytes are done, if it wants to know. @throws Error (cancelled) once a
-  /// stop was requested.
+  /// Reports to the run how many bytes are done, if it asked for progress. @throws Error
+  /// (cancelled) once a stop was requested.
   void poll(std::size_t done = 0) const;
 
   /// Throws Error (bad_data): "name: what, found X, expected Y; hint".
   [[noreturn]] void fail(const Fault& fault) const;
-  /// Throws Error (bad_data): "name:line:column: …"; both count from 1, columns in bytes.
+  /// Throws Error (bad_data): "name:line:column: …"; lines and columns count from 1, columns in
+  /// bytes.
   [[noreturn]] void fail_at(std::size_t line, std::size_t column, const Fault& fault) const;
   /// Throws Error (bad_data): "name: byte N: …"; bytes count from 0.
   [[noreturn]] void fail_at_byte(std::size_t offset, const Fault& fault) const;
@@ -120,22 +123,24 @@ class Input {
   const RunContext* context_ = nullptr;
 };
 
-/// The lines of a text input that carry data: comments ('#' to the end of the line, but within a
-/// word, a number of old Windows programs (1.#INF) or quotes, and in an error of a spreadsheet, as
-/// #N/A) and blank lines are skipped, a byte order mark and CRLF are accepted.
+/// The lines of a text input that carry data. Comments and blank lines are skipped; a byte order
+/// mark and CRLF are accepted. A comment runs from '#' to the end of the line, unless the '#' is
+/// inside a word, a number of old Windows programs (1.#INF), quotes, or an error of a spreadsheet
+/// such as #N/A.
 class TextLines {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
 
   /// @throws Error (bad_data) if the input is UTF-16, or binary (NUL bytes in its first 4 KiB).
   explicit TextLines(const Input& input);
-  /// The text that starts at byte `offset`, after `lines_before` lines; not tested for NUL bytes.
+  /// Starts at byte `offset`, after `lines_before` lines; the text is not tested for NUL bytes.
   TextLines(const Input& input, std::size_t offset, std::size_t lines_before);
 
-  /// From now on tabs are no blanks: lines keep those at their ends, and a line of tabs has data.
+  /// From now on tabs do not count as blanks: lines keep tabs at their ends, and a line of tabs has
+  /// data.
   void keep_tabs() { tab_ = ' '; }
   bool keeps_tabs() const { return tab_ == ' '; }
-  /// Goes to the next line with data; false at the end.
+  /// Goes to the next line with data. @return false at the end.
   /// @throws Error (bad_data) on a line longer than kMaxLine.
   bool next();
   /// The current line, without its comment, line end and surrounding blanks.
@@ -144,7 +149,7 @@ class TextLines {
   /// First byte after the current line.
   std::size_t offset() const { return static_cast<std::size_t>(position_ - input_.text().data()); }
   const Input& input() const { return input_; }
-  /// Column, from 1, of a place inside the current line.
+  /// Column, counted from 1, of a place inside the current line.
   std::size_t column(const char* place) const {
     return static_cast<std::size_t>(place - start_) + 1;
   }
@@ -158,37 +163,37 @@ class TextLines {
   const char* start_ = nullptr;  // first byte of the current line
   std::string_view line_;
   std::size_t number_ = 0;
-  std::size_t polled_ = 0;  // offset of the last look at the stop token
-  char tab_ = '\t';         // a blank beside ' '
+  std::size_t polled_ = 0;  // offset at which the stop token was last polled
+  char tab_ = '\t';         // a second blank character beside ' '
 };
 
-/// The names in a header line: a line whose cells are all something else than numbers, and not all
-/// missing values. Cells are split at commas, semicolons or tabs if there are any, else at blanks;
-/// quotes are taken off. Nothing if the line is no header.
+/// The names in a header line: a line without numbers that does not consist of missing values only.
+/// Cells are split at commas, semicolons or tabs if there are any, else at blanks; quotes are taken
+/// off. Nothing if the line is not a header.
 std::vector<std::string> header_names(std::string_view line);
 
-/// Which numbers a cell may hold besides finite ones.
+/// The kinds of numbers that a cell may hold besides finite ones.
 enum class Allow {
   finite,
   infinite,
-  any,      ///< also NaN
+  any,      ///< also an empty cell, before a separator or between quotes: NaN
   missing,  ///< also nothing, before a separator or between quotes: NaN
 };
 
-/// What the user can do about a cell that is no number and does not say itself why.
+/// Advice for the user about a cell that is not a number, if the cell does not explain itself.
 struct CellHints {
-  Message word = {};     ///< where there is something else
-  Message missing = {};  ///< where there is nothing, or NaN
+  Message word = {};     ///< for a cell that holds something else
+  Message missing = {};  ///< for an empty cell or NaN
 };
 
 /// Splits the current line into cells. The first separator of the first line with two cells
-/// (blanks, ',' or ';') is the file's separator: another one is an error, so that a decimal comma
-/// cannot pass for two cells. Blanks around ',' and one separator at the end of the line are
-/// accepted. Where lines keep their tabs, each tab is a separator, too. A cell may stand between
-/// double quotes; separators between them are part of it.
+/// (blanks, ',' or ';') is the separator of the file; another one is an error, because otherwise a
+/// decimal comma could pass for two cells. Blanks around ',' and one separator at the end of the
+/// line are accepted. If lines keep their tabs, each tab is a separator as well. A cell may stand
+/// between double quotes; separators inside them belong to the cell.
 class Cells {
  public:
-  /// @param separator of the cells that are skipped: they may hold blanks, unless it is one.
+  /// @param separator of skipped cells: they may hold blanks, unless the separator is a blank.
   explicit Cells(const TextLines& lines, CellHints hints = {}, char separator = ' ')
       : lines_(&lines),
         hints_(std::move(hints)),
@@ -200,21 +205,21 @@ class Cells {
   /// Starts on a part of the current line.
   void start_in(std::string_view part);
   bool more() const { return position_ != end_; }
-  const char* place() const { return position_; }  ///< where the next cell starts
-  /// Reads one number: decimal, with an optional sign and exponent, independent of the locale.
-  /// @throws Error (bad_data) naming the cell if it is something else, or not in the range of
-  ///         double.
+  const char* place() const { return position_; }  ///< start of the next cell
+  /// Reads one number: decimal, with an optional sign and exponent, regardless of the locale.
+  /// @throws Error (bad_data) naming the cell if it is not a number or out of the range of double.
   double number(Allow allow = Allow::finite);
   /// The same in the precision of T: float or double.
   template <class T>
   T floating(Allow allow);
   /// Reads one integer from `least` to `most`. @throws Error (bad_data) naming the cell.
   std::int64_t integer(std::int64_t least, std::int64_t most, const char* what);
-  /// Reads one integer of 0 … 2^64 - 1.
+  /// Reads one integer in 0 … 2^64 - 1.
   std::uint64_t unsigned64(const char* what);
   /// The next cell as it is written.
   std::string_view word();
-  /// Goes past the next cell, whatever it holds, nothing too. @return it as it is written.
+  /// Skips the next cell, whatever it holds, even if it is empty. @return the cell as it is
+  /// written.
   std::string_view skip();
   /// @throws Error (bad_data) naming the next cell, if there is one. @param expected "i j distance"
   void expect_end(std::string_view expected);
@@ -233,9 +238,9 @@ class Cells {
   CellHints hints_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
-  char tab_;            // a blank beside ' '
+  char tab_;            // a second blank character beside ' '
   char skipped_to_;     // separator of cells that are skipped
-  char separator_ = 0;  // 0: not seen yet
+  char separator_ = 0;  // 0 if not seen yet
 };
 
 /// `a * b`, or nothing if it exceeds size_t.
@@ -258,7 +263,7 @@ requires std::is_arithmetic_v<T> T load(const std::byte* from, std::endian order
   return value;
 }
 
-/// Walks through the bytes of a binary input and never beyond them.
+/// Reads the bytes of a binary input one after another and never beyond the end.
 class BinaryCursor {
  public:
   BinaryCursor(const Input& input, std::endian order, std::size_t offset = 0)
@@ -272,12 +277,13 @@ class BinaryCursor {
   T read(const char* what) {
     return load<T>(take(sizeof(T), what).data(), order_);
   }
-  /// A count from a header, checked against the bytes that are there before anything is allocated.
+  /// Reads a count from a header and checks it against the remaining bytes before anything is
+  /// allocated.
   /// @throws Error (bad_data) if it is negative or `bytes_each` times it exceeds what remains.
   std::size_t read_count(const char* what, std::size_t bytes_each);
   /// The next `size` bytes. @throws Error (bad_data) "truncated".
   std::span<const std::byte> take(std::size_t size, const char* what);
-  /// @throws Error (bad_data) "trailing data" unless everything was read.
+  /// @throws Error (bad_data) "trailing data" unless all bytes were read.
   void expect_end() const;
 
  private:

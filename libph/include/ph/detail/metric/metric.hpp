@@ -8,13 +8,13 @@
 
 namespace ph {
 
-/// What is thrown for a coordinate that is infinite or NaN: its place and what was found are
-/// marked.
+/// The error for a coordinate that is infinite or NaN; the message marks its place and its value.
 Error not_finite(Index point, Index coordinate, double found);
 
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
 /// +infinity means that two points are never joined. The triangle inequality is not required.
-/// Several threads may ask at once. Points are no metric: they need a distance.
+/// Several threads may ask for distances at once. Points alone are not a metric: they need a
+/// distance.
 template <class M>
 concept Metric =
     !std::convertible_to<const M&, PointsView> && requires(const M& m, Index i, Index j) {
@@ -22,7 +22,7 @@ concept Metric =
   { m(i, j) } -> std::convertible_to<double>;
 };
 
-/// Any metric behind one type, so that what is done with it is compiled once. Keeps a reference.
+/// Any metric behind one type, which lets code that uses it be compiled once. It keeps a reference.
 class AnyMetric {
  public:
   template <Metric M>
@@ -48,7 +48,7 @@ class AnyMetric {
   void (*row_)(const void*, Index, double*);
 };
 
-/// The distances between rows of a matrix that libph knows by name.
+/// Distances between rows of a matrix that libph knows by name.
 enum class PointDistance {
   euclidean,
   manhattan,
@@ -58,24 +58,24 @@ enum class PointDistance {
   hamming,    ///< the number of coordinates that differ
 };
 
-/// The name of a distance, as JSON of bars has it: "euclidean", "minkowski:3".
+/// The name of a distance as in the JSON of bars: "euclidean", "minkowski:3".
 /// @param p exponent of PointDistance::minkowski.
 std::string metric_name(PointDistance distance, double p = 2);
 
-/// What computes.
+/// The device that computes.
 enum class Device {
   cpu,
-  gpu,  ///< of NVIDIA, in a libph that was built with PH_WITH_CUDA
+  gpu,  ///< an NVIDIA GPU, if libph was built with PH_WITH_CUDA
 };
 
-/// A set of points with one of the named distances. Keeps a view of the points.
-/// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
+/// A set of points with one of the named distances. It keeps a view of the points. Coordinates of
+/// any finite size are allowed: sums of squares are scaled before they overflow.
 class PointMetric {
  public:
-  /// @param points one point a row, finite coordinates. @param p exponent of `minkowski`.
-  /// @param largest the largest absolute coordinate of the cloud that these are some points of,
-  ///        whose distances they have to the last bit; 0: they are all.
-  /// @throws Error (bad_data) on a coordinate that is not finite or a zero row with `cosine`;
+  /// @param points one point per row, finite coordinates. @param p exponent of `minkowski`.
+  /// @param largest if these points are a part of a cloud: the largest absolute coordinate of that
+  ///        cloud, which makes distances equal to the last bit. 0 if these are all points.
+  /// @throws Error (bad_data) on a coordinate that is not finite or on a zero row with `cosine`;
   ///         Error (usage) if p < 1.
   explicit PointMetric(PointsView points, PointDistance distance = PointDistance::euclidean,
                        double p = 2, double largest = 0);
@@ -83,10 +83,10 @@ class PointMetric {
   Index size() const { return points().rows(); }
   /// @throws Error (bad_data) if the distance exceeds the largest double.
   double operator()(Index i, Index j) const;
-  /// Their coordinates lie side by side.
+  /// The points, with their coordinates side by side.
   PointsView points() const { return points_.view(); }
-  /// Whether distances are square roots of sums of squares, none of which overflows; only a sum
-  /// below the least plain square, zero apart, may have lost digits.
+  /// True if distances are square roots of sums of squares, none of which overflows; only a
+  /// non-zero sum below the least plain square may have lost digits.
   bool is_plain_euclidean() const {
     return distance_ == PointDistance::euclidean && !may_need_scaling_;
   }

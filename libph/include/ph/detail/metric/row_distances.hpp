@@ -7,15 +7,17 @@
 
 namespace ph {
 
-/// The distances from one point to all before it, a row of the lower triangle at a time: the same
-/// numbers that the metric gives, faster where many can be computed at once. Keeps a reference.
+/// The distances from one point to all points before it, one row of the lower triangle at a time:
+/// the same numbers as from the metric, but faster where many can be computed at once. It keeps a
+/// reference.
 template <Metric M>
 class RowDistances {
  public:
   RowDistances(const M& metric, std::pmr::memory_resource*) : metric_(metric) {}
-  /// How many numbers a row must have room for.
+  /// The number of entries that a row must have room for.
   Index row_capacity() const { return metric_.size(); }
-  /// out[j] = d(i, j), j < i; what follows is overwritten. @throws what the metric throws.
+  /// out[j] = d(i, j), j < i; entries after these are overwritten. @throws the same errors as the
+  /// metric.
   void operator()(Index i, double* out) const {
     for (Index j = 0; j < i; ++j) out[j] = metric_(i, j);
   }
@@ -44,11 +46,12 @@ class RowDistances<PointMetric> {
 
  private:
   const PointMetric& metric_;
-  std::pmr::vector<double> blocks_;  // of points, axis by axis; empty: one pair at a time
+  // The points, axis by axis; empty if distances are computed one pair at a time.
+  std::pmr::vector<double> blocks_;
 };
 
-/// The largest number of a row of distances; each is made the new maximum of its column where it
-/// is larger. @return the largest, or NaN if a number is negative or NaN; -0.0 becomes +0.0.
+/// Returns the largest number of a row of distances, or NaN if a number is negative or NaN; -0.0
+/// becomes +0.0. Also updates the maximum of each column.
 double take_maxima(double* row, Index count, double* of_columns);
 
 }  // namespace ph

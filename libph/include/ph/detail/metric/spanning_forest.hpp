@@ -14,21 +14,21 @@
 
 namespace ph {
 
-// The minimum spanning forest of a finite set with distances: of all pairs at finite distance <=
-// limit those that Kruskal's algorithm takes in the order (distance, larger end, smaller end). The
-// order is total, hence there is one such forest. It has the components of the whole graph up to
-// any distance, and so the same H0 pairs, cell by cell; see
+// The minimum spanning forest of a finite set with distances: among all pairs at finite distance <=
+// limit, the pairs that Kruskal's algorithm takes in the order (distance, larger end, smaller end).
+// The order is total, which makes the forest unique. It has the same components as the entire graph
+// up to any distance, and therefore the same H0 pairs, cell by cell; see
 // docs/explanation/engines/spanning-forest.md.
 //
 // Edges come with u > v, in any order; fewer than 2^32 - 1 points.
 
-/// By Prim's algorithm (1957): each pair is looked at once and no edge but the forest's is kept.
-/// O(n^2) time, O(n) memory.
+/// Uses Prim's algorithm (1957): each pair is looked at once, and only edges of the forest are
+/// kept. O(n^2) time, O(n) memory.
 /// @param distance_of(i, j) for i > j: >= 0 or infinite.
 template <class DistanceOf>
 FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
                           const RunContext& context) {
-  // A vertex that is not in the forest yet, with its first edge to the tree that grows.
+  // A vertex that is not in the forest yet, with its first edge to the growing tree.
   struct Outside {
     FlagEdge edge;
     std::uint32_t vertex;
@@ -38,12 +38,12 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
   std::pmr::vector<Outside> outside(static_cast<std::size_t>(size), &context.memory);
   for (std::uint32_t v = 0; v < outside.size(); ++v) outside[v] = {{never, 0, 0}, v};
   Ticker ticker(context, "spanning forest", outside.size());
-  std::size_t left = outside.size(), next = 0;  // `next` enters the tree
+  std::size_t left = outside.size(), next = 0;  // `next` is the vertex that enters the tree
   while (left > 0) {
     const FlagEdge& first = outside[next].edge;  // if it is too long, another tree begins
     if (first.value <= limit && first.value < never) forest.push_back(first);
     const std::uint32_t entered = outside[next].vertex;
-    // The others stay in order, which is that of a matrix in memory.
+    // The other vertices keep their order, which is the order of a matrix in memory.
     std::size_t kept = 0, nearest = 0;
     for (std::size_t i = 0; i < left; ++i) {
       Outside w = outside[i];
@@ -63,15 +63,15 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
   return forest;
 }
 
-/// Whether `spanning_forest` of points takes less than a look at each pair.
+/// True if `spanning_forest` of points is faster than a look at each pair.
 bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 
-/// Of points, by Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
-/// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010): O(n log n) as a rule
+/// For points: Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
+/// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010). Usually O(n log n)
 /// in a space of few dimensions, never more than O(n^2 log n). O(n) memory.
-/// @param points one point a row. @param p exponent of PointDistance::minkowski.
-/// @param largest as for PointMetric: of some points of a cloud.
-/// Precondition: has_fast_spanning_forest(points, distance).
+/// @param points one point per row. @param p exponent of PointDistance::minkowski.
+/// @param largest as for PointMetric, if the points are a part of a cloud. Precondition:
+/// has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context, double largest = 0);

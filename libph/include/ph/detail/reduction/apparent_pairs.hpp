@@ -7,10 +7,10 @@
 
 namespace ph {
 
-/// Apparent pairs (Bauer, Ripser, section 3.5): a cell and a cofacet of equal key, the cofacet the
-/// oldest of the cell's cofacets and the cell the youngest of the cofacet's facets. Each is a
-/// persistence pair, found by looking at neighbours alone: nothing to reduce, nothing to store.
-/// Over a filtration without cofacets there are none.
+/// Apparent pairs (Bauer, Ripser, section 3.5): a cell and a cofacet of equal key, where the
+/// cofacet is the oldest cofacet of the cell and the cell is the youngest facet of the cofacet.
+/// Each of them is a persistence pair, found by looking at neighbours alone: nothing is reduced and
+/// nothing is stored. A filtration without cofacets has none.
 template <Filtration F, Field K>
 class ApparentPairs {
  public:
@@ -18,7 +18,8 @@ class ApparentPairs {
 
   ApparentPairs(const F& filtration, const K& field) : filtration_(filtration), field_(field) {}
 
-  /// The cofacet with which `cell` (of dimension `dim`) is an apparent pair: where its class dies.
+  /// The cofacet that forms an apparent pair with `cell` (of dimension `dim`): the class of `cell`
+  /// dies there.
   std::optional<Cell> death_cell_of(int dim, const Cell& cell) const {
     if constexpr (ApparentFiltration<F>) {
       return filtration_.apparent_cofacet(dim, cell);
@@ -31,8 +32,8 @@ class ApparentPairs {
     return std::nullopt;
   }
 
-  /// The facet with which `cell` (of dimension `dim`) is an apparent pair: where that class is
-  /// born.
+  /// The facet that forms an apparent pair with `cell` (of dimension `dim`): the class that `cell`
+  /// kills is born there.
   std::optional<Cell> birth_cell_of(int dim, const Cell& cell) const {
     if constexpr (ApparentFiltration<F>) {
       return filtration_.apparent_facet(dim, cell);

@@ -14,11 +14,12 @@
 
 namespace ph {
 
-/// A coboundary under reduction: that of a cell and of the chain that was added to the cell.
+/// A coboundary under reduction: the coboundary of a cell plus that of the chain that was added to
+/// the cell.
 ///
-/// Over a RangeFiltration only the cofacets up to a key, the limit, are in the column. When all of
-/// them are gone the limit rises: those up to the next one are listed from the cell and the chain.
-/// Most cofacets are younger than the pivot in the end and are never in the column; see
+/// Over a RangeFiltration the column holds only the cofacets up to a key, the limit. When all of
+/// them are gone, the limit rises: the cofacets up to the next limit are listed from the cell and
+/// the chain. Most cofacets are younger than the final pivot and never enter the column; see
 /// docs/explanation/engines/cohomology.md.
 template <CofacetFiltration F, Field K>
 class CoboundaryColumn {
@@ -34,7 +35,7 @@ class CoboundaryColumn {
         chain_(&context.memory) {}
 
   /// Begins with a cell alone. `goes_on(cofacet, coefficient)` sees the cofacets as they are
-  /// listed; once it returns false the column stays unfinished, for another start.
+  /// listed. Once it returns false, the column stays unfinished and must be started again.
   template <class GoesOn>
   void start(int dim, const Cell& cell, GoesOn&& goes_on) {
     begin(dim, cell, f_.key(cell));
@@ -51,18 +52,18 @@ class CoboundaryColumn {
     append_all(f_.key(pivot));
   }
 
-  /// Takes out the oldest term; false if nothing is left.
+  /// Removes the oldest term; false if nothing is left.
   bool pop_pivot(Term& pivot) {
     while (!terms_.pop_pivot(pivot))
       if (!raise_limit()) return false;
     return true;
   }
-  /// Puts `pivot`, the term that was taken out, back and adds `scale` times another column, a cell
-  /// and a chain whose coboundary has the same pivot.
+  /// Puts back `pivot`, the term that was removed, and adds `scale` times another column, given by
+  /// a cell and a chain whose coboundary has the same pivot.
   void add(const Term& pivot, const Cell& cell, std::span<const Term> chain,
            typename K::Element scale) {
     terms_.push(pivot.cell, pivot.coefficient());
-    // What is older than the pivot cancels: cofacets of smaller keys are left out.
+    // Terms older than the pivot cancel: cofacets of smaller keys are left out.
     const auto add_coboundary = [&](const Cell& summand, typename K::Element a) {
       chain_.emplace_back(summand, a);
       list(summand, f_.key(pivot.cell), [&](const Cell& cofacet, int incidence) {
@@ -75,7 +76,7 @@ class CoboundaryColumn {
       add_coboundary(term.cell, field_.multiply(scale, term.coefficient()));
   }
 
-  /// What was added to the cell, by age, each cell once.
+  /// The cells that were added, by age, each once.
   std::span<const Term> chain() {
     chain_.resize(add_up<F, K>(chain_, f_, field_));
     return chain_;
@@ -101,12 +102,12 @@ class CoboundaryColumn {
     const Key first = limit_ + 1;
     set_limit(first);
     terms_.clear();
-    chain();  // what cancels need not be listed
+    chain();  // cells that cancel need not be listed
     append_all(first);
     return true;
   }
 
-  /// Fills the column, which is empty, from the key `first` on.
+  /// Fills the column, which must be empty, from the key `first` on.
   void append_all(Key first) {
     const auto append = [&](const Cell& summand, typename K::Element a) {
       list(summand, first, [&](const Cell& cofacet, int incidence) {
@@ -118,7 +119,7 @@ class CoboundaryColumn {
     for (const Term& term : chain_) append(term.cell, term.coefficient());
     terms_.heapify();
   }
-  /// Lists cofacets up to the limit. Those before `first` are asked for by nobody.
+  /// Lists cofacets up to the limit. Nobody needs those before `first`.
   template <class Visit>
   void list(const Cell& cell, Key first, Visit&& visit) {
     const std::size_t before = terms_.size();

@@ -11,8 +11,8 @@ namespace ph {
 
 /// Persistent cohomology: coboundary columns from dimension 0 up, with clearing, apparent and
 /// emergent pairs (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes).
-/// Never lists cells of dimension max_dim + 1 but as cofacets. H0 by union-find where that is
-/// right.
+/// Lists cells of dimension max_dim + 1 only as cofacets. Computes H0 by union-find where that is
+/// valid.
 struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
   template <Filtration F>
@@ -50,8 +50,8 @@ struct CohomologyEngine {
 
  private:
   // Involuted homology (Čufar & Virk, Fast computation of persistent homology representatives with
-  // involuted persistent homology): cohomology tells which cells kill a class and which give birth
-  // to one that never dies; only their boundaries are reduced.
+  // involuted persistent homology): cohomology finds the cells that kill a class and the cells that
+  // give birth to an essential class; only their boundaries are reduced.
   template <Filtration F, Field K>
   static void find_cycles(const F& f, const K& field, BarcodeBuilder<F>& bars,
                           const RunContext& context) {

@@ -22,23 +22,25 @@
 
 namespace ph {
 
-/// Reduces coboundary columns of one dimension after the other, youngest first, with clearing (Chen
-/// & Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
-/// of its own in the next dimension. A column that was added to is kept as the cochain whose
-/// coboundary it is, a cocycle until the death: coboundaries are far longer than the cochains.
+/// Reduces coboundary columns, one dimension after the other, youngest first, with clearing (Chen &
+/// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
+/// of its own in the next dimension. A column that others were added to is kept as the cochain
+/// whose coboundary it is (a cocycle until the death), because coboundaries are far longer than the
+/// cochains.
 ///
-/// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on how
-/// many: a reduction by additions of younger columns to older ones has only one outcome. The
-/// cochains may, so where cocycles are asked for there is one thread.
+/// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on the
+/// number of threads: every reduction that adds younger columns to older ones has the same outcome.
+/// The cochains may depend on it; if cocycles are asked for, there is one thread.
 template <CofacetFiltration F, Field K>
 class CohomologyReduction {
  public:
   using Cell = typename F::Cell;
 
-  /// How threads share the columns; the pairs are the same.
+  /// How threads share the columns; it does not change the pairs.
   struct Schedule {
-    std::size_t piece = 32;     ///< columns a thread takes at a time: few, since old ones are long
-    bool oldest_first = false;  ///< the worst order: each column is reduced before those it needs
+    std::size_t piece = 32;  ///< columns per thread at a time: few, because old columns are long
+    /// The worst order: each column is reduced before the columns it needs.
+    bool oldest_first = false;
   };
   CohomologyReduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars,
                       const RunContext& context)
@@ -75,13 +77,13 @@ class CohomologyReduction {
     pivots_.reset();
     workers_.clear();
   }
-  /// The cells of dimension dim + 1 that killed a class of the dimension reduced last (those of
-  /// apparent pairs only if zero-length bars are wanted), and the births of its infinite bars.
+  /// The cells of dimension dim + 1 that killed a class of the dimension reduced last (cells of
+  /// apparent pairs only if bars of length zero are wanted), and the births of its infinite bars.
   std::span<const Cell> death_cells() const { return death_cells_; }
   std::span<const Cell> essential() const { return essential_; }
 
   /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
-  /// `reduce_dimension`, when another engine did that dimension.
+  /// `reduce_dimension`, if another engine reduced that dimension.
   void set_cleared(CellMap<F> pivots) { cleared_ = std::move(pivots); }
 
  private:
@@ -89,7 +91,8 @@ class CohomologyReduction {
   using Column = ReducedColumn<Cell, K>;
   static constexpr std::size_t kPollInterval = 4096;  // steps
 
-  /// What one thread works with. Columns that it published stay valid as long as it does.
+  /// The working memory of one thread. Columns that a worker published stay valid as long as the
+  /// worker exists.
   struct Worker {
     Worker(const F& f, const K& field, const RunContext& context)
         : working(f, field, context), arena(&context.memory) {}
@@ -104,15 +107,15 @@ class CohomologyReduction {
   void reduce_side_by_side();
   void report_pairs();
 
-  /// Reduces column `number`, and those that are driven out on the way.
+  /// Reduces column `number`, and the columns that it drives out.
   void reduce(std::uint32_t number, Worker& worker);
-  /// Fills the working column with the plain coboundary of a column. True if the pivot showed
-  /// itself on the way, an emergent pair (Bauer, Ripser, section 3.5); the working column is
-  /// unfinished then.
+  /// Fills the working column with the plain coboundary of a column. True if the pivot was found on
+  /// the way, as an emergent pair (Bauer, Ripser, section 3.5); the working column is unfinished
+  /// then.
   bool start_column(std::uint32_t number, Worker& worker, Term& pivot) const;
-  /// Cancels the pivot with a column that has it. @return whether there is one.
+  /// Cancels the pivot with a column that has it. @return true if there is one.
   bool cancel_pivot(std::uint32_t number, const Term& pivot, Worker& worker) const;
-  /// A copy of the chain, with the pivot if there is one, that stays.
+  /// A permanent copy of the chain, with the pivot if there is one.
   const Column* keep(const Term* pivot, Worker& worker) const;
   void give_cocycle(const Cell& cell, std::span<const Term> chain);
 
@@ -158,8 +161,8 @@ void CohomologyReduction<F, K>::collect_columns() {
 
 template <CofacetFiltration F, Field K>
 void CohomologyReduction<F, K>::collect_unmatched() {
-  // Groups are taken from the last one on. Each piece has a place of its own for what it finds, so
-  // that the order does not depend on threads.
+  // Groups are taken in reverse order. Each piece stores its findings at a place of its own, which
+  // makes the order independent of the threads.
   constexpr std::size_t piece = 256;
   const std::size_t groups = f_.group_count();
   using Finder = decltype(f_.unmatched_cells(dim_));
@@ -331,7 +334,7 @@ void CohomologyReduction<F, K>::reduce(std::uint32_t number, Worker& worker) {
     }
     worker.working.start(dim_, to_reduce_[number], column->chain, column->pivot);
   }
-  // Nothing is left: the column has no pivot, and what it published before is no longer true.
+  // Nothing is left: the column has no pivot, and its previous publication is no longer valid.
   pivots_->publish(number, gives_cocycles_ ? keep(nullptr, worker) : nullptr);
 }
 

@@ -16,12 +16,12 @@
 
 namespace ph {
 
-/// Reduces boundary columns of one dimension after the other, oldest first, with clearing (Chen &
+/// Reduces boundary columns, one dimension after the other, oldest first, with clearing (Chen &
 /// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
-/// of its own in the next dimension. Columns that were never added to are not stored but listed
-/// again when needed; one that was added to is kept as the reduced boundary, a cycle that is a
-/// boundary from the death on: the representative of a finite bar. An infinite bar needs the chain
-/// whose boundary vanished: with representatives, the chains are kept, too.
+/// of its own in the next dimension. A column that nothing was added to is not stored but listed
+/// again when needed. Other columns are kept as the reduced boundary, a cycle that is a boundary
+/// from the death on: the representative of a finite bar. An infinite bar needs the chain whose
+/// boundary vanished; with representatives, the chains are kept as well.
 template <Filtration F, Field K>
 class HomologyReduction {
  public:
@@ -51,8 +51,8 @@ class HomologyReduction {
     collect_columns();
     reduce_collected();
   }
-  /// Reduces these columns of dimension `dim` only, in any order of dimensions. Enough if all
-  /// others are zero or apparent and nobody asks for the apparent ones.
+  /// Reduces only these columns of dimension `dim`; dimensions may come in any order. This is
+  /// enough if all other columns are zero or apparent and nobody asks for the apparent ones.
   void reduce_columns(int dim, std::span<const Cell> cells) {
     start_dimension(dim);
     for (const Cell& cell : cells) {
@@ -93,28 +93,31 @@ class HomologyReduction {
   struct Column {
     Cell cell;
     typename K::Element pivot{};  // coefficient of the pivot in the reduced boundary
-    Range terms;                  // the reduced boundary; empty: the plain boundary of `cell`
-    Range chain;                  // what was added to `cell`, without it; only with representatives
+    Range terms;                  // the reduced boundary; if empty, the plain boundary of `cell`
+    // The cells that were added to `cell`, without `cell`; only with representatives.
+    Range chain;
   };
 
   void collect_columns();
   void reduce_column(const Cell& cell, Ticker& ticker);
-  // The pair of a column that is the plain boundary of its cell.
+  // Reports the pair of a column that is the plain boundary of its cell.
   void report_plain(const Cell& column, const Cell& pivot);
 
-  // Adds the multiple of `owner` to the working column that cancels the pivot, just popped.
+  // Adds the multiple of `owner` to the working column that cancels the pivot, which was just
+  // popped.
   void cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker);
-  // The column whose pivot `cell` is; null if there is none yet. Valid until the next call.
+  // The column whose pivot `cell` is, or null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
-  // Dimension 1: the boundary of an edge is the difference of two vertices and stays one under
-  // reduction, so it needs no heap. Both entries are reduced to the end: a column stored so leads
-  // every later one there in one step.
+  // In dimension 1 the boundary of an edge is the difference of two vertices and stays one under
+  // reduction, which makes a heap unnecessary. Both entries are reduced to the end: later columns
+  // that meet the stored column get there in one step.
   void reduce_edge(const Cell& edge, Ticker& ticker);
-  // The entry besides the pivot of a column of two.
+  // The other entry of a column of two entries.
   Cell other_end(const Column& column, const Cell& pivot) const;
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
   void finish_essential(const Cell& cell);
-  // Appends the working chain to chains_, equal cells added up; without the column's own cell.
+  // Appends the working chain to chains_, with equal cells added up and without the column's own
+  // cell.
   Range store_chain();
 
   const F& f_;
@@ -124,15 +127,15 @@ class HomologyReduction {
   ApparentPairs<F, K> apparent_;
   int dim_ = 0;
   CellMap<F> pivots_;           // pivot -> position in columns_
-  CellMap<F> previous_pivots_;  // of the dimension reduced before
+  CellMap<F> previous_pivots_;  // pivots of the dimension reduced before
   std::pmr::vector<Column> columns_;
   Column apparent_owner_;
-  std::pmr::vector<Term> terms_;   // of reduced boundaries
-  std::pmr::vector<Term> chains_;  // of chains
+  std::pmr::vector<Term> terms_;   // terms of reduced boundaries
+  std::pmr::vector<Term> chains_;  // terms of chains
   std::pmr::vector<Cell> to_reduce_;
   WorkingColumn<F, K, Pivot::youngest> working_;
   std::pmr::vector<Term> rest_;   // entries below the pivot of an edge's boundary
-  std::pmr::vector<Term> chain_;  // what was added to the working column, in columns
+  std::pmr::vector<Term> chain_;  // the columns that were added to the working column
   bool tracks_chains_;
 };
 
@@ -142,7 +145,7 @@ void HomologyReduction<F, K>::collect_columns() {
   f_.for_each_cell(dim_, [&](const Cell& cell) {
     ticker.tick();
     if (previous_pivots_.find(cell) != CellMap<F>::kAbsent) return;
-    // A pivot of the dimension above; if that dimension is not wanted its cells stay unseen.
+    // A pivot of the dimension above; if that dimension is not wanted, its cells were never listed.
     if (dim_ <= bars_.max_dim() && apparent_.death_cell_of(dim_, cell)) return;
     if (const auto birth = apparent_.birth_cell_of(dim_, cell)) {
       if (bars_.wants_zero_length()) report_plain(cell, *birth);
@@ -156,7 +159,7 @@ template <Filtration F, Field K>
 void HomologyReduction<F, K>::cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker) {
   const auto scale =
       field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(owner.pivot)));
-  // The pivot stands once in the owner's boundary: leave it out instead of cancelling it.
+  // The pivot occurs once in the owner's boundary; leaving it out replaces cancelling it.
   if (owner.terms.empty()) {
     f_.for_each_facet(dim_, owner.cell, [&](const Cell& facet, int incidence) {
       if (!(facet == pivot.cell))

@@ -14,25 +14,26 @@
 
 namespace ph {
 
-/// What a reduction keeps of a column once it has a pivot; never changed after that.
+/// The part of a column that a reduction keeps once the column has a pivot; it never changes after
+/// that.
 template <class Cell, Field K>
 struct ReducedColumn {
   Cell pivot;
-  typename K::Element coefficient;        // of the pivot; zero if there is none
-  std::span<const Entry<Cell, K>> chain;  // what was added to the column's own cell
+  typename K::Element coefficient;        // coefficient of the pivot; zero if there is no pivot
+  std::span<const Entry<Cell, K>> chain;  // the cells that were added to the column's own cell
 };
 
-/// Which column has a cell as its pivot, shared by threads without locks (Morozov & Nigmetov,
-/// Towards lockless parallel computation of persistence diagrams, 2020). Columns are numbers 0 …
-/// columns - 1; lower ones prevail.
+/// Maps a cell to the column whose pivot it is, shared by threads without locks (Morozov &
+/// Nigmetov, Towards lockless parallel computation of persistence diagrams, 2020). Columns are
+/// numbers 0 … columns - 1; lower numbers take precedence.
 ///
 /// A column is published, then claims its pivot: it takes the pivot's slot if that is free or holds
-/// a higher column, which then has to be reduced further and published again. So the numbers in a
-/// slot only fall, and each slot keeps its cell. A reader that finds in a slot a column which by
-/// now has another pivot looks at the slot again: it has changed before that column was published
-/// again.
+/// a higher column, which then has to be reduced further and published again. As a result, the
+/// numbers in a slot only fall, and each slot keeps its cell. A reader may find a column in a slot
+/// that by now has another pivot. It then looks at the slot again: the slot changed before that
+/// column was published again.
 ///
-/// No FlatMap: several threads insert and replace at once, by compare-and-swap.
+/// FlatMap cannot be used, because several threads insert and replace at once, by compare-and-swap.
 template <CofacetFiltration F, Field K>
 class PivotTable {
  public:
@@ -45,7 +46,7 @@ class PivotTable {
     if constexpr (SlottedFiltration<F>) filtration_ = &filtration;
   }
 
-  /// What column `i` published last; null if nothing.
+  /// The last publication of column `i`; null if there is none.
   const Column* column(std::uint32_t i) const {
     return published_[i].load(std::memory_order_acquire);
   }
@@ -58,12 +59,12 @@ class PivotTable {
     std::uint32_t number = kNone;
     const Column* column = nullptr;
   };
-  /// The column that holds a pivot; kNone if none does.
+  /// The column that holds a pivot, or kNone.
   Owner owner_of(const Cell& pivot) const { return slots_.empty() ? Owner() : find(pivot).owner; }
 
-  /// Column `i` wants the pivot of `column`, which outlives the table.
-  /// @return i if it had to give way to a lower column; the higher one that it has driven out;
-  /// kNone if the pivot was free. Threads may hold no column `i` but the caller's.
+  /// Column `i` claims the pivot of `column`, which must outlive the table.
+  /// @return i if it had to give way to a lower column; the number of the higher column that it
+  /// drove out; kNone if the pivot was free. No thread but the caller's may hold column `i`.
   std::uint32_t claim(std::uint32_t i, const Column* column) {
     publish(i, column);
     for (;;) {
@@ -76,11 +77,12 @@ class PivotTable {
   }
 
  private:
-  // A slot holds 0, or the high half of the hash of its cell above 1 + the number of the column.
+  // A slot holds 0, or the high half of the hash of its cell followed by 1 + the number of the
+  // column.
   using Slot = std::uint64_t;
   struct Found {
     std::size_t slot;
-    Slot content;  // of the slot, when it was looked at
+    Slot content;  // content of the slot when it was read
     Owner owner;
   };
 
@@ -119,7 +121,8 @@ class PivotTable {
 
   const F* filtration_ = nullptr;
   std::pmr::vector<std::atomic<const Column*>> published_;  // by column
-  std::pmr::vector<std::atomic<Slot>> slots_;  // a power of two, at most half full; or one a cell
+  // A power of two, at most half full; or one slot per cell.
+  std::pmr::vector<std::atomic<Slot>> slots_;
 };
 
 }  // namespace ph

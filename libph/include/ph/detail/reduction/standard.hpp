@@ -12,10 +12,11 @@
 
 namespace ph {
 
-/// THE ORACLE. Persistent homology as the textbook has it (Edelsbrunner & Harer, Computational
+/// THE ORACLE. Persistent homology as in the textbook (Edelsbrunner & Harer, Computational
 /// Topology, chapter VII.1; over a field: Zomorodian & Carlsson, Computing Persistent Homology):
 /// write down the boundary matrix, reduce its columns from left to right, read off the pairs. It
-/// shares nothing with the other engines and is never optimised: they are right if they agree.
+/// shares no code with the other engines and is never optimised; they are right if they agree with
+/// it.
 struct StandardEngine {
   static constexpr Engine id = Engine::standard;
   template <Filtration F>
@@ -42,8 +43,9 @@ struct StandardEngine {
     };
 
     const int top = std::min(bars.max_dim() + 1, f.top_dim());
-    std::pmr::vector<Cell> rows(memory);         // the cells of dimension dim - 1, oldest first
-    std::pmr::vector<bool> is_positive(memory);  // by row: its own column was reduced to zero
+    std::pmr::vector<Cell> rows(memory);  // the cells of dimension dim - 1, oldest first
+    // By row: true if its own column was reduced to zero.
+    std::pmr::vector<bool> is_positive(memory);
     for (int dim = 0; dim <= top; ++dim) {
       std::pmr::vector<Cell> columns(memory);
       f.for_each_cell(dim, [&](const Cell& c) {
@@ -66,7 +68,8 @@ struct StandardEngine {
           const auto it = std::lower_bound(rows.begin(), rows.end(), facet, precedes);
           add(static_cast<std::size_t>(it - rows.begin()), field.from_int(incidence));
         });
-        // low(j): the youngest row. While an earlier column has the same one, subtract it.
+        // low(j): the youngest row. While an earlier column has the same lowest row, subtract that
+        // column.
         while (!column.empty() && reduced.contains(column.rbegin()->first)) {
           const Column& earlier = reduced.at(column.rbegin()->first);
           const auto factor = field.negate(
@@ -76,7 +79,7 @@ struct StandardEngine {
         }
         ticker.tick();
         if (column.empty()) {
-          next_is_positive[j] = true;  // gives birth to a class of dimension dim
+          next_is_positive[j] = true;  // gives birth to a class of dimension `dim`
         } else {
           const std::size_t low = column.rbegin()->first;
           killer[low] = j;

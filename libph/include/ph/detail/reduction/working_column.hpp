@@ -9,16 +9,16 @@
 
 namespace ph {
 
-/// Which entry of a column is its pivot. Both directions are one algorithm read forwards and
+/// The entry of a column that is its pivot. Both directions are one algorithm, read forwards or
 /// backwards in the order of the filtration (de Silva, Morozov, Vejdemo-Johansson, Dualities in
-/// persistent (co)homology): they find the same pairs.
+/// persistent (co)homology), and find the same pairs.
 enum class Pivot {
   youngest,  ///< homology: of a boundary
   oldest,    ///< cohomology: of a coboundary
 };
 
-/// A column under reduction: a heap of terms, the pivot first; equal cells are added up when they
-/// get there.
+/// A column under reduction: a heap of terms with the pivot first; equal cells are added up when
+/// they reach the top.
 template <class F, class K, Pivot pivot_is>
 class WorkingColumn {
  public:
@@ -35,8 +35,8 @@ class WorkingColumn {
     if (!append(cell, a)) return;
     std::push_heap(terms_.begin(), terms_.end(), below_);
   }
-  /// The same for many: call `heapify` after the last one and before anything else.
-  /// @return whether the coefficient is not zero.
+  /// Adds one of many terms: call `heapify` after the last one and before anything else.
+  /// @return true if the coefficient is not zero.
   bool append(const Cell& cell, typename K::Element a) {
     if (field_.is_zero(a)) return false;
     terms_.emplace_back(cell, a);
@@ -44,7 +44,7 @@ class WorkingColumn {
   }
   void heapify() { std::make_heap(terms_.begin(), terms_.end(), below_); }
 
-  /// Takes the pivot out of the column; false if nothing is left.
+  /// Removes the pivot from the column; false if nothing is left.
   bool pop_pivot(Term& pivot) {
     while (!terms_.empty()) {
       pivot = pop();
@@ -80,7 +80,7 @@ class WorkingColumn {
 };
 
 /// Sorts a chain by age, oldest first, and adds up equal cells.
-/// @return how many terms are left; the others are behind them.
+/// @return the number of terms left; the terms after them are garbage.
 template <class F, class K>
 std::size_t add_up(std::span<Entry<typename F::Cell, K>> chain, const F& filtration,
                    const K& field) {

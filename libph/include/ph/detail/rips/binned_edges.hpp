@@ -16,15 +16,15 @@
 
 namespace ph {
 
-/// Weighted edges in the order of a flag filtration, (value, u, v), as far as anybody has asked for
-/// it: they lie in bins of nearly equal values, and a bin is sorted when its edges are first needed
-/// in order. Whoever stops early never pays for the rest. Thread-safe.
+/// Weighted edges in the order of a flag filtration, (value, u, v), sorted as far as anybody has
+/// asked: edges lie in bins of nearly equal values, and a bin is sorted when its edges are first
+/// needed in order. A caller that stops early never pays for the rest. Thread-safe.
 class BinnedEdges {
  public:
-  /// @param edges sorted, ties in any order.
+  /// @param edges sorted, with ties in any order.
   explicit BinnedEdges(FlagEdges&& edges);
-  /// @param ends of each bin in `edges`, ascending. @param shared_bits that the values of a bin
-  /// have in common, from this one up.
+  /// @param ends the end of each bin in `edges`, ascending. @param shared_bits the values of a bin
+  /// agree in their bits from this one up.
   BinnedEdges(FlagEdges&& edges, std::pmr::vector<std::size_t>&& ends, int shared_bits,
               const RunContext& context);
 
@@ -38,15 +38,16 @@ class BinnedEdges {
   std::span<const FlagEdge> sorted() const { return sorted_bins(bin_count()); }
 
   std::size_t bin_count() const { return ends_.size(); }
-  /// Where a bin begins; bin_count() is a place, too.
+  /// The place where a bin begins; bin_count() is allowed as well.
   std::size_t bin_begin(std::size_t bin) const { return bin == 0 ? 0 : ends_[bin - 1]; }
-  /// Lets another thread sort a bin while the caller is busy with those before it, if the context
-  /// allows two and they are sorted. What fails there is done again by whoever needs the bin.
+  /// Lets another thread sort a bin while the caller works on the bins before it, if the context
+  /// allows two threads and those bins are sorted. If that fails, the first caller that needs the
+  /// bin sorts it.
   void sort_ahead(std::size_t bin) const;
   /// The edges of the first `count` bins, in order.
   std::span<const FlagEdge> sorted_bins(std::size_t count) const;
-  /// Calls `use(edges)` with those of the bins [first, last): bin after bin, but within a bin in no
-  /// particular order. They must not be kept.
+  /// Calls `use(edges)` with the edges of the bins [first, last): bin after bin, but within a bin
+  /// in no particular order. The edges must not be kept.
   template <class Use>
   decltype(auto) with_bins(std::size_t first, std::size_t last, Use&& use) const {
     const std::lock_guard lock(lazy_->mutex);
@@ -57,10 +58,11 @@ class BinnedEdges {
 
  private:
   struct Lazy {
-    std::mutex mutex;  // held by who sorts and by who looks at what is not sorted
+    std::mutex mutex;  // held by a thread that sorts, or that looks at unsorted edges
     std::size_t sorted_bins = 0;
-    std::atomic<std::size_t> sorted_edges{0};  // in these bins
-    bool is_next_sorted = false;               // by `ahead`, which is the only one to look there
+    std::atomic<std::size_t> sorted_edges{0};  // number of edges in these bins
+    // Written by `ahead`, the only thread that looks there.
+    bool is_next_sorted = false;
     std::jthread ahead;
   };
   std::span<FlagEdge> edges_of(std::size_t bin) const {
@@ -69,7 +71,7 @@ class BinnedEdges {
   /// Sorts the bins with the first `count` edges.
   void sort_until(std::size_t count) const;
   void sort_bin(std::size_t bin) const;
-  /// Waits for the bin that is sorted ahead, if there is one. Needs the mutex.
+  /// Waits for the bin that is being sorted ahead, if there is one. The caller must hold the mutex.
   void finish_ahead() const;
   void count_sorted_bin() const;
 
@@ -80,12 +82,12 @@ class BinnedEdges {
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 
-/// Bins of nearly equal values: those with the same first bits, as many bits as there are values,
-/// up to the exponent and four of the mantissa. (The order of non-negative doubles is that of their
-/// bits.)
+/// Bins of nearly equal values: the values of a bin share their first bits. The number of these
+/// bits depends on the number of values; it ends at most after the exponent and four bits of the
+/// mantissa. (Non-negative doubles are ordered as their bits.)
 class ValueBins {
  public:
-  /// @param values how many there are, more or less.
+  /// @param values their approximate number.
   explicit ValueBins(std::size_t values)
       : shift_(kBits - std::clamp(static_cast<int>(std::bit_width(values)), 1, kMostBinBits)) {}
   std::size_t count() const { return std::size_t{1} << (kBits - shift_); }
@@ -93,7 +95,7 @@ class ValueBins {
   std::size_t operator()(double value) const {
     return std::bit_cast<std::uint64_t>(value) >> shift_;
   }
-  /// Bits of a value that say nothing about its bin.
+  /// Number of low bits of a value that do not determine its bin.
   int shared_bits() const { return shift_; }
 
  private:
@@ -101,13 +103,13 @@ class ValueBins {
   int shift_;
 };
 
-/// Puts edges that can be listed twice into bins, with little more memory than they take: a first
-/// pass over the values counts how many fall into each bin, a second one puts each edge where its
-/// bin is, in the order of the pass. Several workers may share a pass: each has its own part of
-/// every bin, in the order of the workers.
+/// Puts edges that can be listed twice into bins, with little more memory than the edges take: a
+/// first pass over the values counts how many fall into each bin, and a second pass puts each edge
+/// into its bin, in the order of the pass. Several workers may share a pass: each has its own part
+/// of every bin; the parts lie in the order of the workers.
 class EdgeBinner {
  public:
-  /// @param values how many will be counted, more or less.
+  /// @param values the approximate number of values that will be counted.
   EdgeBinner(std::size_t values, std::size_t workers, const RunContext& context)
       : context_(context),
         bin_of_(values),
@@ -120,7 +122,7 @@ class EdgeBinner {
   void count(double value, std::size_t worker = 0) { ++counts_[begin_of(worker) + bin_of_(value)]; }
   /// Between the passes: makes room for the values counted up to `limit`.
   void allocate(double limit);
-  /// Second pass: an edge that the worker counted, of value <= limit.
+  /// Second pass: adds an edge of value <= limit that the worker counted.
   void add(const FlagEdge& edge, std::size_t worker = 0) {
     edges_[counts_[begin_of(worker) + bin_of_(edge.value)]++] = edge;
   }
@@ -133,13 +135,13 @@ class EdgeBinner {
   ValueBins bin_of_;
   std::size_t workers_;
   double limit_ = 0;
-  std::pmr::vector<std::size_t> counts_;      // from allocate on: where the next edge of a bin goes
-  std::pmr::vector<std::size_t> last_parts_;  // by worker: where its part of the last bin begins
+  std::pmr::vector<std::size_t> counts_;      // after allocate: the place of the next edge of a bin
+  std::pmr::vector<std::size_t> last_parts_;  // by worker: start of its part of the last bin
   FlagEdges edges_;
 };
 
-/// Takes edges that can be listed only once, nobody knows how many. Blocks take little more than
-/// the edges; a vector that doubles takes up to three times as much.
+/// Takes edges that can be listed only once and whose number is unknown. Blocks take little more
+/// memory than the edges; a vector that doubles takes up to three times as much.
 class EdgeCollector {
  public:
   explicit EdgeCollector(const RunContext& context) : blocks_(&context.memory) {}
@@ -147,16 +149,16 @@ class EdgeCollector {
     if (blocks_.empty() || blocks_.back().size() == blocks_.back().capacity()) add_block();
     blocks_.back().push_back(edge);
   }
-  /// In the order in which they were added.
+  /// Returns the edges in the order in which they were added.
   FlagEdges finish();
 
  private:
   void add_block();
-  std::size_t size_ = 0;  // of the blocks that are full
+  std::size_t size_ = 0;  // edges in full blocks
   std::pmr::vector<FlagEdges> blocks_;
 };
 
-/// Edges in no order, moved into bins where they are.
+/// Moves edges, which may come in any order, into bins in place.
 BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context);
 
 }  // namespace ph

@@ -8,17 +8,18 @@
 
 namespace ph {
 
-/// Up to 64 vertices in a row, each with the key of the cofacet that it makes of a simplex: the
-/// largest of the simplex's own and of those that join it to the simplex. All at once, in vector
-/// registers.
+/// Up to 64 consecutive vertices, each with the key of the cofacet that it forms with a simplex:
+/// the maximum of the simplex's key and the keys of the edges to its vertices. All keys are
+/// computed at once, in vector registers.
 class KeyBlock {
  public:
   using Key = RipsAdjacency::Key;
   static constexpr std::uint32_t kSize = 64;
 
-  /// @param rows of the simplex's vertices in the matrix of keys. @param begin the first vertex.
-  /// @param size how many. @param key of the simplex. @param first, last the range that is asked
-  /// for.
+  /// @param rows the rows of the simplex's vertices in the matrix of keys. @param begin the first
+  /// vertex.
+  /// @param size the number of vertices. @param key the key of the simplex. @param first, last the
+  /// range of keys.
   KeyBlock(std::span<const Key* const> rows, std::uint32_t begin, std::uint32_t size, Key key,
            Key first, Key last);
 

@@ -6,9 +6,9 @@
 
 namespace ph {
 
-/// The vertices of a simplex packed into `Words` machine words, `bits` a vertex: slot 0, the lowest
-/// bits, holds the smallest vertex. Simplices of one dimension compare like their vertices read
-/// from the largest down (colexicographic order), and as fast as integers.
+/// The vertices of a simplex packed into `Words` machine words, `bits` bits per vertex: slot 0, the
+/// lowest bits, holds the smallest vertex. Simplices of one dimension compare like their vertices
+/// read from the largest down (colexicographic order), as fast as integers.
 template <int Words>
 class PackedVertices {
  public:
@@ -17,7 +17,7 @@ class PackedVertices {
   PackedVertices() = default;
   constexpr explicit PackedVertices(std::uint64_t vertex) { word(0) = vertex; }
 
-  // The default one calls memcmp.
+  // The defaulted operator would call memcmp.
   friend constexpr bool operator==(const PackedVertices& a, const PackedVertices& b) {
     for (int i = 0; i < Words; ++i)
       if (a.word(i) != b.word(i)) return false;
@@ -63,7 +63,7 @@ class PackedVertices {
   }
 
  private:
-  // words_[0] is the most significant, so that the defaulted comparison is the numeric one.
+  // words_[0] is the most significant word, which makes the defaulted comparison the numeric one.
   constexpr std::uint64_t& word(int significance) {
     return words_[static_cast<std::size_t>(Words - 1 - significance)];
   }

@@ -11,11 +11,12 @@
 
 namespace ph {
 
-/// Who is joined to whom in a graph with ranked edges, and from which edge on. An edge is known by
-/// its key: its position in the order, counted from 1; key 0 belongs to the vertices.
+/// The neighbours of each vertex in a graph with ranked edges, each with the edge that joins them.
+/// An edge is known by its key: its position in the order, counted from 1. Key 0 belongs to the
+/// vertices.
 ///
-/// Two layouts: a square matrix of keys where most pairs are edges, sorted neighbour lists where
-/// they are not.
+/// There are two layouts: a square matrix of keys if most pairs are edges, and sorted neighbour
+/// lists otherwise.
 class RipsAdjacency {
  public:
   using Key = std::uint32_t;
@@ -29,10 +30,10 @@ class RipsAdjacency {
   RipsAdjacency(std::size_t vertices, std::span<const FlagEdge> edges,
                 std::pmr::memory_resource* memory);
 
-  /// Which layout such a graph gets.
+  /// True if such a graph gets the dense layout.
   static bool is_dense(std::size_t vertices, std::size_t edges);
 
-  /// Whether the layout is dense.
+  /// True if the layout is dense.
   bool has_matrix() const { return !matrix_.empty(); }
   /// Dense layout: the keys of all pairs with u; kNever at u itself.
   const Key* row(std::uint32_t u) const { return matrix_.data() + u * size_; }
@@ -46,7 +47,8 @@ class RipsAdjacency {
     const auto it = std::ranges::lower_bound(list, v, {}, &Neighbour::vertex);
     return it != list.end() && it->vertex == v ? it->key : kNever;
   }
-  /// No clique has more vertices than this: one more than the degeneracy of the graph, or its size.
+  /// An upper bound for the number of vertices of a clique: the degeneracy of the graph plus one,
+  /// or its size.
   Index clique_bound() const { return clique_bound_; }
 
  private:

@@ -21,8 +21,8 @@
 
 namespace ph {
 
-/// Where keys are looked up: a square matrix, sorted neighbour lists, or either, as the graph has
-/// it.
+/// Where keys are looked up: in a square matrix, in sorted neighbour lists, or in whichever the
+/// graph has.
 enum class RipsLayout { dense, sparse, any };
 
 /// A simplex with the key of its longest edge.
@@ -33,10 +33,10 @@ struct RipsCell {
   friend bool operator==(const RipsCell&, const RipsCell&) = default;
 };
 
-/// The flag complex of a RipsGraph as an engine sees it; no simplex is stored.
-/// Order: (key of the longest edge, dimension, vertices read from the largest down); vertices that
-/// enter at births of their own by birth first.
-/// @tparam Words size of a cell: how many vertices of how many bits it can hold.
+/// The flag complex of a RipsGraph as an engine sees it; no simplex is stored. Order: (key of the
+/// longest edge, dimension, vertices read from the largest down); vertices with births of their own
+/// are ordered by birth first.
+/// @tparam Words the size of a cell, which limits the number of vertices and their bits.
 template <RipsLayout Layout, int Words>
 class RipsFiltration {
  public:
@@ -53,7 +53,7 @@ class RipsFiltration {
                               static_cast<std::uint64_t>(std::max<Index>(graph.size() - 1, 0)))))) {
   }
 
-  /// How many vertices a cell of `words` words can hold for a graph of that size.
+  /// Number of vertices that a cell of `words` words can hold for a graph of that size.
   static int capacity(const RipsGraph& graph) {
     return std::min(kMostVertices, Vertices::kBits / RipsFiltration(graph).bits_);
   }
@@ -79,7 +79,7 @@ class RipsFiltration {
   std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
   std::span<const double> vertex_births() const { return graph_.births(); }
   const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
-  /// The points, if there are no edges, for engines that go without.
+  /// The points, if there are no edges, for engines that need none.
   const PointsView* points_alone() const { return graph_.points_alone(); }
   double threshold() const { return graph_.threshold(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
@@ -113,12 +113,12 @@ class RipsFiltration {
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     for_each_cofacet_within(dim, cell, 0, RipsAdjacency::kNever - 1, visit);
   }
-  /// As RangeFiltration asks for them.
+  /// As RangeFiltration requires.
   template <class Visit>
   void for_each_cofacet_within(int dim, const Cell& cell, Key first, Key last, Visit&& visit) const;
   Key horizon(Key key) const;
 
-  /// As ApparentFiltration asks for them: a group has the simplices of one longest edge.
+  /// As ApparentFiltration requires: a group has the simplices that share a longest edge.
   std::optional<Cell> apparent_cofacet(int dim, const Cell& cell) const;
   std::optional<Cell> apparent_facet(int dim, const Cell& cell) const;
   std::size_t group_count() const { return graph_.edge_count(); }
@@ -153,37 +153,36 @@ class RipsFiltration {
     while (it != others.end()) append(*it++);
     return cell;
   }
-  /// The cell with slot `slot` taken out.
+  /// The vertices without slot `slot`.
   Vertices without(const Vertices& v, int slot) const {
     const Vertices above = (v >> ((slot + 1) * bits_)) << (slot * bits_);
     return above | below(v, slot);
   }
-  /// The slots below `slot`, the others zero.
+  /// The slots below `slot`; the other slots are zero.
   Vertices below(const Vertices& v, int slot) const {
     const int drop = Vertices::kBits - slot * bits_;
     return (v << drop) >> drop;
   }
 
-  /// The slot of the smallest vertex that is not an end of the longest edge; dim + 1 if there is
-  /// none.
+  /// The slot of the smallest vertex that is not an end of the longest edge, or dim + 1.
   int first_slot_off_longest(int dim, const Cell& cell) const {
     const FlagEdge& longest = graph_.edge(cell.key);
     for (int slot = 0; slot <= dim; ++slot)
       if (const auto v = vertex(cell, slot); v != longest.u && v != longest.v) return slot;
     return dim + 1;
   }
-  /// The smallest vertex below `below` that edges before `key` join to all slots of a cell, slot
-  /// `skipped` apart; kNoVertex if there is none.
+  /// The smallest vertex below `below` that edges before `key` join to all slots of a cell except
+  /// slot `skipped`, or kNoVertex.
   std::uint32_t first_common_neighbour(int dim, const Cell& cell, int skipped,
                                        std::uint32_t below) const;
   static constexpr std::uint32_t kNoVertex = UINT32_MAX;
   static constexpr int kNoSlot = -1;
 
-  /// Extends a clique by every smaller vertex joined to all of it by edges up to `limit`.
+  /// Extends a clique by every smaller vertex that edges up to `limit` join to all of it.
   template <class Visit>
   void extend_clique(const Cell& clique, std::span<const Neighbour> candidates, int missing,
                      Key limit, std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;
-  /// The vertices below `below` joined to `from`, ascending.
+  /// The vertices below `below` that are joined to `from`, ascending.
   void smaller_neighbours(std::uint32_t from, std::uint32_t below,
                           std::vector<Neighbour>& out) const;
 
@@ -243,7 +242,7 @@ void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
       visit(larger);
       continue;
     }
-    // Candidates stay those below w that are joined to w too; each carries the key of its longest
+    // Candidates below w that are also joined to w are kept; each carries the key of its longest
     // edge to the clique.
     auto& next = scratch[static_cast<std::size_t>(missing)];
     next.clear();
@@ -277,7 +276,7 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
     return;
   }
   const RipsAdjacency& adjacent = adjacency();
-  // A facet that keeps the longest edge keeps the key.
+  // A facet that contains the longest edge keeps the key.
   const FlagEdge longest = graph_.edge(cell.key);
   std::array<std::uint32_t, kMostVertices> vertices;
   for (int slot = 0; slot <= dim; ++slot)

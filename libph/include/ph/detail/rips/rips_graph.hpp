@@ -27,25 +27,27 @@
 
 namespace ph {
 
-/// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by
-/// (distance, larger end, smaller end) as far as that was needed, and known by their key, an
-/// integer. Keys start at 1; key 0 belongs to the vertices, which enter at 0 or at births of their
-/// own. (A collapsed graph has its own order within a value, see edge_collapse.hpp.)
+/// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by (distance,
+/// larger end, smaller end) as far as needed, and each known by its key, an integer. Keys start at
+/// 1; key 0 belongs to the vertices, which enter at 0 or at births of their own. (A collapsed graph
+/// orders edges of equal value differently, see edge_collapse.hpp.)
 class RipsGraph {
  public:
   using Key = RipsAdjacency::Key;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-  /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN one.
-  /// @param weights here and below: of the vertices, which all enter up to the threshold.
+  /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN
+  /// distance.
+  /// @param weights here and below: the weights of the vertices, which all enter up to the
+  /// threshold.
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context, const VertexWeights& weights = {});
-  /// Euclidean distances up to the threshold; never n^2 of them.
+  /// Uses Euclidean distances up to the threshold, and never computes all n^2.
   static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
                                     const VertexWeights& weights = {});
-  /// The points and no edges.
-  /// @param owner keeps the points; null: whoever has the graph keeps them.
+  /// Holds the points and no edges.
+  /// @param owner keeps the points; if null, the owner of the graph must keep them.
   static RipsGraph of_points_alone(PointsView points, std::shared_ptr<const Points> owner,
                                    std::optional<double> threshold, const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
@@ -53,18 +55,19 @@ class RipsGraph {
                             const VertexWeights& weights = {});
 
   /// The same vertices, names, births and threshold with other edges.
-  /// @param edges by ascending value; ties come in the order given.
+  /// @param edges by ascending value; ties keep the order given.
   static RipsGraph with_edges(const RipsGraph& graph, FlagEdges&& edges, const RunContext& context);
 
-  /// Only a minimum spanning forest, which has the components of the whole graph at every distance.
-  /// Without a threshold there is none. Evaluates each distance once and keeps O(n) memory.
+  /// Holds only a minimum spanning forest, which has the same components as the entire graph at
+  /// every distance. Without a threshold there is no limit. Evaluates each distance once and keeps
+  /// O(n) memory.
   template <Metric M>
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
   /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
                                     std::optional<double> threshold, const RunContext& context);
-  /// The same by a GPU. @throws Error (not_built_in, resource); Error (usage) as
+  /// The same on a GPU. @throws Error (not_built_in, resource); Error (usage) as
   /// gpu::spanning_forest.
   static RipsGraph forest_on_gpu(PointsView points, std::optional<double> threshold,
                                  const RunContext& context);
@@ -72,57 +75,56 @@ class RipsGraph {
                                    std::optional<double> threshold, const RunContext& context,
                                    const VertexWeights& weights = {});
 
-  /// @param forest the one that spanning_forest gives, in any order.
+  /// @param forest the result of spanning_forest, in any order.
   static RipsGraph of_forest(Index size, double limit, FlagEdges&& forest,
                              const RunContext& context, std::span<const double> births = {});
 
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);
-  /// Before any point or distance is looked at, whatever will be made of them.
-  /// @throws Error (resource, usage) too many points, or a threshold that is negative or NaN.
+  /// Checks arguments before any point or distance is read, whatever form will be made.
+  /// @throws Error (resource, usage) on too many points, or a threshold that is negative or NaN.
   static void check_arguments(Index size, std::optional<double> threshold);
-  /// @return the distance, without the sign of a zero. @throws Error (bad_data) on a negative or
-  /// NaN one.
+  /// @return the distance, with -0 turned into 0. @throws Error (bad_data) on a negative or NaN
+  /// distance.
   static double checked_distance(Index i, Index j, double value);
 
   Index size() const { return size_; }
   /// The point that vertex v stands for: v itself unless the vertices were named.
   Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
-  /// Of no vertices, too: then all points of the input are left out.
+  /// True even if there are no vertices: then all points of the input are left out.
   bool has_names() const { return has_names_; }
-  /// The points that the vertices, or those that they were named after, stand for.
+  /// Sets the points that the vertices stand for; existing names are translated.
   /// @param points ascending.
   void name_vertices(std::span<const std::uint32_t> points, const RunContext& context);
-  /// When the vertices enter; empty: all at 0.
+  /// The values at which the vertices enter; empty if all enter at 0.
   std::span<const double> births() const { return births_; }
   double birth(std::uint32_t v) const { return births_.empty() ? 0.0 : births_[v]; }
   std::size_t edge_count() const { return edges_.size(); }
-  /// Whether only a spanning forest is held.
+  /// True if only a spanning forest is held.
   bool is_forest() const { return is_forest_; }
-  /// The points if nothing else is held; else null.
+  /// The points if nothing else is held, otherwise null.
   const PointsView* points_alone() const { return points_ ? &points_->view : nullptr; }
   double threshold() const { return threshold_; }
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
-  /// Of an edge.
+  /// The value of an edge.
   double value(Key key) const { return edges_[key - 1].value; }
-  /// All, in order.
+  /// All edges, in order.
   std::span<const FlagEdge> edges() const { return binned_edges().sorted(); }
-  /// For those who may not need all of them in order. @throws Error (usage) if points alone are
-  /// held, here and where all edges are asked for.
+  /// For callers that may not need all edges in order. @throws Error (usage) if only points are
+  /// held, here and wherever all edges are asked for.
   const BinnedEdges& binned_edges() const {
     require_edges();
     return edges_;
   }
-  /// Where the edges are allocated.
+  /// The memory in which edges are allocated.
   std::pmr::memory_resource* memory() const { return names_.get_allocator().resource(); }
 
-  /// Whether most pairs are edges: the layout that adjacency() has, or will have.
+  /// True if most pairs are edges: the layout that adjacency() has or will have.
   bool is_dense() const {
     return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
-  /// Made when it is first asked for, by whichever thread comes first: engines that go edge by edge
-  /// do without.
+  /// Made on first use, by the first thread that asks: engines that go edge by edge do not need it.
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     require_edges();
@@ -135,8 +137,8 @@ class RipsGraph {
   }
 
  private:
-  // Not std::call_once: an exception that passes it ends the process where memory has run out,
-  // since glibc then loads what it needs to unwind.
+  // std::call_once is not used: when memory has run out, an exception that passes through it ends
+  // the process, because glibc then loads the library that it needs for unwinding.
   struct Lazy {
     std::mutex mutex;
     std::optional<RipsAdjacency> adjacency;
@@ -152,19 +154,20 @@ class RipsGraph {
     if (points_) throw_no_edges();
   }
   [[noreturn]] static void throw_no_edges();
-  /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
+  /// Splits the rows of a triangle into ranges of about equally many pairs. @return where range r
+  /// begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
-  /// As many ranges as keep the threads busy.
+  /// Enough ranges to keep the threads busy.
   static std::size_t range_count(Index rows, const RunContext& context);
 
   Index size_ = 0;
   double threshold_ = 0;
   bool is_forest_ = false;
   bool has_names_ = false;
-  std::optional<PointsAlone> points_;      // none: the edges are held
+  std::optional<PointsAlone> points_;      // empty if the edges are held
   BinnedEdges edges_;                      // by key - 1
-  std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
-  std::pmr::vector<double> births_;        // by vertex; empty: 0
+  std::pmr::vector<std::uint32_t> names_;  // by vertex; if empty, a vertex has its own number
+  std::pmr::vector<double> births_;        // by vertex; if empty, all births are 0
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 
@@ -186,15 +189,15 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
                                const RunContext& context, const VertexWeights& weights) {
   const Index n = metric.size();
   check_arguments(n, threshold);
-  // One pass finds the enclosing radius and how the distances are spread, the next one keeps those
-  // within: distances are evaluated twice rather than all stored.
+  // The first pass finds the enclosing radius and the distribution of the distances, the second
+  // keeps the distances within it: distances are evaluated twice instead of being stored.
   const RowDistances<M> distances(metric, &context.memory);
   const std::size_t ranges = range_count(n, context);
   const bool is_weighted = !weights.births().empty();
   using Row = std::pmr::vector<double>;
   const auto for_each_row = [&](std::string_view stage, auto&& use_range) {
     for_each_piece(stage, ranges, 1, context, [&](std::size_t range, std::size_t) {
-      std::optional<Ticker> ticker;  // of the only range
+      std::optional<Ticker> ticker;  // counts the work of the only range
       if (ranges == 1) ticker.emplace(context, stage, static_cast<std::uint64_t>(n));
       Row row(static_cast<std::size_t>(distances.row_capacity()), 0.0, &context.memory);
       const Index end = range_begin(n, range + 1, ranges);
@@ -236,7 +239,8 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   });
   const double radius = n == 0 ? kNoLimit : *std::ranges::min_element(farthest);
   const double limit = threshold.value_or(radius);
-  const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
+  // An infinite distance is not an edge.
+  const double last = std::min(limit, std::numeric_limits<double>::max());
   binner.allocate(last);
   for_each_row("edges", [&](std::size_t range, auto&& for_each) {
     for_each([&](Index i, const double* row) {

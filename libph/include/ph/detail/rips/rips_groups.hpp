@@ -11,9 +11,9 @@
 
 namespace ph {
 
-/// The simplices of one longest edge e after the other, as cliques of the link of e: the vertices
-/// that edges before e join to both of its ends. Finds those that are in no apparent pair without
-/// looking at most of the others; see docs/explanation/engines/cohomology.md.
+/// Lists the simplices of one longest edge e after another, as cliques of the link of e: the
+/// vertices that edges before e join to both ends of e. It finds the simplices that are in no
+/// apparent pair without looking at most of the others; see docs/explanation/engines/cohomology.md.
 class RipsGroups {
  public:
   using Key = RipsGraph::Key;
@@ -21,15 +21,16 @@ class RipsGroups {
 
   /// O(n^2 / 64 + edges).
   explicit RipsGroups(const RipsGraph& graph);
-  /// What it takes, n^2 / 8 bytes, is a fraction of what the graph takes, or little.
+  /// True if its n^2 / 8 bytes are little, or little compared with the graph.
   static bool are_affordable(const RipsGraph& graph);
 
-  /// Goes to the simplices whose longest edge is `key`, fast if they are near those at hand.
-  /// @return whether the link is empty: then the edge is the only one.
+  /// Goes to the simplices whose longest edge is `key`, which is fast if they are near the current
+  /// ones.
+  /// @return true if the link is empty: then the edge is the only such simplex.
   bool go_to(Key key);
 
-  /// Calls `visit(vertices)` for each clique of `size` > 0 vertices of the link that is, together
-  /// with e, in no apparent pair: its vertices, descending. The cliques come in descending
+  /// Calls `visit(vertices)` with the vertices, descending, of each clique of `size` > 0 vertices
+  /// of the link that together with e is in no apparent pair. The cliques come in descending
   /// colexicographic order. Calls `on_step()` now and then.
   template <class Visit, class OnStep>
   void for_each_unmatched(int size, Visit&& visit, OnStep&& on_step) {
@@ -41,15 +42,16 @@ class RipsGroups {
  private:
   using Word = BitMatrix::Word;
 
-  /// Sets are words of the link that are not zero: word i of a set is word link_words_[i] of a row.
+  /// A set holds the words that are not zero in the link: word i of a set is word link_words_[i] of
+  /// a row.
   Word* set(std::size_t depth) { return sets_.data() + depth * link_words_.size(); }
 
-  /// Adds `missing` vertices to the clique chosen, all from the set at `depth`: those of the link
-  /// that are joined to all of the clique and below it. The set fills `words` words.
+  /// Adds `missing` vertices to the chosen clique, all from the set at `depth`: the vertices of the
+  /// link that are below the clique and joined to all of it. The set fills `words` words.
   template <class Visit, class OnStep>
   void extend(int missing, std::size_t depth, std::size_t words, Visit& visit, OnStep& on_step);
 
-  /// Whether vertex `a`, the first of a set, is joined to all others.
+  /// True if vertex `a`, the first of a set, is joined to all others.
   bool sees_all(Vertex a, const Word* set, std::size_t first, std::size_t words) const {
     const Word* joined = present_.row(a);
     Word missed = set[first] & ~joined[link_words_[first]] & ~(Word{1} << (a % 64));
@@ -59,17 +61,17 @@ class RipsGroups {
   }
 
   std::span<const FlagEdge> edges_;
-  Key key_;            // edges before it are present
+  Key key_;            // edges before it are present in present_
   BitMatrix present_;  // symmetric
   std::pmr::vector<std::uint32_t> link_words_;
-  std::pmr::vector<Word> sets_;  // one for each vertex of a clique; the first is the link
+  std::pmr::vector<Word> sets_;  // one set per vertex of a clique; the first set is the link
   std::pmr::vector<Vertex> chosen_;
 };
 
-// The first vertex a of the set, if it is joined to all others, makes an apparent pair of every
-// clique without it, with a added, and of every clique with it. Otherwise, for the last vertex m of
-// the clique: m = a is taken away in an apparent pair; if some w < m of the set is joined to m, the
-// first such w is added in one; else there is no pair.
+// If the first vertex a of the set is joined to all others, it forms apparent pairs: every clique
+// without a is paired with the same clique plus a. Otherwise let m be the last vertex of the
+// clique. If m = a, removing m gives an apparent pair. If some w < m of the set is joined to m,
+// adding the first such w gives one. Otherwise there is none.
 template <class Visit, class OnStep>
 void RipsGroups::extend(int missing, std::size_t depth, std::size_t words, Visit& visit,
                         OnStep& on_step) {

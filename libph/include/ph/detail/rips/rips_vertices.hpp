@@ -12,20 +12,22 @@
 
 namespace ph {
 
-/// Which points of a set become vertices of a Rips filtration, and when they enter.
+/// The points of a set that become vertices of a Rips filtration, and the values at which they
+/// enter.
 class RipsVertices {
  public:
-  /// @param size number of points. @param chosen the points to take, ascending; empty: all.
-  /// @param births by point; empty: 0. Who is born beyond the threshold never enters.
-  /// @throws Error (usage) if `chosen` is not ascending below `size` or there is not one birth a
+  /// @param size number of points. @param chosen the points to take, ascending; if empty, all
+  /// points.
+  /// @param births by point; if empty, all are 0. A point born beyond the threshold never enters.
+  /// @throws Error (usage) if `chosen` is not ascending below `size` or there is not one birth per
   /// point; Error (bad_data) on a birth that is negative, infinite or NaN.
   RipsVertices(Index size, std::span<const std::uint32_t> chosen, std::span<const double> births,
                WeightExponent exponent, std::optional<double> threshold, const RunContext& context);
 
   bool are_all() const { return are_all_; }
-  /// The points that are vertices, ascending; nothing is here if all are.
+  /// The points that are vertices, ascending; empty if all points are.
   const std::pmr::vector<std::uint32_t>& members() const { return members_; }
-  /// By vertex.
+  /// The weights, by vertex.
   VertexWeights weights() const { return {births_, exponent_}; }
 
  private:
@@ -35,7 +37,7 @@ class RipsVertices {
   WeightExponent exponent_;
 };
 
-/// Some of the points of a metric. Keeps references to both.
+/// Some of the points of a metric. It keeps references to both.
 template <Metric M>
 class SubsetMetric {
  public:

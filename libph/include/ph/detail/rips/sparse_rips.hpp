@@ -15,38 +15,39 @@ namespace ph {
 
 /// Sparse Rips filtrations (Sheehy, Linear-size approximations to the Vietoris-Rips filtration,
 /// 2013), with the growth of balls of Cavanna, Jahanseir and Sheehy (A geometric perspective on
-/// sparse filtrations, 2015): each ball stops growing at a size in proportion to the insertion
-/// radius of its point in a greedy permutation, and edges enter when balls meet. Edges that come
-/// after the smaller ball lies well within others are left out. A flag complex: no simplex but by
-/// its edges.
+/// sparse filtrations, 2015). Each ball stops growing at a size in proportion to the insertion
+/// radius of its point in a greedy permutation; an edge enters when its two balls meet. Edges that
+/// would enter after the smaller ball lies well inside others are left out. The result is a flag
+/// complex: the edges determine all simplices.
 ///
-/// If the triangle inequality holds, its barcode and that of the Rips filtration can be matched
-/// such that here bars are born and die at the same value or later, by a factor of 1 + epsilon at
-/// most; only bars [b, d) with d <= (1 + epsilon) b, of either, are left unmatched. Proof:
-/// docs/explanation/approximation.md.
+/// If the triangle inequality holds, the bars can be matched with the bars of the Rips filtration
+/// such that here bars are born and die at the same value or later, by a factor of at most 1 +
+/// epsilon; only bars [b, d) with d <= (1 + epsilon) b, of either filtration, are left unmatched.
+/// For a proof see docs/explanation/approximation.md.
 class SparseRips {
  public:
-  /// @throws Error (usage) unless it is a finite number above 0.
+  /// @throws Error (usage) unless `epsilon` is a finite number above 0.
   static void check_epsilon(double epsilon);
-  /// @param order of all points (GreedyLimits{}). @param size number of points.
-  /// @param epsilon as check_epsilon wants it.
+  /// @param order a greedy permutation of all points (GreedyLimits{}). @param size number of
+  /// points.
+  /// @param epsilon must satisfy check_epsilon.
   SparseRips(const GreedyPermutation& order, Index size, double epsilon, const RunContext& context);
 
-  /// When two points at a distance are joined; infinite: never.
+  /// The value at which two points at a distance are joined, or infinity if they never are.
   double edge_value(Index u, Index v, double distance) const {
     const double of_u = largest_ball(u), of_v = largest_ball(v), small = std::min(of_u, of_v);
     const double value = meeting(small, std::max(of_u, of_v), distance);
     return value <= (1 + epsilon_) * small ? value : RipsGraph::kNoLimit;
   }
-  /// From here on there is one component and nothing else: point 0, whose ball grows for ever, has
-  /// met all others.
+  /// From this value on there is a single component and nothing else: point 0, whose ball grows
+  /// forever, has met all other points.
   double reach(Index v, double distance) const {
     return meeting(largest_ball(v), RipsGraph::kNoLimit, distance);
   }
 
  private:
   double largest_ball(Index v) const { return largest_ball_[static_cast<std::size_t>(v)]; }
-  /// Of balls of such largest diameters.
+  /// The value at which two balls with these largest diameters meet.
   static double meeting(double small, double large, double distance) {
     if (distance <= small) return distance;
     const double value = distance + (distance - small);
@@ -54,13 +55,13 @@ class SparseRips {
   }
 
   double epsilon_;
-  std::pmr::vector<double> largest_ball_;  // by point: its diameter
+  std::pmr::vector<double> largest_ball_;  // by point: the largest diameter of its ball
 };
 
-/// The graph of the sparse Rips filtration. Evaluates all distances once beside those of the
-/// permutation; keeps O(n / epsilon^d) edges for points of a space of d dimensions whose diameter
-/// is not too many times their least distance.
-/// @param threshold default: where nothing but one component is left.
+/// The graph of the sparse Rips filtration. Evaluates all distances once, in addition to those for
+/// the permutation. Keeps O(n / epsilon^d) edges for points in d dimensions, if the diameter is not
+/// too large a multiple of the least distance.
+/// @param threshold by default, the value from which only one component is left.
 template <Metric M>
 RipsGraph sparse_rips_graph(const M& metric, const GreedyPermutation& order, double epsilon,
                             std::optional<double> threshold, const RunContext& context) {
