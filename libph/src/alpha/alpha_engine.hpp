@@ -8,8 +8,8 @@
 namespace ph {
 
 /// Alpha complexes, all dimensions, no zero-length pairs: simplices are paired inside their
-/// intervals, what is left by union-find from both ends and by reduction between them. With cycles,
-/// not with cocycles. See docs/explanation/engines/alpha.md.
+/// intervals; the rest are paired by union-find from both ends and by reduction between them. It
+/// gives cycles, but no cocycles. See docs/explanation/engines/alpha.md.
 struct AlphaEngine {
   static constexpr Engine id = Engine::gradient;
   static bool can_run(const Alpha& alpha, const Task& task) {

@@ -8,7 +8,7 @@
 
 namespace ph {
 
-/// What an alpha complex makes when it is first asked for.
+/// The data that an alpha complex makes when they are first asked for.
 struct Alpha::Lazy {
   explicit Lazy(const RunContext& made_with) : context(&made_with) {}
   void set(ExplicitComplex complex) {
@@ -19,7 +19,7 @@ struct Alpha::Lazy {
   std::mutex mutex;
   std::atomic<const ExplicitComplex*> ready{nullptr};
   std::optional<ExplicitComplex> listed;
-  SimplexList vertices;  ///< by cell as listed, of a periodic space
+  SimplexList vertices;  ///< by cell as listed; only for a periodic space
   const RunContext* context;
 };
 

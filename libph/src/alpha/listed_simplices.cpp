@@ -29,7 +29,7 @@ void for_each_simplex(const AlphaCells& cells, int dim, Visit&& visit) {
     for (std::size_t t = 0; t < triangulation.size(); ++t)
       for (int k = 0; k <= cells.dim(); ++k) {
         const auto code = static_cast<uint32_t>(4 * t) + static_cast<uint32_t>(k);
-        if (cells.across(code) < code) continue;  // kNone is larger than any
+        if (cells.across(code) < code) continue;  // kNone is larger than any code
         const bool is_critical = next != cells.facets.end() && next->code == code;
         const double value = facet_value(cells, code, is_critical ? &*next++ : nullptr);
         const auto v = cells.facet_vertices(code);
@@ -78,8 +78,8 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
 
 namespace {
 
-/// Cells of a Delta-complex with their boundaries. Sites have an order of their own; chains are of
-/// cells whose points ascend, so it is those that are listed.
+/// Cells of a Delta-complex with their boundaries. Sites have an order of their own; chains use
+/// cells whose points ascend, and the list has those cells.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
@@ -112,13 +112,14 @@ class CellList {
  private:
   static constexpr Index kMissing = -1;
 
-  /// @param boundary its facets, in the order of the vertices that they lack. @return its row.
+  /// @param boundary its facets, in the order of the vertices that they lack. @return the row of
+  /// the cell.
   Index add_cell(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
     std::array<Index, 4> points{};
     for (std::size_t i = 0; i < sites.size(); ++i) points[i] = cells_.sites.input[sites[i]];
     return add(std::span(points).first(sites.size()), value, boundary);
   }
-  /// @param points in the order of their sites; they are sorted.
+  /// @param points the points in the order of their sites; they get sorted.
   Index add(std::span<Index> points, double value, std::span<const Index> boundary) {
     if (!enters_(value)) return kMissing;
     ticker_.tick();
@@ -137,7 +138,7 @@ class CellList {
     matrix_.offsets.push_back(matrix_.rows.size());
     return row;
   }
-  /// Equal ones stay in order. @return whether that is an odd permutation.
+  /// Keeps the order of equal points. @return true if the permutation is odd.
   static bool sort_points(std::span<Index> points) {
     bool is_odd = false;
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -169,7 +170,8 @@ class CellList {
   void add_facets() {
     const auto size = static_cast<std::size_t>(cells_.dim());
     for (uint32_t code = 0; code < facet_rows_.size(); ++code) {
-      if ((code & 3) > size || cells_.across(code) < code) continue;  // kNone is larger than any
+      // kNone is larger than any code.
+      if ((code & 3) > size || cells_.across(code) < code) continue;
       const auto v = cells_.facet_vertices(code);
       auto boundary = size == 2 ? boundary_of_edge(v) : std::array<Index, 4>();
       if (size == 3) {
@@ -187,7 +189,7 @@ class CellList {
   SimplexList& vertices_;
   Ticker ticker_;
   BoundaryMatrix matrix_;
-  std::pmr::vector<bool> is_turned_;  // by row: whether the points lay in an odd permutation
+  std::pmr::vector<bool> is_turned_;  // by row: true if sorting the points took an odd permutation
   // By site, by edge, and by the usual name of a facet.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };

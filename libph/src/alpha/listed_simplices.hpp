@@ -7,7 +7,7 @@
 
 namespace ph::alpha {
 
-/// Whether a simplex of that squared radius enters.
+/// True if a simplex of that squared radius enters.
 using Enters = std::function<bool(double)>;
 
 /// All simplices that enter, by dimension and then by vertices, the last one first. Values are
@@ -15,15 +15,15 @@ using Enters = std::function<bool(double)>;
 ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
                                const RunContext& context);
 
-/// The same of a periodic space, whose cells are not known by their vertices.
-/// @param vertices gets those of each cell, ascending.
+/// The same for a periodic space, whose cells are not determined by their vertices.
+/// @param vertices receives the vertices of each cell, ascending.
 ExplicitComplex list_cells(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
                            const RunContext& context);
 
-/// The highest dimension of a simplex that enters; -1: none does.
+/// The highest dimension of a simplex that enters, or -1 if none does.
 int top_dim(const AlphaCells& cells, const Enters& enters);
 
-/// All simplices by dimension, edges of copies included.
+/// Number of all simplices by dimension, including edges to copies.
 std::vector<std::size_t> simplex_counts(const AlphaCells& cells);
 
 }  // namespace ph::alpha

@@ -19,7 +19,7 @@ namespace ph {
 namespace alpha {
 namespace {
 
-/// Whether some axis does.
+/// True if any axis closes up.
 bool closes_up(std::span<const double> period) {
   return std::ranges::any_of(period, [](double length) { return length != 0; });
 }
@@ -77,10 +77,10 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 
 namespace {
 
-/// @throws Error (bad_data) unless squares of coordinates below 2^exponent are doubles, those of
-/// their last places included.
+/// @throws Error (bad_data) unless squares of coordinates below 2^exponent are doubles, down to the
+/// squares of their last places.
 void check_squares(int exponent) {
-  constexpr int most = 511, least = -458;  // 2^-916, and 106 binary places more
+  constexpr int most = 511, least = -458;  // 2^-916, with room for 106 more binary places
   if (exponent >= least && exponent <= most) return;
   throw Error(ErrorKind::bad_data,
               fmt::format("alpha complex: found coordinates of about 2^{}, expected 2^{} to 2^{} "

@@ -8,7 +8,7 @@
 namespace ph::alpha {
 namespace {
 
-/// By point of the input: its site, or that of which it is a copy.
+/// By point of the input: its site, or the site of which it is a copy.
 std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
                                                std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> site_of(sites.size() + sites.copies.size(), kNone, memory);
@@ -17,8 +17,8 @@ std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
   return site_of;
 }
 
-/// The squared radius of the smallest ball around a simplex, if its circumsphere is the sphere of
-/// that ball; else 0: it is that of a face.
+/// The squared radius of the smallest ball around a simplex if its circumsphere bounds that ball;
+/// otherwise 0, because a face has the same ball.
 double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& sites, int dim) {
   if (dim == 1) return spheres.of_edge(sites[0], sites[1]).squared_radius;
   if (dim == 2)

@@ -10,9 +10,9 @@
 
 namespace ph::alpha {
 
-/// Inserts all sites, each beside the one before.
-/// @param insert called with (site, where to begin): gives where the next one is to begin.
-/// @param bytes what CGAL holds, which the budget does not see by itself.
+/// Inserts all sites, each starting near the one before.
+/// @param insert called with (site, starting place): it returns the next starting place.
+/// @param bytes the memory of CGAL, which the budget does not see by itself.
 template <class Start, class Insert, class Bytes>
 void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& claim,
                   Insert&& insert, Bytes&& bytes) {
@@ -27,8 +27,9 @@ void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& cl
   }
 }
 
-/// Sorts the vertices of a cell, and with them what lies across; those that are none come last. Any
-/// order is equally likely, so there is no branch. @return whether that is an odd permutation.
+/// Sorts the vertices of a cell, and the cells across along with them; missing vertices come last.
+/// All orders are equally likely, which makes branches costly; there are none. @return true if the
+/// permutation is odd.
 inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
                       std::array<std::uint32_t, 4>& across) {
   std::array<std::uint64_t, 4> both;
@@ -53,9 +54,10 @@ inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
   return is_odd;
 }
 
-/// Makes names of facets of the numbers of the cells across.
+/// Turns the numbers of the cells across into names of facets.
 inline void name_facets(Triangulation& result) {
-  constexpr std::uint32_t named = std::uint32_t{1} << 31;  // by the cell across, which came before
+  // Named by the cell across, which came before.
+  constexpr std::uint32_t named = std::uint32_t{1} << 31;
   auto& across = result.across;
   for (std::uint32_t t = 0; t < across.size(); ++t)
     for (std::uint32_t k = 0; k < 4; ++k) {
@@ -73,10 +75,11 @@ inline void name_facets(Triangulation& result) {
     }
 }
 
-/// Copies the cells of a triangulation of CGAL in the order of their smallest vertices, which is an
+/// Copies the cells of a CGAL triangulation in the order of their smallest vertices, which is an
 /// order in space.
-/// @tparam Handle to a cell, whose info() is free to use; that of a vertex is its site.
-/// @param for_each_cell calls a function with the handle of each cell and whether it is finite.
+/// @tparam Handle a handle of a cell, whose info() is free to use; info() of a vertex is its site.
+/// @param for_each_cell calls a function with the handle of each cell and true if the cell is
+/// finite.
 template <class Handle, class ForEachCell>
 void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each_cell,
                 const RunContext& context) {
@@ -86,7 +89,8 @@ void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each
     for (int k = 1; k <= dim; ++k) least = std::min(least, c->vertex(k)->info());
     return least;
   };
-  // The infinite ones are known by kNone from here on, the finite ones by their smallest vertex.
+  // From here on, kNone stands for infinite cells, and finite cells are sorted by their smallest
+  // vertex.
   std::pmr::vector<std::uint32_t> next(sites + 1, 0, &context.memory);
   std::size_t count = 0;
   for_each_cell([&](Handle c, auto&& is_finite) {

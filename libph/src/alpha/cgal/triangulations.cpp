@@ -18,7 +18,7 @@ namespace {
 
 using std::uint32_t;
 
-/// The names that CGAL has for triangulations of the plane (2) and of space (3).
+/// CGAL's names for triangulations of the plane (2) and of space (3).
 template <int dim>
 struct Cgal;
 
@@ -72,7 +72,7 @@ struct Cgal<3> {
   static const auto& cells(const auto& structure) { return structure.cells(); }
   static auto cell_at(const auto& vertex) { return vertex->cell(); }
   static std::pair<int, int> ends(const auto& edge) { return {edge.second, edge.third}; }
-  /// Of coplanar sites these are triangles.
+  /// For coplanar sites, the cells are triangles.
   static void for_each_cell(const auto& dt, auto&& use) {
     if (dt.dimension() == 3)
       for (auto c = dt.all_cells_begin(); c != dt.all_cells_end(); ++c)
@@ -83,7 +83,7 @@ struct Cgal<3> {
   }
 };
 
-/// What CGAL made, in any dimension up to `dim`.
+/// Copies the triangulation of CGAL, in any dimension up to `dim`.
 template <int dim, class Dt>
 Triangulation copy(Dt& dt, std::size_t sites, const RunContext& context) {
   Triangulation result(&context.memory);
@@ -110,7 +110,8 @@ Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContex
   MemoryClaim claim(context.memory, 0);
   const auto insert = [&](uint32_t site, Cell start) {
     const auto vertex = dt.insert(point_of_site(site), start);
-    if (vertex == typename Dt::Vertex_handle()) return start;  // hidden: nothing has changed
+    // The site is hidden: nothing has changed.
+    if (vertex == typename Dt::Vertex_handle()) return start;
     vertex->info() = site;
     return Cgal<dim>::cell_at(vertex);
   };

@@ -6,13 +6,14 @@
 
 namespace ph::alpha {
 
-/// The unevaluated sum of two doubles, the second at most half a last place of the first: about 106
-/// bits (Dekker, A floating-point technique for extending the available precision, 1971).
+/// The unevaluated sum of two doubles, the second at most half a unit in the last place of the
+/// first: about 106 bits (Dekker, A floating-point technique for extending the available precision,
+/// 1971).
 class DoubleDouble {
  public:
   constexpr DoubleDouble(double high = 0) : high_(high) {}
   double high() const { return high_; }
-  /// Exact unless it underflows.
+  /// The result is exact unless it underflows.
   DoubleDouble times_power_of_two(int exponent) const {
     return {alpha::times_power_of_two(high_, exponent), alpha::times_power_of_two(low_, exponent)};
   }

@@ -12,17 +12,17 @@ namespace {
 
 using std::uint32_t;
 
-/// An edge as some cell has it: its larger end, then 8 · cell + edge.
+/// An edge as found in a cell: its larger end, then 8 · cell + edge.
 using Found = std::uint64_t;
 uint32_t larger_end(Found found) { return static_cast<uint32_t>(found >> 32); }
 std::size_t cell_of(Found found) { return static_cast<uint32_t>(found) >> 3; }
 unsigned edge_of(Found found) { return static_cast<unsigned>(found & 7); }
 
-/// Calls a function with the edges of a cell that no cell beside it, across a facet at the edge,
-/// comes before. Of the cells around an edge the first one is such, and hardly ever a second.
+/// Calls a function with the edges of a cell that do not occur in an earlier neighbour across a
+/// facet at the edge. The first cell around an edge always qualifies, a second one hardly ever.
 template <class Use>
 void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& use) {
-  unsigned later = 0;  // the facets across which a later cell lies, or none, or itself
+  unsigned later = 0;  // facets across which lies a later cell, no cell, or the cell itself
   for (unsigned k = 0; k < 4; ++k)
     later |= triangulation.across[cell][k] >= 4 * cell ? 1U << k : 0U;
   for (unsigned e = 0; e < 6; ++e) {
@@ -31,17 +31,18 @@ void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& 
   }
 }
 
-/// Where the ends of an edge of a cell are in a periodic space.
+/// The places of the ends of a cell's edge in a periodic space.
 NumberedEdges::Ends frame_of(const Images& images, std::size_t cell, unsigned edge) {
   const auto& places = images.of_cell[cell];
   return {places[kEdgeEnds[edge][0]], places[kEdgeEnds[edge][1]]};
 }
-/// From the smaller end to the larger one: edges with the same ends are one if they have the same.
+/// The translation from the smaller end to the larger one: edges with the same ends are equal if
+/// their translations are.
 Translation translation_of(const Images& images, const NumberedEdges::Ends& frame) {
   return images.translation[frame[1]] - images.translation[frame[0]];
 }
 
-/// Takes out what is there twice. @return how many are left.
+/// Removes duplicates. @return how many are left.
 std::size_t keep_first(std::span<Found> of_vertex, const Images* images) {
   std::ranges::sort(of_vertex);
   std::size_t kept = 0;
@@ -85,7 +86,7 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
   if (6 * cells.size() >= kNone)
     throw Error(ErrorKind::resource, "alpha complex: found too many edges of tetrahedra");
 
-  // By smaller vertex, some of them more than once.
+  // Sorted by smaller vertex, with some duplicates.
   std::pmr::vector<uint32_t> begin(sites + 1, 0, memory);
   for (std::size_t t = 0; t < cells.size(); ++t)
     for_each_first(triangulation, t, [&](unsigned e) { ++begin[cells[t][kEdgeEnds[e][0]]]; });

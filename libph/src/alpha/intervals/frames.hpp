@@ -5,12 +5,12 @@
 
 namespace ph::alpha {
 
-/// Where the vertices of a cell are, for computing with it: at their sites or, in a periodic space,
-/// at images of them that are near each other. So are those of its facets and edges. All frames of
-/// a simplex are translates of each other, and differences of coordinates are exact.
+/// Positions of the vertices of a cell for computations: their sites or, in a periodic space,
+/// images of the sites that are near each other. The same holds for its facets and edges. All
+/// frames of a simplex are translates of each other, and differences of coordinates are exact.
 class Frames {
  public:
-  /// @param images null: the space is not periodic. Both outlive the frames.
+  /// @param images null if the space is not periodic. Both arguments must outlive the frames.
   Frames(const AlphaCells& cells, const Images* images) : cells_(cells), images_(images) {}
 
   const Sites& places() const { return images_ == nullptr ? cells_.sites : images_->places; }

@@ -7,7 +7,7 @@
 namespace ph::alpha {
 
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code) {
-  code = std::min(code, cells.across(code));  // kNone is larger than any
+  code = std::min(code, cells.across(code));  // kNone is larger than any code
   const auto at = std::ranges::lower_bound(cells.facets, code, {}, &CriticalFacet::code);
   return at != cells.facets.end() && at->code == code ? &*at : nullptr;
 }
@@ -30,7 +30,7 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
     const std::uint32_t up = cells.edge_states[e].up;
     if (up == code || (up == other && other != kNone)) return cells.edge_states[e].value;
   }
-  return std::numeric_limits<double>::quiet_NaN();  // not reached
+  return std::numeric_limits<double>::quiet_NaN();  // never reached
 }
 
 }  // namespace ph::alpha

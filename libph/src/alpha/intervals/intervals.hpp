@@ -11,14 +11,14 @@
 
 namespace ph::alpha {
 
-/// What an edge of a triangulation of dimension 3 is paired with, in place of the name of a facet.
+/// The partner of an edge of a triangulation of dimension 3, instead of the name of a facet.
 inline constexpr std::uint32_t kCritical = kNone;     ///< nothing inside its interval
-inline constexpr std::uint32_t kJoins = kNone - 1;    ///< with a vertex: it joins components
-inline constexpr std::uint32_t kUnknown = kNone - 2;  ///< while intervals are being made
+inline constexpr std::uint32_t kJoins = kNone - 1;    ///< paired with a vertex: it joins components
+inline constexpr std::uint32_t kUnknown = kNone - 2;  ///< its interval is not known yet
 
 struct Edge {
   double value;
-  std::uint32_t up;  ///< the facet with which it is paired, or one of the above
+  std::uint32_t up;  ///< the facet that it is paired with, or one of the constants above
 };
 
 /// A facet that is paired with nothing inside its interval.
@@ -27,7 +27,7 @@ struct CriticalFacet {
   std::uint32_t code = 0;  ///< its usual name
 };
 
-/// The vertices of a facet of a cell, ascending; as many as the dimension says.
+/// The vertices of a facet of a cell, ascending; their number depends on the dimension.
 inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>& cell,
                                              std::uint32_t facet, int dim) {
   const auto& places = kFacetPlaces[facet];
@@ -37,13 +37,13 @@ inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>&
 /// The alpha filtration of a triangulation, with the pairs of its intervals.
 ///
 /// The simplices of one alpha value that belong together form an interval [L, U]: U has an empty
-/// smallest sphere, and L are its vertices whose facets see the centre on their own side (Bauer &
-/// Edelsbrunner, The Morse theory of Čech and Delaunay complexes, 2017). With a the first vertex of
-/// U outside L, each simplex without a is paired with the one that has a in addition. What is left
-/// is critical: those intervals that are one simplex.
+/// smallest sphere, and L has the vertices of U whose facets see the centre on their own side
+/// (Bauer & Edelsbrunner, The Morse theory of Čech and Delaunay complexes, 2017). Let a be the
+/// first vertex of U outside L. Each simplex without a is paired with the same simplex plus a. The
+/// remaining simplices are critical: they are intervals of one simplex.
 ///
-/// Values are squared radii, in the units of the sites. They are the same for all of an interval,
-/// and no face has a larger one than a coface.
+/// Values are squared radii, in the units of the sites. All simplices of an interval have the same
+/// value, and no face has a larger value than a coface.
 struct AlphaCells {
   explicit AlphaCells(Sites all_sites, std::pmr::memory_resource* memory)
       : sites(std::move(all_sites)),
@@ -62,25 +62,25 @@ struct AlphaCells {
   double vertex_value(std::uint32_t v) const {
     return vertex_values.empty() ? 0.0 : vertex_values[v];
   }
-  /// Whether a facet is paired with the cell of that name.
+  /// True if a facet is paired with the cell that its name belongs to.
   bool is_facet_paired_up(std::uint32_t code) const {
     const unsigned places = beyond[code >> 2];
     return places != 0 && lowest(places) == (code & 3);
   }
-  /// The same of either name.
+  /// The same for either name.
   bool belongs_to(std::uint32_t code) const { return (beyond[code >> 2] >> (code & 3) & 1) != 0; }
   std::uint32_t across(std::uint32_t code) const {
     return triangulation.across[code >> 2][code & 3];
   }
-  /// Of dimension 3: the edge between two places of a cell.
+  /// In dimension 3: the edge between two positions of a cell.
   std::uint32_t edge_between(std::size_t cell, unsigned i, unsigned k) const {
     return edges.between(triangulation, cell, i, k);
   }
-  /// Of dimension 3: the edges of a facet, each opposite the vertex at its place.
+  /// In dimension 3: the edges of a facet, each opposite the vertex at its position.
   std::array<std::uint32_t, 3> facet_edges(std::uint32_t code) const {
     return edges.of_facet(triangulation, code);
   }
-  /// The vertices of a facet, ascending; as many as the dimension says.
+  /// The vertices of a facet, ascending; their number depends on the dimension.
   std::array<std::uint32_t, 3> facet_vertices(std::uint32_t code) const {
     return facet_of(triangulation.cells[code >> 2], code & 3, dim());
   }
@@ -92,45 +92,48 @@ struct AlphaCells {
   RawVector<double> cell_values;           ///< by cell of the triangulation
   RawVector<std::uint8_t> beyond;          ///< by cell: the vertices outside L
   std::pmr::vector<CriticalFacet> facets;  ///< by code
-  // Of dimension 3:
+  // Only in dimension 3:
   NumberedEdges edges;
   RawVector<Edge> edge_states;  ///< by edge
-  // Of weights:
-  RawVector<double> vertex_values;  ///< by site, or empty: all are 0
-  /// By site: the edge with which it is paired, or the other end of it where dim is below 3, or
+  // Only with weights:
+  RawVector<double> vertex_values;  ///< by site; if empty, all are 0
+  /// By site: the edge that it is paired with (below dimension 3, the other end of that edge), or
   /// kCritical.
   RawVector<std::uint32_t> vertex_up;
-  /// By late site, of dimension 3: a facet of its interval; kNone if that is the site and an edge.
+  /// In dimension 3, by late site: a facet of its interval; kNone if the interval is the site and
+  /// an edge.
   RawVector<std::uint32_t> vertex_facet;
 };
 
-/// The triangulation of the points with values and intervals, on threads.
-/// @param period one an axis, or none; 0: the axis does not close up.
+/// The triangulation of the points with values and intervals, computed on threads.
+/// @param period one length per axis, or none; 0: the axis does not close up.
 /// @throws Error as sites_of and fold_points; (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 
-/// The value of a facet, by either of its names. O(log of critical facets).
+/// The value of a facet, given by either of its names. O(log of the number of critical facets).
 double facet_value(const AlphaCells& cells, std::uint32_t code);
-/// The same. @param critical the facet if it is among the critical ones, else null. O(1).
+/// The same. @param critical the facet if it is critical, otherwise null. O(1).
 double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFacet* critical);
 /// The critical facet of that name, or null.
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code);
 
 class Frames;
 
-/// Values and intervals: by dimension of the triangulation. Edges are numbered by then.
+/// Finds values and intervals, depending on the dimension of the triangulation. Edges must be
+/// numbered before.
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Raises intervals that have a smaller value than a face of theirs, which rounding may do, to the
-/// value of that face, until there are none.
+/// Rounding may give an interval a smaller value than one of its faces has. Raises such intervals
+/// to the value of the face until none is left.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Asserts what the pairing stands on, in builds with assertions; does nothing in others. Each
-/// simplex lies in exactly one interval, by exact signs, and has its value. No face has a larger
-/// value than a coface. The Euler characteristic is 1, of all simplices and of the critical ones.
-/// Not of more than 20 000 cells, because it takes ten times as long as all else.
+/// Asserts the lemmas behind the pairing in builds with assertions; does nothing in other builds.
+/// Each simplex lies in exactly one interval, by exact signs, and has the value of that interval.
+/// No face has a larger value than a coface. The Euler characteristic is 1, both of all simplices
+/// and of the critical ones. Skipped for more than 20 000 cells, because it takes ten times as long
+/// as everything else.
 void check_lemmas(const AlphaCells& cells);
 
 }  // namespace ph::alpha

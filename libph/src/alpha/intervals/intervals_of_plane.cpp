@@ -10,7 +10,7 @@ namespace {
 
 using std::uint32_t;
 
-/// Intervals of a triangulation of dimension 1 or 2, found at their upper ends.
+/// Intervals of a triangulation of dimension 1 or 2, found by their upper ends.
 class PlaneIntervals {
  public:
   PlaneIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -31,7 +31,7 @@ class PlaneIntervals {
   }
 
  private:
-  // Of collinear sites: edges are cells.
+  // For collinear sites, where edges are the cells.
   void find_last_edge(std::size_t t) {
     const auto& ends = cells_.triangulation.cells[t];
     const auto& at = frames_.of_cell(t);
@@ -86,7 +86,7 @@ class PlaneIntervals {
         return;
       }
     }
-    // In the interval of a triangle: paired with it, or with the vertex outside it.
+    // In the interval of a triangle: paired with that triangle, or with the vertex outside it.
     const uint32_t name = is_in_first ? code : other;
     const std::size_t cell = name >> 2;
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = name & 3;

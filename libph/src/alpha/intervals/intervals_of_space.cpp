@@ -10,9 +10,10 @@ namespace {
 
 using std::uint32_t;
 
-/// Intervals of a triangulation of dimension 3, found at their upper ends: tetrahedra, then
-/// triangles, then edges with an empty smallest sphere. A facet is without one if the centre of a
-/// tetrahedron at it lies beyond it, an edge if that of a triangle at it does.
+/// Intervals of a triangulation of dimension 3, found by their upper ends: tetrahedra, then
+/// triangles, then edges with an empty smallest sphere. The smallest sphere of a facet is not empty
+/// if the centre of an adjacent tetrahedron lies beyond the facet; the same holds for an edge and
+/// an adjacent triangle.
 class SpaceIntervals {
  public:
   SpaceIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -58,13 +59,13 @@ class SpaceIntervals {
     assert(state.up == kUnknown);  // a simplex lies in one interval
     state = {value, facet};
   }
-  // An edge whose late vertex it lets in.
+  // Pairs an edge with the late vertex that enters with it.
   void pair_vertex(uint32_t vertex, uint32_t edge, double value, uint32_t facet = kNone) {
     pair_edge(edge, kJoins, value);
     vertices_.pair(vertex, edge, value, facet);
   }
 
-  // @param code its usual name. @param other its other one.
+  // @param code its usual name. @param other its other name.
   void find_facet(uint32_t code, uint32_t other) {
     const uint32_t cell = code >> 2;
     const auto& places = kFacetPlaces[code & 3];
@@ -94,12 +95,12 @@ class SpaceIntervals {
     }
   }
 
-  // @param code of a facet in the interval of the tetrahedron that names it.
+  // @param code a facet in the interval of the tetrahedron that names it.
   void give_to_tetrahedron(uint32_t code) {
     const uint32_t cell = code >> 2;
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
     const double value = cells_.cell_values[cell];
-    if (k != first) {  // paired with the edge that lacks both
+    if (k != first) {  // paired with the edge that lacks both vertices
       const unsigned rest = 0b1111U & ~(1U << first) & ~(1U << k);
       pair_edge(cells_.edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
       return;
@@ -137,7 +138,7 @@ class SpaceIntervals {
   const Frames& frames_;
   const RunContext& context_;
   const Spheres spheres_;
-  Marks is_not_empty_;  // by edge: its smallest sphere
+  Marks is_not_empty_;  // by edge: true for an edge whose smallest sphere is not empty
   VertexIntervals vertices_;
   FacetPieces critical_;
 };

@@ -20,8 +20,8 @@ namespace {
 
 using std::uint32_t;
 
-/// All simplices of a triangulation by their vertices, with the cells that have them: made anew, so
-/// that the numbers and names which the pairing uses are checked as well.
+/// All simplices of a triangulation by their vertices, with the cells that contain them: computed
+/// anew in order to check the numbers and names that the pairing uses.
 class Lemmas {
  public:
   explicit Lemmas(const AlphaCells& cells) : cells_(cells) {
@@ -39,7 +39,8 @@ class Lemmas {
       const long sign = size_of(of) % 2 == 1 ? 1 : -1;
       euler += sign;
       if (simplex.inside.empty() && simplex.beyond.empty()) euler_of_critical += sign;
-      // With an empty smallest sphere it is the upper end of its own interval, else in one other.
+      // If its smallest sphere is empty, a simplex is the upper end of its own interval; otherwise
+      // it lies in one other interval.
       assert(simplex.claims == (simplex.inside.empty() ? 0 : 1));
     }
     assert(euler == 1 && euler_of_critical == 1);
@@ -47,12 +48,12 @@ class Lemmas {
   }
 
  private:
-  using Vertices = std::array<uint32_t, 4>;  // ascending, kNone behind
+  using Vertices = std::array<uint32_t, 4>;  // ascending, filled up with kNone
   struct Simplex {
     double value = 0;
-    std::vector<uint32_t> inside;  // its smallest sphere, of vertices beside it
-    std::vector<uint32_t> beyond;  // vertices of it inside that of the others
-    int claims = 0;                // intervals of larger simplices that have it
+    std::vector<uint32_t> inside;  // adjacent vertices inside its smallest sphere
+    std::vector<uint32_t> beyond;  // its vertices inside the sphere of the others
+    int claims = 0;                // number of intervals of larger simplices that contain it
   };
 
   static int size_of(const Vertices& of) {
@@ -103,7 +104,7 @@ class Lemmas {
   void find_intervals() {
     for (const auto& [of, simplex] : simplices_) {
       if (!simplex.inside.empty()) continue;
-      // All subsets of what may be left out.
+      // All subsets of the vertices that may be left out.
       for (unsigned set = 1; set < 1U << simplex.beyond.size(); ++set) {
         Vertices member = of;
         for (std::size_t i = 0; i < simplex.beyond.size(); ++i)

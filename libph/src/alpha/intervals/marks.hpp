@@ -16,14 +16,14 @@ class Marks {
  public:
   Marks(std::size_t size, std::pmr::memory_resource* memory) : marks_(size, 0, memory) {}
   void set(std::size_t i) { std::atomic_ref(marks_[i]).store(1, std::memory_order_relaxed); }
-  /// Precondition: no thread sets any.
+  /// Precondition: no thread is setting marks.
   bool operator[](std::size_t i) const { return marks_[i] != 0; }
 
  private:
   std::pmr::vector<std::uint8_t> marks_;
 };
 
-/// Critical facets that threads find piece by piece, in the order of their names.
+/// Critical facets, found by threads piece by piece, in the order of their names.
 class FacetPieces {
  public:
   static constexpr std::size_t kPiece = 1 << 13;  // cells
@@ -45,7 +45,7 @@ class FacetPieces {
   std::pmr::vector<std::pmr::vector<CriticalFacet>> pieces_;
 };
 
-/// Values and pairs of vertices, which are late where there are weights.
+/// Values and pairs of vertices; with weights, some vertices are late.
 class VertexIntervals {
  public:
   VertexIntervals(AlphaCells& cells, const RunContext& context)
@@ -56,16 +56,16 @@ class VertexIntervals {
     cells.vertex_up.assign(cells.sites.size(), kCritical);
     cells.vertex_facet.assign(cells.sites.size(), kNone);
   }
-  /// The other end lies inside the sphere of the vertex.
+  /// Marks a vertex as late: the other end of the edge lies inside its sphere.
   void set_late(std::uint32_t v) { is_late_.set(v); }
-  /// Pairs a late vertex. @param up, facet what AlphaCells says of them.
+  /// Pairs a late vertex. @param up, facet the entries for AlphaCells.
   void pair(std::uint32_t v, std::uint32_t up, double value, std::uint32_t facet = kNone) {
     assert(cells_.vertex_up[v] == kCritical);
     cells_.vertex_up[v] = up;
     cells_.vertex_values[v] = value;
     cells_.vertex_facet[v] = facet;
   }
-  /// The others enter by themselves.
+  /// The other vertices enter by themselves.
   void finish() {
     for (std::size_t v = 0; v < cells_.vertex_values.size(); ++v) {
       assert(is_late_[v] == (cells_.vertex_up[v] != kCritical));

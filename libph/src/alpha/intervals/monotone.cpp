@@ -12,7 +12,7 @@ namespace {
 
 using std::uint32_t;
 
-/// Of dimension 1 and 2: few enough to look at all again.
+/// In dimensions 1 and 2, all simplices are few enough to check again.
 class PlaneRepair {
  public:
   PlaneRepair(AlphaCells& cells, const RunContext& context) : cells_(cells), context_(context) {}
@@ -60,7 +60,7 @@ class PlaneRepair {
                                                                         : kNone;
     const auto ends = cells_.facet_vertices(code);
     double* value = owner != kNone ? &cells_.cell_values[owner >> 2] : critical;
-    if (value == nullptr)  // it lets in a vertex
+    if (value == nullptr)  // a vertex enters with it
       for (unsigned k = 0; k < 2 && value == nullptr; ++k)
         if (cells_.vertex_up[ends[k]] == ends[1 - k]) value = &cells_.vertex_values[ends[k]];
     if (cells_.sites.is_weighted())
@@ -83,7 +83,7 @@ class PlaneRepair {
   bool is_changed_ = false;
 };
 
-/// Of dimension 3: from each interval that is raised on to its cofaces.
+/// In dimension 3, each interval that is raised leads on to its cofaces.
 class SpaceRepair {
  public:
   SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -103,8 +103,8 @@ class SpaceRepair {
   }
 
  private:
-  /// An interval in a cell that has it: places of the vertices of its upper end, and of those that
-  /// its lower end lacks.
+  /// An interval in a cell that contains it: positions of the vertices of its upper end, and of the
+  /// vertices that its lower end lacks.
   struct Interval {
     uint32_t cell;
     unsigned upper, beyond;
@@ -119,13 +119,14 @@ class SpaceRepair {
 
   double facet_value(uint32_t code) const { return alpha::facet_value(cells_, code); }
 
-  /// Facets that have a smaller value than an edge of theirs, or a larger one than a cell at them.
+  /// Facets with a smaller value than one of their edges, or a larger value than an adjacent cell.
   ///
-  /// Edges are looked at in facets alone that lie in no cell's interval. Let facet f lie in that of
-  /// cell t, and let g be the other facet of t at an edge e of f. If g lies in the interval, too,
-  /// then so does e, and has the value of f; else f has the value of t, which g must not exceed. So
-  /// it is enough that e does not exceed g, for which the same holds. Radii fall strictly from f to
-  /// g, so that this way around e ends.
+  /// Edges are compared only with facets that lie in no cell's interval, for the following reason.
+  /// Let facet f lie in the interval of cell t, and let g be the other facet of t at an edge e of
+  /// f. If g lies in the interval as well, then so does e, and e has the value of f; otherwise f
+  /// has the value of t, which g must not exceed. It is therefore enough that e does not exceed g,
+  /// and the same argument holds for g. Radii fall strictly from f to g; the walk around e
+  /// therefore ends.
   std::vector<uint32_t> facets_out_of_order() const {
     std::mutex mutex;
     std::vector<uint32_t> found;
@@ -168,7 +169,7 @@ class SpaceRepair {
         }
       }
   }
-  /// Raises a facet to its edges, and what has it to it.
+  /// Raises a facet to its edges, and its cofaces to it.
   void look_at_facet(uint32_t code) {
     const auto& places = kFacetPlaces[code & 3];
     for (unsigned i = 0; i < 3; ++i) {
@@ -184,7 +185,7 @@ class SpaceRepair {
       if (name != kNone && cells_.cell_values[name >> 2] < value)
         raise({name >> 2, 0b1111, cells_.beyond[name >> 2]}, value);
   }
-  /// All facets at an edge, which is given in one of the cells around it.
+  /// Looks at all facets at an edge, which is given in one of the cells around it.
   void look_above_edge(uint32_t cell, unsigned places) {
     const double value = cells_.edge_states[edge_at(cell, places)].value;
     const unsigned opposite = 0b1111U & ~places;
@@ -196,7 +197,7 @@ class SpaceRepair {
         if (facet_value(code) < value) raise_facet(code, value);
         const uint32_t other = across(code);
         if (other == kNone || other >> 2 == cell) break;
-        // The edge in the next cell, whose facet has its vertices in the same order.
+        // Finds the edge in the next cell, whose facet has its vertices in the same order.
         unsigned there = 0;
         for (unsigned i = 0; i < 3; ++i)
           if ((edge >> kFacetPlaces[code & 3][i] & 1) != 0)
@@ -234,7 +235,7 @@ class SpaceRepair {
   }
   template <class Use>
   static void for_each_member(const Interval& interval, Use&& use) {
-    // All subsets of what may be added to the lower end.
+    // All subsets of the vertices that may be added to the lower end.
     for (unsigned added = interval.beyond;; added = (added - 1) & interval.beyond) {
       use((interval.upper & ~interval.beyond) | added);
       if (added == 0) return;

@@ -6,8 +6,8 @@
 
 namespace ph::alpha {
 
-/// Places in a tetrahedron: of the two ends of edge e, of the edge between two places, of the three
-/// vertices of facet k, all ascending.
+/// Positions in a tetrahedron: the two ends of edge e, the edge between two positions, the three
+/// vertices of facet k; all ascending.
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdgeEnds{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeBetween{
@@ -15,7 +15,7 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeBetween{
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kFacetPlaces{
     {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
-/// The lowest place of a set, not empty.
+/// The lowest position in a set, which must not be empty.
 constexpr unsigned lowest(unsigned places) {
   return static_cast<unsigned>(std::countr_zero(places));
 }

@@ -15,9 +15,9 @@ namespace {
 using P = Vector<double>;
 using std::uint32_t;
 
-// Below it a product may have lost bits to underflow.
+// Products below this may have lost bits to underflow.
 constexpr double kTiny = 1e-280;
-// The same of a product of two such.
+// The same bound for a factor: products of two larger numbers are safe.
 constexpr double kSmall = 1e-140;
 
 }  // namespace
@@ -43,7 +43,7 @@ std::uint8_t Spheres::signs(const std::array<double, N>& values, double bound,
 }
 
 double Spheres::careful_radius(const Faces& face, std::size_t count) const {
-  // In units of the longest edge: nothing overflows or is lost.
+  // Coordinates are scaled by the longest edge, which avoids overflow and underflow.
   double longest = 0;
   const P origin = sites_.points[face[count - 1]];
   for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -65,8 +65,8 @@ double Spheres::careful_radius(const Faces& face, std::size_t count) const {
     points[i] = {scaled(p.x, origin.x), scaled(p.y, origin.y), scaled(p.z, origin.z)};
     weights[i] = DoubleDouble(std::ldexp(sites_.weight(face[i]), -2 * exponent));
   }
-  // How flat it is, or how small beside its weights: what is left of 106 bits must be enough for a
-  // double.
+  // A tetrahedron may be flat, or small compared with its weights; enough of the 106 bits must be
+  // left for a double.
   const Vector<DoubleDouble> u = points[0], v = points[1], normal = cross(u, v);
   const double size = count == 4   ? std::abs(dot(normal, points[2]).high())
                       : count == 3 ? std::sqrt(dot(normal, normal).high())
@@ -105,7 +105,7 @@ std::uint8_t Spheres::beyond_triangle(uint32_t a, uint32_t b, uint32_t c) const 
   const P &p = sites_.points[a], &q = sites_.points[b], &r = sites_.points[c];
   const P u = q - p, v = r - p;
   if (!sites_.is_weighted()) {
-    // An angle is obtuse.
+    // One angle is obtuse.
     const P w = r - q;
     const double at_a = dot(u, v), at_b = -dot(u, w), at_c = dot(v, w);
     const double bound = 2e-15 * (dot(u, u) + dot(v, v)) + kTiny;
@@ -127,7 +127,7 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   const P u = q - p, v = r - p, normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), area = dot(normal, normal);
   const double longest = std::max(uu, vv);
-  // Its error is that of the area, relative to itself.
+  // The relative error of the radius is the relative error of the area.
   constexpr double flat = 0x1p-20;
   if (area < flat * longest * longest || area < kSmall) return careful_radius({a, b, c}, 3);
   if (!sites_.is_weighted()) {
@@ -136,7 +136,8 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   }
   const double U = uu + (sites_.weights[a] - sites_.weights[b]);
   const double V = vv + (sites_.weights[a] - sites_.weights[c]);
-  // By differences of vectors: those of numbers as large as U² vv would leave too few places.
+  // Uses differences of vectors, because differences of numbers as large as U² vv would lose too
+  // many digits.
   const P n = U * v - V * u;
   return dot(n, n) / (4 * area) - sites_.weights[a];
 }

@@ -7,9 +7,9 @@
 
 namespace ph::alpha {
 
-/// The squared radius of the smallest sphere through two, three or four points, or orthogonal to
-/// them, of weights: |z - p|² - w for each of them, z its centre.
-/// @tparam T a field with more than double precision.
+/// The squared radius of the smallest sphere through two, three or four points or, with weights,
+/// orthogonal to them: |z - p|² - w for each point, where z is the centre.
+/// @tparam T a field type with more than double precision.
 template <class T>
 T squared_radius(std::span<const Vector<T>> points, std::span<const T> weights) {
   const Vector<T>& origin = points.back();

@@ -37,7 +37,7 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
   return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
 }
 
-/// Makes bars of pairs of simplices, and chains of sites chains of the input.
+/// Turns pairs of simplices into bars, and chains of sites into chains of the input.
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)
@@ -48,26 +48,26 @@ class AlphaBars {
 
   bool wants(int dim) const { return bars_.min_dim() <= dim && dim <= bars_.max_dim(); }
   bool wants_cycles() const { return bars_.representatives() == Representatives::cycles; }
-  /// Says that so many bars may come: a hint.
+  /// Announces that about `count` bars may come: a hint.
   void expect(std::size_t count) {
     if (!bars_.wants_cells() && !wants_cycles()) bars_.expect(some_.size() + count);
   }
-  /// The same of at most so many: no more than there are simplices up to the threshold, of some
-  /// from old to young.
+  /// The same for at most `most` bars: no more than there are simplices up to the threshold in
+  /// `simplices`, which are sorted from old to young.
   void expect(std::size_t most, const RankedSimplices& simplices) {
     const auto beyond = std::ranges::partition_point(simplices, [&](const Ranked& simplex) {
       return alpha_.to_value(simplex.value) <= alpha_.threshold();
     });
     expect(std::min(most, static_cast<std::size_t>(beyond - simplices.begin())));
   }
-  /// To be called last.
+  /// Must be called last.
   void flush() {
     bars_.add_bars(some_);
     some_.clear();
   }
-  /// A class born with one simplex and killed by another, of those squared radii. @return whether
+  /// A class born with one simplex and killed by another, at those squared radii. @return true if
   /// the bar is kept and wants a cycle.
-  /// @param born, killer called for the simplices, if those are wanted.
+  /// @param born, killer called for the simplices if they are wanted.
   template <class Born, class Killer>
   bool pair(int dim, double birth, double death, Born&& born, Killer&& killer) {
     if (birth == death) return false;
@@ -82,12 +82,12 @@ class AlphaBars {
     return bar.birth <= alpha_.threshold() && add(bar, born, [] { return Simplex(); });
   }
 
-  /// The cycle of the bar that was kept last, simplex by simplex.
+  /// Adds a term to the cycle of the bar that was kept last.
   void add_term(const Simplex& simplex, std::int64_t coefficient) {
     const bool is_odd = append(simplex, numbers_);
     coefficients_.push_back(is_odd ? -coefficient : coefficient);
   }
-  /// @param is_z2 whether coefficients have no sign.
+  /// @param is_z2 true if coefficients have no sign.
   void finish_cycle(bool is_z2) {
     if (is_z2) std::ranges::fill(coefficients_, 1);
     bars_.add_representative(numbers_, coefficients_);
@@ -96,7 +96,7 @@ class AlphaBars {
   }
 
  private:
-  /// Appends the points of the input, ascending. @return whether they are in an odd permutation.
+  /// Appends the points of the input, ascending. @return true if that took an odd permutation.
   bool append(const Simplex& simplex, std::vector<Index>& numbers) const {
     const std::size_t begin = numbers.size();
     bool is_odd = false;
@@ -127,7 +127,7 @@ class AlphaBars {
   const Alpha& alpha_;
   const AlphaCells& cells_;
   BarcodeBuilder<Alpha>& bars_;
-  std::vector<Bar> some_;  // without cells, not handed over yet
+  std::vector<Bar> some_;  // bars without cells that were not passed on yet
   std::vector<Index> birth_, death_, numbers_;
   std::vector<std::int64_t> coefficients_;
 };

@@ -5,15 +5,15 @@
 
 namespace ph::alpha {
 
-/// H0: Kruskal's algorithm on the critical edges, by the elder rule. The forest of least edges has
-/// no others: an edge in an interval with more than a vertex closes a triangle as it enters.
-/// @param on_join called with the places in `edges` of those that join components.
+/// H0: Kruskal's algorithm on the critical edges, by the elder rule. The forest of shortest edges
+/// has no others: an edge in an interval with more than one vertex closes a triangle as it enters.
+/// @param on_join called with the positions in `edges` of the edges that join components.
 template <Field K, class OnJoin>
 void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,
                      const RunContext& context, AlphaBars& bars, OnJoin&& on_join) {
   const auto sites = static_cast<std::uint32_t>(cells.sites.size());
   DisjointSets sets(sites, &context.memory);
-  // A late vertex enters with an edge to an earlier one.
+  // A late vertex enters with an edge to an earlier vertex.
   if (!cells.vertex_up.empty())
     for (std::uint32_t v = 0; v < sites; ++v) {
       std::uint32_t up = cells.vertex_up[v];
@@ -28,7 +28,7 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
     const double a = cells.vertex_value(u), b = cells.vertex_value(v);
     return a != b ? a < b : u < v;
   };
-  std::size_t left = sites;  // components
+  std::size_t left = sites;  // number of components
   for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;
   if (bars.wants(0)) bars.expect(left, edges);
   Ticker ticker(context, "components", edges.size());

@@ -8,7 +8,7 @@
 
 namespace ph::alpha {
 
-/// A critical simplex: its value, and its number among its kind.
+/// A critical simplex: its value, and its number among simplices of its kind.
 struct Ranked {
   double value;
   std::uint32_t number;
@@ -16,7 +16,7 @@ struct Ranked {
 };
 using RankedSimplices = std::pmr::vector<Ranked>;
 
-/// Critical facets by their place in AlphaCells::facets, from old to young.
+/// Critical facets by their position in AlphaCells::facets, from old to young.
 inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& context) {
   RankedSimplices ranked(cells.facets.size(), &context.memory);
   for (std::uint32_t i = 0; i < ranked.size(); ++i)
@@ -26,8 +26,8 @@ inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& 
   return ranked;
 }
 
-/// Critical edges, from old to young: by number, of dimension 2 by their place among the facets, of
-/// dimension 1 by cell.
+/// Critical edges from old to young: in dimension 3 by number, in dimension 2 by their position
+/// among the facets, in dimension 1 by cell.
 inline RankedSimplices ranked_edges(const AlphaCells& cells, const RunContext& context) {
   if (cells.dim() == 2) return ranked_facets(cells, context);
   RankedSimplices ranked(&context.memory);
@@ -55,7 +55,7 @@ inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, const Ranke
   }
   return {cells.triangulation.cells[edge.number][0], cells.triangulation.cells[edge.number][1]};
 }
-/// Some time before `ends_of`.
+/// To be called some time before `ends_of`.
 inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
   if (cells.dim() == 3)
     __builtin_prefetch(&cells.edges.ends[edge.number]);

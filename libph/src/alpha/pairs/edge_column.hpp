@@ -25,17 +25,18 @@ struct EdgeName {
   }
 };
 
-/// A chain of edges that is being reduced, in ascending order: columns are short, so that merging
-/// lists beats a heap. An edge that is paired with a triangle inside its interval is replaced by
-/// the rest of that triangle's boundary when it comes up. Edges that join components are left out:
-/// no cycle has its youngest edge there. Not for several threads at once.
+/// A chain of edges under reduction, in ascending order: columns are short, which makes merging
+/// lists faster than a heap. An edge that is paired with a triangle inside its interval is
+/// replaced, when it becomes the pivot, by the rest of that triangle's boundary. Edges that join
+/// components are left out, because no cycle has such an edge as its youngest. An object must not
+/// be shared by threads.
 template <Field K>
 class EdgeColumn {
  public:
   using Element = typename K::Element;
   using Term = Entry<EdgeName, K>;
 
-  /// @param joins by edge: whether it joins components.
+  /// @param joins by edge: true if it joins components.
   EdgeColumn(const AlphaCells& cells, const SimplexSet& joins, const K& field,
              const RunContext& context)
       : cells_(cells),
@@ -45,7 +46,7 @@ class EdgeColumn {
         terms_(&context.memory),
         merged_(&context.memory) {}
 
-  /// Begins anew with the boundary of a facet.
+  /// Starts again with the boundary of a facet.
   void assign_boundary(std::uint32_t facet) {
     terms_.clear();
     add_boundary(facet, kNone, field_.from_int(1));
@@ -79,7 +80,7 @@ class EdgeColumn {
     terms_.swap(merged_);
   }
   std::span<const Term> terms() const { return terms_; }
-  /// Takes out the youngest edge that is in no interval with a triangle; nothing if none is left.
+  /// Removes the youngest edge that is in no interval with a triangle; nothing if none is left.
   std::optional<Term> take_pivot() {
     while (!terms_.empty()) {
       const Term youngest = terms_.back();
@@ -98,12 +99,12 @@ class EdgeColumn {
     steps_ = 0;
     context_.poll();
   }
-  /// Adds a multiple of the boundary of a facet: so much that it cancels `coefficient` times the
-  /// edge `without`, which is left out; or `coefficient` times all of it.
+  /// Adds a multiple of the boundary of a facet: the multiple that cancels `coefficient` times the
+  /// edge `without`, which is left out; or `coefficient` times the entire boundary.
   void add_boundary(std::uint32_t facet, std::uint32_t without, Element coefficient) {
     count(1);
     const std::array<std::uint32_t, 3> edges = cells_.facet_edges(facet);
-    // Their incidences are 1, -1 and 1.
+    // The incidences are 1, -1 and 1.
     bool is_negative = false;
     if (without != kNone) is_negative = edges[1] != without;
     for (std::size_t i = 0; i < 3; ++i)
@@ -137,7 +138,7 @@ class EdgeColumn {
   const SimplexSet& joins_;
   const K& field_;
   const RunContext& context_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::size_t steps_ = 0;  // steps since the stop token was last polled
   std::pmr::vector<Term> terms_, merged_;
 };
 

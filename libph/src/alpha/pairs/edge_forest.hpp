@@ -17,14 +17,14 @@ struct EdgeTerm {
   typename K::Element coefficient;
 };
 
-/// The forest of the edges that join components, in which chains of edges are closed: a cycle is
-/// known by its edges outside the forest.
+/// The forest of the edges that join components. It closes chains of edges: the edges outside the
+/// forest determine a cycle.
 template <Field K>
 class EdgeForest {
  public:
   using Element = typename K::Element;
 
-  /// @param joins by edge: whether it joins components, but for those of late vertices.
+  /// @param joins by edge: true if it joins components, except for edges of late vertices.
   EdgeForest(const AlphaCells& cells, const SimplexSet& joins, const K& field,
              const RunContext& context)
       : cells_(cells),
@@ -67,7 +67,7 @@ class EdgeForest {
     }
   }
 
-  /// Makes a cycle of the chain that a cycle has outside the forest.
+  /// Completes a cycle from its edges outside the forest.
   void close(std::pmr::vector<EdgeTerm<K>>& chain) {
     heap_.clear();
     for (const EdgeTerm<K>& term : chain) {
@@ -84,7 +84,7 @@ class EdgeForest {
         sum.amount = field_.add(sum.amount, pop().amount);
       const std::uint32_t e = up_[sum.vertex].edge;
       if (field_.is_zero(sum.amount) || e == kNone) continue;
-      // Takes what the boundary is here to the other end.
+      // Moves the boundary at this vertex to the other end of the edge.
       const bool goes_up = cells_.edges.ends[e][0] == sum.vertex;
       chain.push_back({e, goes_up ? sum.amount : field_.negate(sum.amount)});
       heap_.push_back(at(other_end(e, sum.vertex), sum.amount));
@@ -122,7 +122,7 @@ class EdgeForest {
   const AlphaCells& cells_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Up> up_;  // by vertex: towards the root of its tree
+  std::pmr::vector<Up> up_;  // by vertex: the edge towards the root of its tree
   std::pmr::vector<AtVertex> heap_;
 };
 

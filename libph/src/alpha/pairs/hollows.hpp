@@ -9,14 +9,15 @@
 
 namespace ph::alpha {
 
-/// Homology one below the dimension: components of the cells and the outside, which join across
-/// facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm for Betti numbers
-/// of simplicial complexes, 1995). A cell that is paired with a facet is joined to what lies across
-/// it from the start. Facets that join two components give birth to a class, which the oldest cell
-/// of the younger one kills.
+/// Homology one below the top dimension: the components of the cells and the outside, which join
+/// across facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm for Betti
+/// numbers of simplicial complexes, 1995). A cell that is paired with a facet is joined from the
+/// start to the cell across that facet. A facet that joins two components gives birth to a class;
+/// the oldest cell of the younger component kills it.
 ///
-/// Where nothing leads outside, in a periodic space that closes up in all its dimensions, the cell
-/// that enters last gives birth to a class of that dimension. Its cycle is never asked for here.
+/// If no facet leads outside, because a periodic space closes up in all its dimensions, the last
+/// cell that enters gives birth to a class of the top dimension. The cycle of that class is never
+/// asked for here.
 template <Field K>
 class Hollows {
  public:
@@ -34,9 +35,9 @@ class Hollows {
         link(t, sets_.find(node_across(4 * t + lowest(beyond))));
   }
 
-  /// @param facets critical ones, by their place in AlphaCells::facets.
-  /// @param use whether the facet at a place in `facets` is free.
-  /// @param on_join called with the place of a facet that joins.
+  /// @param facets critical facets, by their position in AlphaCells::facets.
+  /// @param use true if the facet at a position in `facets` is free.
+  /// @param on_join called with the position of a facet that joins components.
   template <class IsFree, class OnJoin>
   void run(const RankedSimplices& facets, IsFree&& is_free, OnJoin&& on_join) {
     if (bars_.wants(cells_.dim() - 1))
@@ -65,7 +66,7 @@ class Hollows {
   double value(std::uint32_t node) const {
     return node == outside_ ? std::numeric_limits<double>::infinity() : cells_.cell_values[node];
   }
-  // The dual goes from young to old.
+  // The dual filtration goes from young to old.
   bool enters_later(std::uint32_t a, std::uint32_t b) const {
     const double x = value(a), y = value(b);
     return x != y ? x > y : a > b;
@@ -74,7 +75,8 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
-  /// What facets need that come soon, sooner and next: one access leads to another.
+  /// Prefetches data of facets that come soon, sooner and next, because one access leads to
+  /// another.
   void prefetch(std::uint32_t soon, std::uint32_t sooner, std::uint32_t next) const {
     __builtin_prefetch(&cells_.triangulation.across[soon >> 2]);
     sets_.prefetch(sooner >> 2);
@@ -91,7 +93,7 @@ class Hollows {
         cells_.dim() - 1, birth, value(killer), [&] { return facet_simplex(cells_, code); },
         [&] { return cell_simplex(cells_, killer); });
     if (!wants_cycle) return;
-    // The boundary of its cells, all of them with one orientation.
+    // The boundary of its cells, with all cells oriented alike.
     const std::int64_t sign = sign_of(code, killer);
     rings_->for_each(killer, [&](std::uint32_t t) {
       for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(cells_.dim()); ++k) {
@@ -102,7 +104,7 @@ class Hollows {
     });
     bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
   }
-  /// Of a facet in the boundary of its cell, oriented as all cells are.
+  /// The incidence of a facet in the boundary of its cell, with all cells oriented alike.
   std::int64_t incidence(std::uint32_t facet) const {
     const bool is_negative = (facet & 1) != 0;
     return is_negative ? -sign(facet >> 2) : sign(facet >> 2);
@@ -110,7 +112,7 @@ class Hollows {
   std::int64_t sign(std::uint32_t cell) const {
     return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;
   }
-  /// That with which the facet that gives birth has the coefficient 1.
+  /// The sign that gives the facet of the birth the coefficient 1.
   std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {
     return incidence(sets_.find(code >> 2) == inside ? code : cells_.across(code));
   }

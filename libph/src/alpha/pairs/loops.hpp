@@ -15,23 +15,23 @@
 
 namespace ph::alpha {
 
-/// H1 of dimension 3: the boundaries of the triangles that union-find has left over, reduced. They
-/// are begun in the order in which they lie in space, not by age, so that what a column needs is
-/// near. A column that comes to the pivot of a younger one takes it over, and goes on as the
-/// younger one (Morozov & Nigmetov, Towards lockfree persistent homology, 2020): only older columns
-/// are added to younger ones, as in the textbook.
+/// H1 in dimension 3: reduces the boundaries of the triangles that union-find left over. The
+/// reduction follows the order in space, not the age, because the columns that a column needs are
+/// then near. If a column reaches the pivot of a younger one, it takes over that pivot and the
+/// younger one is reduced further (Morozov & Nigmetov, Towards lockfree persistent homology, 2020):
+/// as in the textbook, only older columns are added to younger ones.
 ///
-/// In a periodic space some boundaries are reduced to zero, and some edges are left over: they give
-/// birth to the classes of H2, and of H1, that never die.
+/// In a periodic space some boundaries are reduced to zero and some edges are left over: they give
+/// birth to the essential classes of H2 and H1.
 template <Field K>
 class Loops {
   using Term = typename EdgeColumn<K>::Term;
   using KeptColumn = Column<K>;
 
  public:
-  /// @param joins by edge: whether it is critical and joins components.
-  /// @param column_of by critical facet: its place in the order of the filtration; kNone: it joins
-  /// hollows. Both outlive the loops.
+  /// @param joins by edge: true if it is critical and joins components.
+  /// @param column_of by critical facet: its position in the order of the filtration, or kNone if
+  /// it joins hollows. Both must outlive the loops.
   Loops(const AlphaCells& cells, const SimplexSet& joins, std::span<const std::uint32_t> column_of,
         const K& field, const RunContext& context)
       : cells_(cells),
@@ -43,11 +43,11 @@ class Loops {
         essential_(&context.memory) {}
 
   void run(AlphaBars& bars) {
-    // What columns hold may depend on which thread came first, though their pivots do not. Cycles
-    // are to be the same for any number of threads.
+    // The content of columns may depend on the order of threads, although their pivots do not.
+    // Cycles must be the same for any number of threads.
     const bool in_turn = bars.wants_cycles();
     const std::size_t count = column_of_.size();
-    constexpr std::size_t piece = 1 << 12;  // facets that a thread takes at a time
+    constexpr std::size_t piece = 1 << 12;  // facets per thread at a time
     std::mutex mutex;
     for_each_piece("loops", count, in_turn ? std::max<std::size_t>(count, 1) : piece, context_,
                    [&](std::size_t from, std::size_t to) {
@@ -63,7 +63,7 @@ class Loops {
   }
 
  private:
-  /// What a thread has to itself.
+  /// The private data of a thread.
   struct Worker {
     Worker(const Loops& loops)
         : chain(loops.cells_, loops.joins_, loops.field_, loops.context_),
@@ -94,7 +94,7 @@ class Loops {
                !owner.compare_exchange_weak(other, kept, std::memory_order_acq_rel)) {
         }
         if (other == nullptr) return;
-        if (column < other->number()) {  // it goes on as the younger one
+        if (column < other->number()) {  // continues with the younger column
           column = other->number();
           facet = other->facet();
         }
@@ -106,7 +106,7 @@ class Loops {
     const std::lock_guard lock(mutex_);
     essential_.push_back(facet);
   }
-  /// By edge: the critical facet that kills its class; kNone: it has none that dies.
+  /// By edge: the critical facet that kills its class, or kNone.
   std::pmr::vector<std::uint32_t> killers() const {
     std::pmr::vector<std::uint32_t> facets(owners_.size(), kNone, &context_.memory);
     for (std::size_t e = 0; e < owners_.size(); ++e)

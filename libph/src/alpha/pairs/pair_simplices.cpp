@@ -9,9 +9,9 @@ namespace ph::alpha {
 
 namespace {
 
-/// Dimension 1 and 2: edges join components, from old to young, and of dimension 2 also hollows,
-/// from young to old. In a periodic space some do neither, and the highest dimension may have a
-/// class.
+/// In dimensions 1 and 2, edges join components, from old to young; in dimension 2 they also join
+/// hollows, from young to old. In a periodic space some edges do neither, and the top dimension may
+/// have a class.
 template <Field K>
 void pair_plane(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {
@@ -35,8 +35,8 @@ void pair_plane(const AlphaCells& cells, const K& field, const RunContext& conte
       });
 }
 
-/// Dimension 3: edges join components, triangles join hollows, and what is left of both are loops.
-/// Of lists no more is there at a time than is needed.
+/// In dimension 3, edges join components, triangles join hollows, and the rest of both form loops.
+/// Lists are freed as soon as they are not needed.
 template <Field K>
 void pair_space(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {

@@ -12,7 +12,8 @@
 namespace ph::alpha {
 namespace {
 
-/// From the least to the largest of some numbers; infinite ones are left to others to find.
+/// The range from the smallest to the largest of some numbers; infinite ones are ignored, because
+/// other code reports them.
 class Extent {
  public:
   void add(double x) {
@@ -39,7 +40,7 @@ void check_periods(PointsView points, std::span<const double> period) {
                               axis, period[axis]));
 }
 
-/// A power of two, of which a multiple of that size has 51 bits.
+/// The largest power of two such that a number of that size is a multiple with 51 bits.
 double unit_of(double size) {
   constexpr int bits = 51, least = -1074;
   return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));

@@ -9,15 +9,15 @@
 
 namespace ph::alpha {
 
-/// A box whose opposite faces are glued along some axes, which are *closed*. It begins at 0.
+/// A box whose opposite faces are glued along some axes, which are *closed*. It starts at 0.
 struct Box {
-  std::array<double, 3> period{};  ///< by axis; 0: the axis is open
-  /// No empty sphere reaches farther beyond the box than twice this. It is at least the diagonal of
-  /// what is inside.
+  std::array<double, 3> period{};  ///< by axis; 0 if the axis is open
+  /// No empty sphere extends beyond the box by more than twice this. It is at least the diagonal of
+  /// the points inside.
   double size = 0;
 
   bool is_closed(std::size_t axis) const { return period[axis] > 0; }
-  /// The same in other units.
+  /// The same box in other units.
   Box times_power_of_two(int exponent) const {
     Box box = *this;
     for (double& length : box.period) length = alpha::times_power_of_two(length, exponent);
@@ -33,11 +33,11 @@ struct Folded {
 };
 
 /// Takes the coordinates of closed axes modulo their periods. Both are first rounded to multiples
-/// of a power of two, 2^-51 of the size of the box or less: whole periods can then be added without
-/// rounding. Numbers that are such multiples stay what they are, and so do open axes.
-/// @param period one an axis, 0 if it is open. Some axis is closed.
-/// @throws Error (usage) on other numbers of periods and on those that are negative or not finite;
-///         Error (bad_data) on one that is rounded to 0, and on sizes beyond doubles.
+/// of a power of two, at most 2^-51 of the size of the box: adding entire periods then needs no
+/// rounding. Numbers that already are such multiples do not change, and open axes do not change.
+/// @param period one per axis, 0 if it is open. At least one axis is closed.
+/// @throws Error (usage) unless there is one period per axis, none negative or infinite; Error
+///         (bad_data) on a period that rounds to 0, and on sizes beyond doubles.
 Folded fold_points(PointsView points, std::span<const double> weights,
                    std::span<const double> period);
 

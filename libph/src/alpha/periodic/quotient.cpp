@@ -11,7 +11,7 @@ namespace {
 using std::uint32_t;
 using Cell = std::array<uint32_t, 4>;
 
-/// Cells by their smallest vertex, by which they are sorted.
+/// Cells, sorted by their smallest vertex.
 std::pmr::vector<uint32_t> cells_by_vertex(const RawVector<Cell>& cells, std::size_t vertices,
                                            std::pmr::memory_resource* memory) {
   std::pmr::vector<uint32_t> begin(vertices + 1, 0, memory);
@@ -49,8 +49,8 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// What brings a cell into the box: of each axis, the translation of its middle vertex. The same
-  /// translate is chosen of all translates of a cell.
+  /// The translation that brings a cell into the box: on each axis, the translation of its middle
+  /// vertex. It chooses the same translate for all translates of a cell.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
     bool is_same = true;
@@ -86,7 +86,8 @@ class Quotient {
     begin_ = cells_by_vertex(result_.cells, sites_, &context_.memory);
   }
 
-  /// The number of the cell of which an unrolled one is a translate; kNone: it is not there.
+  /// The number of the cell of which an unrolled cell is a translate, or kNone if it does not
+  /// exist.
   uint32_t number_of(uint32_t t) const {
     if (number_[t] != kNone) return number_[t];
     const Cell& cell = unrolled_.cells[t];
@@ -102,13 +103,13 @@ class Quotient {
     return kNone;
   }
 
-  /// Whether the affine hull of a facet has the direction of each closed axis.
+  /// True if the affine hull of a facet contains the direction of each closed axis.
   bool is_along_closed_axes(uint32_t t, std::size_t facet) const {
     std::size_t closed = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) closed += box_.is_closed(axis) ? 1U : 0U;
     const std::size_t dim = size_ - 2;
     if (closed > dim) return false;
-    // Seen along those axes, it must have so many dimensions less.
+    // Projected along those axes, it must lose that many dimensions.
     std::array<Vector<double>, 3> seen;
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -146,7 +147,8 @@ class Quotient {
       }
     return !kept_.empty();
   }
-  /// Of collinear sites, along a closed axis: each has an edge before it and one behind.
+  /// For collinear sites along a closed axis: true if each site has an edge before it and one after
+  /// it.
   bool is_closed_line() const {
     std::pmr::vector<uint32_t> before(sites_, 0, &context_.memory), behind = before;
     for (const Cell& places : of_cell_) {
@@ -170,8 +172,8 @@ class Quotient {
     return is_kept == is_wanted;
   }
 
-  /// Whether each cell at one site is a cell of the triangulation when that site is in the box. It
-  /// has the cells around a vertex once.
+  /// True if each cell at a site is a cell of the triangulation when that site is in the box. The
+  /// triangulation then has the cells around a vertex once.
   bool covers_once() const {
     const auto begin = cells_by_vertex(unrolled_.cells, images_.places.size(), &context_.memory);
     const uint32_t site = result_.cells[0][0];
@@ -181,7 +183,7 @@ class Quotient {
           return false;
     return true;
   }
-  /// Whether a cell is there when it is moved back by a translation.
+  /// True if a cell exists after it is moved back by a translation.
   bool is_there(Cell cell, Translation by, const std::pmr::vector<uint32_t>& begin) const {
     for (std::size_t i = 0; i < size_; ++i) {
       cell[i] = images_.place_of(images_.site[cell[i]], translation(cell[i]) - by);
@@ -196,10 +198,10 @@ class Quotient {
   const Images& images_;
   const Box& box_;
   const RunContext& context_;
-  const std::size_t size_;             // vertices of a cell
-  const std::size_t sites_;            // how many
+  const std::size_t size_;             // vertices per cell
+  const std::size_t sites_;            // number of sites
   std::pmr::vector<uint32_t> number_;  // by unrolled cell, among those kept
-  std::pmr::vector<uint32_t> begin_;   // by site: kept cells of which it is the smallest
+  std::pmr::vector<uint32_t> begin_;   // by site: the kept cells whose smallest vertex it is
   std::pmr::vector<uint32_t> kept_;    // by number: the unrolled cell
   Triangulation result_;
   RawVector<Cell> of_cell_;

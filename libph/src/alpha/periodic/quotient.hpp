@@ -5,19 +5,22 @@
 
 namespace ph::alpha {
 
-/// Makes of the triangulation of sites and images that of the periodic space: one of each class of
-/// cells that are translates of each other, glued where their translates are neighbours. Its
-/// vertices are sites, which a cell may have several times; `images.of_cell` says where they are.
+/// Turns the triangulation of sites and images into a triangulation of the periodic space: one cell
+/// of each class of translates, glued where translates are neighbours. Its vertices are sites; a
+/// cell may have a site several times, and `images.of_cell` has their places.
 ///
-/// Nothing is taken on trust. What is found is the Delaunay triangulation of the periodic space, or
-/// else there were too few images around the box, and false is returned:
-/// - Each facet has a cell on either side that is the translate of one of those kept, and the two
-///   name each other. Or its plane has the directions of all closed axes and all images on one
-///   side. So the cells, unrolled, cover the space the same number of times everywhere.
-/// - The cells at one of the sites are those around it in the triangulation, which cover it once.
-/// - Neighbours are so in a Delaunay triangulation. What is one locally is one (Delaunay 1934).
-/// - Each site has a cell, but those that are hidden in the box already.
-/// @param triangulation of `images.places`; replaced if true is returned.
+/// Every condition is checked. True means that the result is the Delaunay triangulation of the
+/// periodic space; false means that there were too few images around the box. The conditions are:
+/// - Each facet has on either side a cell that is a translate of a kept cell, and the two cells
+///   name each other. Otherwise the plane of the facet contains the directions of all closed axes,
+///   and all images lie on one side of it. Unrolled, the cells therefore cover the space the same
+///   number of times everywhere.
+/// - The cells at one of the sites are the cells around it in the triangulation, which cover it
+///   once.
+/// - Neighbours are neighbours in a Delaunay triangulation. A triangulation that is Delaunay
+///   locally is Delaunay (Delaunay 1934).
+/// - Each site has a cell, except sites that are already hidden in the box.
+/// @param triangulation the triangulation of `images.places`; replaced if true is returned.
 bool take_quotient(Triangulation& triangulation, Images& images, const Box& box,
                    const RunContext& context);
 

@@ -13,10 +13,9 @@ namespace {
 
 std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
-/// What is likely to do, were the sites anywhere with the same chance. Inside it is the radius of
-/// the largest empty sphere, and as much as cells of usual size beyond it. Near an open end the
-/// empty spheres are caps, which are the wider the flatter they are, up to the lengths that close
-/// up.
+/// A margin that is likely to be enough if the sites are uniformly distributed. In the interior it
+/// is the radius of the largest empty sphere plus the usual size of a cell. Near an open end, empty
+/// spheres are caps; the flatter they are, the wider they are, up to the lengths that close up.
 class LikelyMargin {
  public:
   LikelyMargin(const Sites& sites, const Box& box) : box_(box) {
@@ -35,7 +34,7 @@ class LikelyMargin {
       measure *= extent;
       ++dim_;
     }
-    constexpr double few = 8;  // found by trial: less than one in many runs has to begin anew
+    constexpr double few = 8;  // found by trial: less than one in many runs must start again
     inside_ = std::min(around_, std::pow(measure / count * (std::log(count) + few), 1.0 / dim_));
   }
   double inside() const { return inside_; }
@@ -48,7 +47,7 @@ class LikelyMargin {
         depth = std::min(
             {depth, coordinates(p)[axis] - low_[axis], high_[axis] - coordinates(p)[axis]});
     if (depth == inside_ || inside_ >= around_) return inside_;
-    const double flat = inside_ / depth;  // as many sites as in a sphere inside
+    const double flat = inside_ / depth;  // holds as many sites as an interior sphere
     return std::min(around_, inside_ * std::pow(flat, 1.0 / (dim_ - 1)));
   }
 
@@ -60,8 +59,8 @@ class LikelyMargin {
   int dim_ = 0;
 };
 
-/// The least margin with which a site has an image along each closed axis: without one the images
-/// may have a smaller affine hull than all have.
+/// The least margin that gives some site an image along each closed axis: without such a site, the
+/// affine hull of the images may be smaller than the hull of all images.
 double least_margin(const Sites& sites, const Box& box) {
   double least = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -80,7 +79,7 @@ double least_margin(const Sites& sites, const Box& box) {
 
 PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,
                                            const RunContext& context) {
-  constexpr double more = 1 + 1e-9;  // than rounding takes away
+  constexpr double more = 1 + 1e-9;  // more than rounding can remove
   const double most = 2 * more * box.size;
   LikelyMargin margin(sites, box);
   const double least = more * least_margin(sites, box);

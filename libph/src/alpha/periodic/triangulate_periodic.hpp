@@ -7,11 +7,12 @@ namespace ph::alpha {
 
 /// A triangulation of a periodic space, of any number of sites.
 struct PeriodicTriangulation {
-  Triangulation triangulation;  ///< vertices are sites, which a cell may have several times
+  Triangulation triangulation;  ///< vertices are sites; a cell may have a site several times
   Images images;                ///< with the frames of cells
 };
 
-/// O(n log n) for sites that lie evenly. Precondition: there is a site, and a closed axis.
+/// O(n log n) for evenly spread sites. Precondition: there is at least one site and one closed
+/// axis.
 /// @param box in the units of the sites.
 /// @throws Error (resource, cancelled).
 PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,

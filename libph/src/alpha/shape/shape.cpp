@@ -28,7 +28,7 @@ void check_values(const Alpha& alpha, double value, std::string_view what) {
 }
 
 /// The surface of a subcomplex.
-/// @param has_cell, has_facet whether a cell, and a facet by its usual name, are in it.
+/// @param has_cell, has_facet true if a cell, or a facet given by its usual name, belongs to it.
 template <class HasCell, class HasFacet>
 SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_facet) {
   SurfaceMesh mesh;
@@ -49,7 +49,7 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   if (cells.dim() == 3)
     for (uint32_t code = 0; code < 4 * count; ++code) {
       const uint32_t other = cells.across(code);
-      if (other < code || !has_facet(code)) continue;  // kNone is larger than any
+      if (other < code || !has_facet(code)) continue;  // kNone is larger than any code
       const bool here = has_cell(code >> 2), there = other != kNone && has_cell(other >> 2);
       if (here && there) continue;
       const uint32_t inside = there ? other : code;
@@ -64,8 +64,8 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   return mesh;
 }
 
-/// What lies below critical simplices: their faces, the intervals of those, and so on (Bauer &
-/// Edelsbrunner 2017).
+/// The simplices below critical simplices: their faces, the intervals of these faces, and so on
+/// (Bauer & Edelsbrunner 2017).
 class Wrap {
  public:
   Wrap(const AlphaCells& cells, const RunContext& context)
@@ -102,7 +102,7 @@ class Wrap {
     for (uint32_t k = 0; k <= static_cast<uint32_t>(cells_.dim()); ++k)
       left_.push_back({4 * t + k, true});
   }
-  // With the interval that it lies in.
+  // Adds a facet with the interval that it lies in.
   void add_facet(uint32_t code) {
     if (has_facet_[usual(code)]) return;
     has_facet_[usual(code)] = true;
@@ -136,7 +136,7 @@ class Wrap {
   const AlphaCells& cells_;
   const RunContext& context_;
   std::pmr::vector<bool> has_cell_, has_facet_, has_edge_;
-  std::vector<Left> left_;  // to be added
+  std::vector<Left> left_;  // simplices still to be added
 };
 
 }  // namespace

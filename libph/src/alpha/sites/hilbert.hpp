@@ -6,7 +6,7 @@
 
 namespace ph::alpha {
 
-/// The bits of a number with N - 1 zeros before each.
+/// The bits of a number, with N - 1 zeros before each.
 template <std::size_t N>
 std::uint64_t spread(std::uint64_t x) {
   static_assert(N == 2 || N == 3);
@@ -25,11 +25,12 @@ std::uint64_t spread(std::uint64_t x) {
   }
 }
 
-/// The place of a cell along the Hilbert curve of a grid of 2^bits cells a side, by the transform
-/// of Skilling, Programming the Hilbert curve, 2004. Precondition: N · bits <= 64.
+/// The position of a cell along the Hilbert curve of a grid with 2^bits cells per side, by the
+/// transform of Skilling, Programming the Hilbert curve, 2004. Precondition: N · bits <= 64.
 template <std::size_t N>
 std::uint64_t hilbert_place(std::array<std::uint32_t, N> x, int bits) {
-  // From coordinates to the transposed place: rotations and reflections undone, top down.
+  // Converts coordinates to the transposed position: undoes rotations and reflections from the top
+  // down.
   for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1) {
     const std::uint32_t below = bit - 1;
     for (std::size_t i = 0; i < N; ++i) {

@@ -17,8 +17,8 @@ namespace ph::alpha {
 namespace {
 
 struct Placed {
-  std::uint64_t place;  // along the curve
-  std::uint32_t point;  // of the input
+  std::uint64_t place;  // position along the curve
+  std::uint32_t point;  // point of the input
 };
 
 void check_sizes(PointsView points, std::span<const double> weights) {
@@ -37,7 +37,7 @@ void check_sizes(PointsView points, std::span<const double> weights) {
                                               weights.size(), points.rows()));
 }
 
-/// The largest magnitude of a coordinate, or root of one of a weight.
+/// The largest magnitude of a coordinate, or of the square root of a weight.
 double largest_magnitude(PointsView points, std::span<const double> weights) {
   double largest = 0;
   for (Index i = 0; i < points.rows(); ++i)
@@ -56,9 +56,9 @@ double largest_magnitude(PointsView points, std::span<const double> weights) {
   return largest;
 }
 
-/// Times 2^-exponent. @throws Error (bad_data) unless that is exact.
+/// Multiplies by 2^-exponent. @throws Error (bad_data) unless the result is exact.
 double scaled(double x, int exponent, Index point) {
-  const double result = times_power_of_two(x, -exponent) + 0.0;  // -0 is 0
+  const double result = times_power_of_two(x, -exponent) + 0.0;  // turns -0 into 0
   if (times_power_of_two(result, exponent) != x)
     throw Error(ErrorKind::bad_data,
                 fmt::format("point {}: found {:g} beside numbers about 2^{} as large, expected "
@@ -67,7 +67,7 @@ double scaled(double x, int exponent, Index point) {
   return result;
 }
 
-/// Places of points along the curve, which fills the smallest cube around them.
+/// Positions of points along the curve, which fills the smallest cube around them.
 template <std::size_t N>
 void place_along_curve(std::span<const Vector<double>> points, std::span<Placed> order,
                        Ticker& ticker) {
@@ -80,7 +80,7 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   const Vector<double> size = high - low;
   const double side = std::max({size.x, size.y, size.z});
   constexpr double cells = static_cast<double>((std::uint32_t{1} << bits) - 1);
-  // Beside weights the cube may be so small that the quotient overflows.
+  // Compared with the weights, the cube may be so small that the quotient overflows.
   const double scale = side > 0 ? std::min(cells / side, std::numeric_limits<double>::max()) : 0;
   const auto cell = [&](double x) {
     return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells));
@@ -96,7 +96,8 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   }
 }
 
-/// The points as they lie along the curve, but for those whose places agree in the first 53 bits.
+/// The points in the order of the curve, except for points whose positions agree in the first 53
+/// bits.
 std::pmr::vector<Placed> along_curve(std::span<const Vector<double>> points, int coordinates,
                                      Ticker& ticker, const RunContext& context) {
   std::pmr::vector<Placed> order(points.size(), &context.memory);
@@ -136,7 +137,7 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
 
   Ticker ticker(context, "spatial order", count);
   auto order = along_curve(scaled_points, sites.coordinates, ticker, context);
-  // What lies in the same cell of the curve goes by coordinates, copies by weight and number.
+  // Points in the same cell of the curve are ordered by coordinates, copies by weight and number.
   const auto precedes = [&](const Placed& a, const Placed& b) {
     if (a.place != b.place) return a.place < b.place;
     const Vector<double>&p = scaled_points[a.point], &q = scaled_points[b.point];

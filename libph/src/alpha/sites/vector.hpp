@@ -28,7 +28,8 @@ Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Before in the order of the coordinates, x first. No translation changes it.
+/// True if `a` comes first in the order of the coordinates, x first. No translation changes this
+/// order.
 inline bool lexicographically_before(const Vector<double>& a, const Vector<double>& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }

@@ -15,7 +15,7 @@ Triangulation triangulate(const Sites& sites, const RunContext& context) {
 
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden) {
-  // Of copies the heaviest one hides the others.
+  // Among copies, the heaviest one hides the others.
   for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
   sites.copies.clear();
   std::pmr::vector<std::uint32_t> number(sites.size(), kNone, hidden.get_allocator());

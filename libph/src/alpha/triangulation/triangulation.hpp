@@ -11,36 +11,38 @@
 
 namespace ph::alpha {
 
-/// A Delaunay triangulation, regular if there are weights, of the affine hull of the sites: its
+/// A Delaunay triangulation (regular if there are weights) of the affine hull of the sites: its
 /// cells have dim + 1 vertices.
 ///
-/// Facet k of cell t, the one opposite its vertex k, is called 4t + k. It has two such names, of
-/// which the smaller one is usual, unless nothing but the outside lies across.
+/// Facet k of cell t, opposite the cell's vertex k, has the name 4t + k. A facet between two cells
+/// has two such names, of which the smaller one is called usual.
 ///
-/// The vertices of a cell ascend, so a face has its vertices in the same order in each cell: signs
-/// of boundaries are known from places.
+/// The vertices of a cell ascend; a face therefore has its vertices in the same order in each cell,
+/// and positions determine the signs of boundaries.
 ///
-/// In a periodic space it is a Delta-complex: a cell may have a vertex several times, and its other
-/// faces once each; those with the same vertices may be different ones. Equal vertices are in an
-/// order of their own (periodic/images.hpp), again the same in each cell.
+/// In a periodic space it is a Delta-complex: a cell may have a vertex several times, but each
+/// other face only once; faces with the same vertices may be different. Equal vertices have an
+/// order of their own (periodic/images.hpp), which again is the same in each cell.
 struct Triangulation {
   explicit Triangulation(std::pmr::memory_resource* memory)
       : cells(memory), across(memory), is_reversed(memory) {}
 
   std::size_t size() const { return cells.size(); }
 
-  int dim = -1;                                    ///< of the affine hull; -1: there is no site
-  RawVector<std::array<std::uint32_t, 4>> cells;   ///< vertices, ascending; kNone beyond dim
-  RawVector<std::array<std::uint32_t, 4>> across;  ///< by facet: the cell's other name; or kNone
-  /// Whether a cell's vertices, as they ascend, are oriented against the others' (dim 2 and 3).
+  int dim = -1;                                   ///< of the affine hull; -1 if there is no site
+  RawVector<std::array<std::uint32_t, 4>> cells;  ///< vertices, ascending, then kNone
+  /// By facet: its name in the other cell, or kNone.
+  RawVector<std::array<std::uint32_t, 4>> across;
+  /// True if the ascending vertices of a cell are oriented against those of the other cells (dim 2
+  /// and 3).
   RawVector<std::uint8_t> is_reversed;
 };
 
 /// @throws Error (resource, cancelled).
 Triangulation triangulate(const Sites& sites, const RunContext& context);
 
-/// Of weights: takes out the sites that belong to no cell.
-/// @param hidden to it are added the points of the input that those are.
+/// With weights: removes the sites that belong to no cell.
+/// @param hidden receives the corresponding points of the input.
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden);
 
