@@ -29,7 +29,7 @@ namespace {
 
 using namespace ph;
 
-// ph_barcode_bars gives out what the barcode holds.
+// ph_barcode_bars returns the barcode's own array.
 static_assert(sizeof(ph_bar) == sizeof(Bar) && offsetof(ph_bar, dim) == offsetof(Bar, dim) &&
               offsetof(ph_bar, birth) == offsetof(Bar, birth) &&
               offsetof(ph_bar, death) == offsetof(Bar, death));
@@ -39,7 +39,7 @@ std::string& last_error() {
   return message;
 }
 
-/// Never throws: words that do not fit are left out.
+/// Never throws: a message that does not fit is left out.
 ph_status fail(ph_status status, const char* message) noexcept {
   try {
     last_error() = message;
@@ -78,9 +78,9 @@ ph_status guarded(Use&& use) noexcept {
     return fail(status_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(PH_RESOURCE, "out of memory");
-  } catch (const std::length_error&) {  // more than any memory holds
+  } catch (const std::length_error&) {  // more than any memory can hold
     return fail(PH_RESOURCE, "out of memory");
-  } catch (const std::system_error& error) {  // of std::async
+  } catch (const std::system_error& error) {  // thrown by std::async
     return fail(PH_RESOURCE, error.what());
   } catch (const std::exception& error) {
     return fail(PH_INTERNAL, error.what());
@@ -93,7 +93,7 @@ void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::usage, message);
 }
 
-/// What the caller knows of the options, the rest by default.
+/// The options that the caller's version of the struct has; the rest are defaults.
 ph_options complete(const ph_options* given) {
   ph_options options;
   ph_options_init(&options);
@@ -135,7 +135,7 @@ std::optional<double> threshold_of(const ph_options& given) {
   return std::isnan(given.threshold) ? std::nullopt : std::optional(given.threshold);
 }
 
-/// Runs `compute` on a thread of its own while the caller's thread asks whether to stop.
+/// Runs `compute` on a separate thread while the caller's thread asks whether to stop.
 template <class Compute>
 void watched(const ph_options& options, std::stop_source& stop, const Compute& compute) {
   if (options.cancel == nullptr) return compute();
@@ -146,7 +146,7 @@ void watched(const ph_options& options, std::stop_source& stop, const Compute& c
   computed.get();
 }
 
-/// @param compute(options, context) @param out where the result will be.
+/// @param compute(options, context) computes the result. @param out receives it.
 template <class Out, class Compute>
 ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   return guarded([&] {
@@ -164,16 +164,16 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   });
 }
 
-/// @param make(options, context) the complex.
+/// @param make(options, context) makes the complex.
 template <class Make>
 ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
-    const Options task = task_of(options);  // before any number is looked at
+    const Options task = task_of(options);  // before any number is read
     *out = new ph_barcode(persistence(make(options, context), task, context));
   });
 }
 
-/// @param make(i, options, context) the complex of input i.
+/// @param make(i, options, context) makes the complex of input i.
 template <class Make>
 ph_status barcodes_of(const ph_options* given, std::size_t count, ph_barcode** out,
                       const Make& make) {
@@ -227,7 +227,8 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
                 fmt::format("type: found {}, expected a ph_number, 0 to {}",
                             static_cast<unsigned>(type), static_cast<unsigned>(PH_FLOAT64)));
   const auto voxel = static_cast<VoxelType>(type);
-  if (strides != nullptr) context.memory.require(count * bytes_of(voxel));  // it may be a copy
+  // The image may become a copy.
+  if (strides != nullptr) context.memory.require(count * bytes_of(voxel));
   std::vector<std::ptrdiff_t> steps;
   if (strides != nullptr) steps.assign(strides, strides + axes);
   return image_of_array(voxel, data, std::vector<Index>(extents, extents + axes), steps);
@@ -298,7 +299,7 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
     const std::size_t count =
         size < 2 ? 0 : static_cast<std::size_t>(size) * static_cast<std::size_t>(size - 1) / 2;
     context.memory.require(count * sizeof(double));
-    // Options first, then numbers, whatever the order in which a compiler evaluates arguments.
+    // Converts options before numbers, because compilers may evaluate arguments in any order.
     const RipsOptions rips = rips_options(o);
     return Rips(DistanceMatrix(size, std::vector<double>(lower, lower + count)), rips, context);
   });

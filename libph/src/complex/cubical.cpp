@@ -56,7 +56,7 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         if (grid.is_in_file && begin > 0)
           forget_file_pages(voxels + (begin - block), block * sizeof(T));
         const std::size_t end = std::min(count, begin + block);
-        bool any = false;  // without a branch: several at a time
+        bool any = false;  // without a branch, which allows several at a time
         for (std::size_t i = begin; i < end; ++i) any |= voxels[i] != voxels[i];
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
@@ -77,7 +77,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
       lazy_(std::make_shared<Lazy>()) {
   check(image, options);
   const std::size_t count = voxels_.size();
-  if (count == 0) return;  // a file may hold an image of no dimension and no voxel
+  if (count == 0) return;  // a file may hold an image without dimensions and voxels
   context.poll();
   claim_ = std::make_shared<MemoryClaim>(context.memory, voxels_.bytes());
   const double most = std::numeric_limits<double>::max();
@@ -111,7 +111,7 @@ void Cubical::prepare(const RunContext& context) const {
 
 const Cubical::Table& Cubical::make_table(const RunContext& context) const {
   std::unique_lock lock(lazy_->mutex, std::defer_lock);
-  while (!lock.try_lock()) {  // another thread makes it: this one can still be stopped
+  while (!lock.try_lock()) {  // another thread is making it: this thread can still be stopped
     context.poll();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -127,7 +127,7 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
                 fmt::format("image: found {} voxels, at most 2^32 - 2 are possible where cells are "
                             "listed, as engines other than gradient do",
                             voxels_.size()));
-  // It outlives the run, whose budget may be gone by then.
+  // The table outlives the run, whose budget may be gone by then.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};
   // Ranks of the voxels that enter, by (value, position).
@@ -172,8 +172,8 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     ticker.work(more);
   }
 
-  // Voxels stand at the even coordinates (V) or the odd ones (T). A cube of V enters with the last
-  // of its vertices, a face of T with the first of its cofaces: spread the keys axis by axis.
+  // Voxels are at the even coordinates (V) or at the odd ones (T). A cube of V enters with its last
+  // vertex, a face of T with its first coface: the keys spread axis by axis.
   const std::uint64_t voxel_parity = grid_.voxels_are_vertices ? 0 : 1;
   const auto grid_index = [&](std::uint64_t voxel) {
     std::uint64_t index = 0;
@@ -199,7 +199,7 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
   for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
-      // The layers below and above along the axis; at a border of T there is only one.
+      // The layers below and above along the axis; at the border of T there is only one.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;
       std::uint32_t* layer = keys.data() + first + x * axis.stride;

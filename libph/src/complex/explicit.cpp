@@ -46,14 +46,14 @@ void check_size(std::size_t cells) {
   }
 }
 
-// Tables are made with a row a dimension: a wrong number in a file must not make them huge.
+// Tables have one row per dimension: a wrong number in a file must not make them huge.
 constexpr int kLargestDimension = 65535;
 
 [[noreturn]] void refuse(std::string_view what, const std::string& fault) {
   throw Error(ErrorKind::bad_data, fmt::format("{}: {}", what, fault));
 }
 
-// Compressed rows: those of row i are offsets[i] .. offsets[i+1] of `items`.
+// Checks compressed rows: row i has the entries offsets[i] .. offsets[i+1] of `items`.
 void check_offsets(std::string_view what, const std::vector<std::size_t>& offsets,
                    std::size_t items) {
   if (!offsets.empty() && offsets.front() == 0 && offsets.back() == items &&
@@ -252,7 +252,7 @@ void ExplicitComplex::sort_by_dimension(const std::vector<int>& dims) {
   std::partial_sum(first_of_dim_.begin(), first_of_dim_.end(), first_of_dim_.begin());
   of_dim_.resize(size());
   std::vector<std::size_t> next(first_of_dim_.begin(), first_of_dim_.end());
-  for (std::size_t i = 0; i < dims.size(); ++i) {  // within a dimension in the order of the input
+  for (std::size_t i = 0; i < dims.size(); ++i) {  // within a dimension, in the order of the input
     if (dims[i] == 0) vertices_.push_back(static_cast<std::uint32_t>(i));
     if (id_of_[i] < size()) of_dim_[next[dim_of(i)]++] = id_of_[i];
   }

@@ -15,7 +15,7 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-constexpr std::size_t kBytesPerEntry = 40;  // of the matrix and of the complex made of it
+constexpr std::size_t kBytesPerEntry = 40;  // of the matrix, and of the complex made from it
 
 /// The doubled grid around the voxels of an image.
 class Cubes {
@@ -41,7 +41,7 @@ class Cubes {
     for (std::size_t k = 0; k < x.size(); ++k) number = number * lengths_[k] + x[k];
     return number;
   }
-  /// Where a cube enters; infinite: never.
+  /// The value at which a cube enters, or infinity if it never does.
   double value(const Coordinates& x) const {
     const double value = extreme_value(x, 0, 0);
     return value <= options_.threshold.value_or(kInfinity) ? value : kInfinity;
@@ -55,7 +55,7 @@ class Cubes {
     Coordinates lower = x, upper = x;
     lower[k] = x[k] - 1;
     upper[k] = (x[k] + 1) % lengths_[k];
-    if (lower == upper) return;  // once around: its two ends cancel
+    if (lower == upper) return;  // the cube goes once around: its two ends cancel
     visit(upper, sign);
     visit(lower, -sign);
   }
@@ -64,8 +64,8 @@ class Cubes {
   bool voxels_are_vertices() const {
     return options_.construction == CubicalOptions::Construction::vertices;
   }
-  /// The voxels that decide the value of a cube, axis by axis: of those at coordinate x[k] of the
-  /// doubled grid or beside it the last one (V) or the first one (T).
+  /// The value of a cube, axis by axis, among the voxels at coordinate x[k] of the doubled grid or
+  /// next to it: the last voxel (V) or the first one (T) decides.
   double extreme_value(const Coordinates& x, std::size_t k, Index voxel) const {
     if (k == x.size()) return voxel_value(voxel);
     const Index n = image_.extents[k];
@@ -96,13 +96,13 @@ class Cubes {
 
 ExplicitComplex listed_cubes(const Image& image, const CubicalOptions& options,
                              const RunContext& context) {
-  const Cubical checked(image, options, context);  // refuses what is no image
+  const Cubical checked(image, options, context);  // refuses an invalid image
   BoundaryMatrix matrix;
   if (image.values.empty()) return ExplicitComplex::from_boundary(matrix, {}, context);
   const Cubes cubes(image, options);
   const auto count = static_cast<std::size_t>(cubes.size());
   const MemoryClaim claim(context.memory, count * (image.extents.size() + 1) * kBytesPerEntry);
-  // Facets are named before they are numbered: a cell of a lower dimension may come later.
+  // Facets are named before they are numbered, because a cell of a lower dimension may come later.
   std::vector<Index> numbers(count, kNotThere);
   std::vector<double> values(count);
   Index there = 0;

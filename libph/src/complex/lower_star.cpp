@@ -16,7 +16,7 @@
 namespace ph {
 namespace {
 
-constexpr std::size_t kMostVertices = 24;  // 2^24 faces of one simplex
+constexpr std::size_t kMostVertices = 24;  // a simplex has up to 2^24 faces
 
 using Closure = std::pmr::set<std::pmr::vector<Index>>;
 
@@ -70,7 +70,7 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
       throw Error(ErrorKind::resource, fmt::format("{}: found {} vertices, at most {} are possible",
                                                    where(), vertices.size(), kMostVertices));
     }
-    if (closure.contains(vertices)) continue;  // and with it all its faces
+    if (closure.contains(vertices)) continue;  // all its faces are present as well
     for (std::size_t mask = 1; mask < (std::size_t{1} << vertices.size()); ++mask) {
       poll();
       face.clear();

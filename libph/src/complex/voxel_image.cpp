@@ -15,13 +15,14 @@
 namespace ph {
 namespace {
 
-/// The lower envelope of parabolas x² + height at whole numbers, one line of the image at a time.
+/// The lower envelope of parabolas x² + height at integers, for one line of the image at a time.
 class Envelope {
  public:
   Envelope(std::size_t length, std::pmr::memory_resource* memory)
       : heights_(length, memory), sites_(length, memory), starts_(length, memory) {}
 
-  /// Replaces f by min over q of (p - q)² + f(q). Infinite where f is infinite everywhere.
+  /// Replaces f by min over q of (p - q)² + f(q). The result is infinite if f is infinite
+  /// everywhere.
   void transform(double* line, std::size_t stride, Ticker& ticker) {
     const std::size_t length = heights_.size();
     std::size_t count = 0;
@@ -52,15 +53,16 @@ class Envelope {
   }
 
  private:
-  /// Where the parabola of q, on the right, falls below that of p.
+  /// The point at which the parabola of q, on the right, falls below the parabola of p.
   double crossing(std::size_t p, std::size_t q) const {
     const auto a = static_cast<double>(p), b = static_cast<double>(q);
     return ((heights_[q] + b * b) - (heights_[p] + a * a)) / (2 * (b - a));
   }
 
   std::pmr::vector<double> heights_;
-  std::pmr::vector<std::size_t> sites_;  // of the parabolas of the envelope, from left to right
-  std::pmr::vector<double> starts_;      // where each is the lowest one from
+  // Sites of the parabolas of the envelope, from left to right.
+  std::pmr::vector<std::size_t> sites_;
+  std::pmr::vector<double> starts_;  // the point from which each is the lowest
 };
 
 void check(PointsView points, double voxel, Index margin) {
@@ -132,7 +134,7 @@ class Grid {
   std::size_t size_ = 0;
 };
 
-/// In place of 0 and infinity: distances to the zeroes.
+/// Replaces 0 and infinity by distances to the zeros.
 void make_distances(const Grid& grid, double voxel, std::vector<double>& values, Ticker& ticker,
                     std::pmr::memory_resource* memory) {
   for (std::size_t k = 0; k < grid.extents().size(); ++k) {

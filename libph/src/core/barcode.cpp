@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// Calls `use(run)` for the longest runs of bars that have one value.
+/// Calls `use(run)` for the longest runs of bars with equal values.
 template <class Value, class Use>
 void for_each_run(std::span<Bar> bars, Value value, Use&& use) {
   while (!bars.empty()) {
@@ -90,12 +90,13 @@ InputChain Barcode::representative(std::size_t i) const {
   return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
-// Without cells equal bars are the same: each run of one birth can be sorted by death in place.
+// Without cells, equal bars are interchangeable: each run of equal births can be sorted by death in
+// place.
 void Barcode::sort_values(const RunContext& context) {
-  std::pmr::vector<Bar> buffer(&context.memory);  // if it is needed
+  std::pmr::vector<Bar> buffer(&context.memory);  // allocated only if needed
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
-    // As the highest dimension of an image comes.
+    // Bars of the highest dimension of an image come in this order.
     if (std::ranges::is_sorted(bars, std::ranges::greater(), value_of)) {
       std::ranges::reverse(bars);
       return;
@@ -108,7 +109,7 @@ void Barcode::sort_values(const RunContext& context) {
   Ticker ticker(context, "bars", bars_.size());
   sort_by(bars_, [](const Bar& bar) { return bar.dim; });
   for_each_run(std::span(bars_), &Bar::dim, [&](std::span<Bar> of_dim) {
-    sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });  // -0.0 is +0.0
+    sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });  // turns -0.0 into +0.0
     for_each_run(of_dim, &Bar::birth, [&](std::span<Bar> born_together) {
       ticker.tick();
       constexpr std::size_t many = 1024;
@@ -122,7 +123,7 @@ void Barcode::sort_values(const RunContext& context) {
 }
 
 void Barcode::sort(const RunContext& context) {
-  // Union-find meets the deaths of vertices that are born together in this order.
+  // Union-find reports the deaths of vertices with equal births in this order.
   const bool are_sorted = std::ranges::is_sorted(bars_, [](const Bar& a, const Bar& b) {
     return std::tie(a.dim, a.birth, a.death) < std::tie(b.dim, b.birth, b.death);
   });
@@ -130,8 +131,8 @@ void Barcode::sort(const RunContext& context) {
     if (!are_sorted) sort_values(context);
     return;
   }
-  // By digits: death, then birth, then dimension, each keeping what was sorted before; -0.0 is
-  // +0.0.
+  // Radix sort: by death, then by birth, then by dimension; each pass keeps the order of the one
+  // before, and -0.0 becomes +0.0.
   struct Place {
     double value;
     std::size_t bar;
@@ -148,7 +149,7 @@ void Barcode::sort(const RunContext& context) {
     for (Place& place : order) place.value = bars_[place.bar].dim;
     radix_sort_by_value(order, value_of, context);
   }
-  // Stable: bars without cells keep their order when they are written and read again.
+  // A stable sort: bars without cells keep their order when they are written and read again.
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
     const Bar& bar = bars_[order[begin].bar];
     for (end = begin + 1; end < order.size() && bars_[order[end].bar] == bar;) ++end;
@@ -187,7 +188,7 @@ std::size_t Barcode::longest(int dim) const {
     throw Error(ErrorKind::usage, "the barcode has no bar of dimension " + std::to_string(dim));
   }
   const auto it = std::max_element(all.begin(), all.end(), [](const Bar& a, const Bar& b) {
-    // A bar from -infinity is as long as one that never dies, which comes first all the same.
+    // A bar from -infinity is as long as a bar that never dies, which nevertheless comes first.
     if (a.is_infinite() != b.is_infinite()) return b.is_infinite();
     return a.persistence() < b.persistence();
   });

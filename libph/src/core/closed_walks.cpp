@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::usage, fmt::format("chain: found {}, expected {}", found, expected));
 }
 
-/// Appends the ends of an edge: where it begins, then where it ends.
+/// Appends the start and then the end of an edge.
 void append_ends(const InputCell& edge, std::span<const Index> periods,
                  std::pmr::vector<Index>& ends) {
   const std::span<const Index> numbers = edge.numbers;
@@ -40,7 +40,7 @@ void append_ends(const InputCell& edge, std::span<const Index> periods,
   }
 }
 
-/// A chain of edges between vertices 0, 1, ..., from which closed walks are taken until nothing is
+/// A chain of edges between vertices 0, 1, ...; closed walks are removed from it until nothing is
 /// left.
 class Decomposition {
  public:
@@ -108,12 +108,12 @@ class Decomposition {
   std::span<const Index> tuple_of(std::size_t end) const {
     return std::span<const Index>(numbers_).subspan(end * arity_, arity_);
   }
-  /// What an edge counts for who leaves `from` along it.
+  /// The coefficient of an edge in the direction that leaves `from`.
   std::int64_t directed(std::uint32_t edge, std::uint32_t from) const {
     return tail_[edge] == from ? left_[edge] : modulo(-left_[edge]);
   }
 
-  /// Numbers the vertices in the order of their tuples.
+  /// Numbers the vertices in the order of their coordinates.
   void number_vertices(const RunContext& context) {
     std::pmr::vector<std::uint32_t> order(2 * size_, &context.memory);
     std::iota(order.begin(), order.end(), 0U);
@@ -141,7 +141,7 @@ class Decomposition {
       fail("a boundary that is not zero", fmt::format("a cycle over Z/{}", p_));
   }
 
-  /// The edges at each vertex, by their other end.
+  /// Sorts the edges at each vertex by their other end.
   void sort_arcs() {
     offsets_.assign(vertices() + 1, 0);
     for (std::size_t i = 0; i < size_; ++i) {
@@ -166,8 +166,8 @@ class Decomposition {
     place_.assign(vertices(), kNowhere);
   }
 
-  /// The way to go on from a vertex, not back along the edge by which the path came; preferably
-  /// one that counts `wanted`, so that much of the chain is taken at once.
+  /// The edge on which to leave a vertex, other than the edge on which the path came; preferably
+  /// one with coefficient `wanted`, because that removes much of the chain at once.
   const Arc* way_on(std::uint32_t from, std::uint32_t came_by, std::int64_t wanted) {
     std::size_t& first = next_[from];
     while (first < offsets_[from + 1] && left_[arcs_[first].edge] == 0) ++first;
@@ -182,8 +182,8 @@ class Decomposition {
     return any;
   }
 
-  /// Takes all walks that can be reached from a vertex. A path ends nowhere: what is left is a
-  /// cycle, so at each vertex other edges meet the one by which it came.
+  /// Removes all walks that can be reached from a vertex. A path cannot end: the rest is a cycle,
+  /// and each vertex therefore has another edge to leave by.
   void walk_from(std::uint32_t start) {
     path_.clear();
     place_[start] = 0;
@@ -191,7 +191,7 @@ class Decomposition {
       const std::int64_t wanted =
           path_.empty() ? 0 : directed(path_.front().edge, path_.front().from);
       const Arc* arc = way_on(here, came_by, wanted);
-      if (!arc) break;  // at the start: nothing is left of it
+      if (!arc) break;  // at the start: nothing is left there
       path_.push_back({here, arc->edge});
       if (place_[arc->to] == kNowhere) {
         here = arc->to;
@@ -206,7 +206,7 @@ class Decomposition {
     place_[start] = kNowhere;
   }
 
-  /// The end of the path is closed: a walk, as often as its first edge is there.
+  /// The end of the path is closed: it becomes a walk, with the coefficient of its first edge.
   void cut_off(std::size_t begin) {
     const std::int64_t a = directed(path_[begin].edge, path_[begin].from);
     Walk walk{{}, a};
@@ -228,14 +228,14 @@ class Decomposition {
   std::int64_t p_;
   std::size_t size_, arity_ = 1;
   Ticker ticker_;
-  std::pmr::vector<Index> numbers_;           // of tail and head of each edge
-  std::pmr::vector<std::uint32_t> first_of_;  // by vertex: an end that it is
+  std::pmr::vector<Index> numbers_;           // of the tail and the head of each edge
+  std::pmr::vector<std::uint32_t> first_of_;  // by vertex: an edge end at that vertex
   std::pmr::vector<std::uint32_t> tail_, head_;
-  std::pmr::vector<std::int64_t> left_;  // of each edge, from 0 to p - 1
+  std::pmr::vector<std::int64_t> left_;  // remaining coefficient of each edge, from 0 to p - 1
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Arc> arcs_;
-  std::pmr::vector<std::size_t> next_;     // by vertex: no arc before it has anything left
-  std::pmr::vector<std::uint32_t> place_;  // by vertex: on the path
+  std::pmr::vector<std::size_t> next_;     // by vertex: no arc before this one has anything left
+  std::pmr::vector<std::uint32_t> place_;  // by vertex: its position on the path
   std::pmr::vector<Step> path_;
   std::vector<Walk> found_;
 };

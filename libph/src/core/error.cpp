@@ -87,15 +87,16 @@ std::string marked(std::string_view name, std::string_view value) {
   return text += kEnd;
 }
 
-/// A part of a text: what stands between marks, or a mark.
+/// A part of a text: a mark, or the text between two marks.
 struct MessagePart {
-  std::string_view text;            // as it is, with the characters of a mark
-  std::string_view name = {};       // of a mark, else empty
-  std::string_view value = {};      // of a mark
-  Setting setting = Setting::none;  // that the mark names
+  std::string_view text;            // the raw text, including the characters of a mark
+  std::string_view name = {};       // name of a mark; otherwise empty
+  std::string_view value = {};      // value of a mark
+  Setting setting = Setting::none;  // setting that the mark names
 };
 
-/// Calls `use` for all pieces of a text in their order. A begin of a mark without an end is text.
+/// Calls `use` for all parts of a text in order. The beginning of a mark without an end counts as
+/// text.
 template <class Use>
 void each_piece(std::string_view text, Use&& use) {
   while (!text.empty()) {
@@ -115,8 +116,8 @@ void each_piece(std::string_view text, Use&& use) {
   }
 }
 
-/// Where the first clause of a text ends; npos if it is the only one. A "; " inside a mark, as in
-/// the name of a file, ends none.
+/// The end of the first clause of a text, or npos if there is only one clause. A "; " inside a
+/// mark, such as a file name, does not end a clause.
 std::size_t end_of_clause(std::string_view text) {
   for (std::size_t at = 0;;) {
     const std::size_t clause = text.find(kClause, at), begin = text.find(kBegin, at);
@@ -126,7 +127,7 @@ std::size_t end_of_clause(std::string_view text) {
   }
 }
 
-/// Calls `use` for the clauses of a text: what stands before, between and behind "; ".
+/// Calls `use` for the clauses of a text, which are separated by "; ".
 template <class Use>
 void each_clause(std::string_view text, Use&& use) {
   for (bool is_first = true;; is_first = false) {
@@ -143,7 +144,7 @@ std::string neutral(Setting setting, std::string_view value) {
   return text;
 }
 
-/// The text of all pieces. @return nothing if a setting has no words.
+/// The text of all parts. @return nothing if the program has no name for a setting.
 std::optional<std::string> rendered(std::string_view text, const Words& words) {
   std::string result;
   bool has_words = true;

@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// A hash table from 64-bit numbers to small values, in one array with linear probing: several
-/// times faster than std::unordered_map for what inner loops look up. Every number is a key.
+/// A hash table from 64-bit numbers to small values, in one array with linear probing; several
+/// times faster than std::unordered_map for the look-ups of inner loops. Every number is a key.
 /// Nothing is ever erased.
 template <class Value>
 class FlatMap {
@@ -20,14 +20,16 @@ class FlatMap {
 
   explicit FlatMap(std::pmr::memory_resource* memory) : slots_(memory) {}
 
-  /// Makes room for so many keys at once.
+  /// Makes room for that many keys at once.
   void reserve(std::size_t keys) {
     const std::size_t slots = std::bit_ceil(2 * (keys + 1));
     if (slots > slots_.size()) rehash(std::max(kSmall, slots));
   }
-  /// Asks for what `find` will read. Needs a map that is not empty, or a call of `reserve`.
+  /// Prefetches the data that `find` will read. The map must not be empty, or `reserve` must have
+  /// been called.
   void prefetch(Key key) const { __builtin_prefetch(&slots_[start(key)]); }
-  /// Null if the key is absent. Valid until the next insertion. Several threads may ask.
+  /// Returns null if the key is absent. The result is valid until the next insertion. Several
+  /// threads may call it.
   Value* find(Key key) {
     if (key == kFree) [[unlikely]]
       return has_last_ ? &last_ : nullptr;
@@ -35,7 +37,7 @@ class FlatMap {
     Slot& slot = slot_of(key);
     return slot.key == key ? &slot.value : nullptr;
   }
-  /// The value of a key, a fresh one if it was absent, and whether it was.
+  /// The value of a key, newly made if the key was absent, and true if it was absent.
   std::pair<Value*, bool> try_emplace(Key key) {
     if (key == kFree) [[unlikely]]
       return {&last_, !std::exchange(has_last_, true)};
@@ -48,7 +50,7 @@ class FlatMap {
     }
     return {&slot.value, is_new};
   }
-  /// Keeps the array where it is small, so that clearing often costs little.
+  /// Keeps a small array, which makes frequent clearing cheap.
   void clear() {
     last_ = Value{};
     has_last_ = false;
@@ -63,7 +65,7 @@ class FlatMap {
   }
 
  private:
-  static constexpr Key kFree = UINT64_MAX;  // marks a free slot: as a key it has a place of its own
+  static constexpr Key kFree = UINT64_MAX;  // marks a free slot; as a key it is stored in last_
   struct Slot {
     Key key = kFree;
     Value value{};
@@ -75,7 +77,7 @@ class FlatMap {
   std::size_t start(Key key) const {
     return key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask()));
   }
-  /// Where a key is, or would be.
+  /// The slot of a key, or the slot that it would get.
   Slot& slot_of(Key key) {
     std::size_t i = start(key);
     while (slots_[i].key != key && slots_[i].key != kFree) i = (i + 1) & mask();
@@ -89,9 +91,9 @@ class FlatMap {
   }
 
   std::pmr::vector<Slot> slots_;  // a power of two, at most half full
-  std::size_t size_ = 0;          // of what is in the slots
+  std::size_t size_ = 0;          // number of keys in the slots
   Value last_{};                  // the value of kFree,
-  bool has_last_ = false;         // if it is there
+  bool has_last_ = false;         // true if it is present
 };
 
 }  // namespace ph

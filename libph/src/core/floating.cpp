@@ -23,14 +23,14 @@ const char* end_of_digits(const char* at, const char* last) {
   return std::find_if_not(at, last, is_digit);
 }
 
-/// Whether the text begins with a word in small letters, written in any.
+/// True if the text begins with `word`, in any case; `word` is in lower case.
 bool begins_with(const char* at, const char* last, std::string_view word) {
   if (last - at < static_cast<std::ptrdiff_t>(word.size())) return false;
   return std::equal(word.begin(), word.end(), at,
                     [](char small, char c) { return to_lower(c) == small; });
 }
 
-/// `(letters, digits and _)` behind "nan", as far as it is there.
+/// The end of `(letters, digits and _)` after "nan", if it is there.
 const char* end_of_payload(const char* at, const char* last) {
   if (at == last || *at != '(') return at;
   const char* const end = std::find_if_not(
@@ -38,8 +38,8 @@ const char* end_of_payload(const char* at, const char* last) {
   return end != last && *end == ')' ? end + 1 : at;
 }
 
-/// Where the longest number ends that begins at `first`; `first`: there is none. What strtod takes
-/// beyond that (blanks, a plus sign, hexadecimal digits) is none.
+/// The end of the longest number that begins at `first`, or `first` if there is none. Blanks, a
+/// plus sign and hexadecimal digits, which strtod accepts, do not count as a number.
 const char* end_of_number(const char* first, const char* last) {
   const char* at = first;
   if (at != last && *at == '-') ++at;
@@ -67,7 +67,7 @@ bool is_zero(std::string_view number) {
   return digits.find_first_of("123456789") == digits.npos;
 }
 
-// A program of others may have set another locale, where a comma separates decimals.
+// The user's program may have set another locale, in which a comma separates decimals.
 locale_t c_locale() {
   static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
   return c;
@@ -80,7 +80,7 @@ std::from_chars_result read(const char* first, const char* last, T& value) {
   const char* const end = end_of_number(first, last);
   if (end == first) return {first, std::errc::invalid_argument};
   const auto size = static_cast<std::size_t>(end - first);
-  // strtod asks for a zero at the end. Most numbers are short.
+  // strtod needs a terminating zero. Most numbers are short.
   std::array<char, 64> few{};
   std::string many;
   const char* text = few.data();

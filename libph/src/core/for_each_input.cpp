@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// Of the inputs that failed the first one.
+/// Keeps the error of the first input among those that failed.
 class FirstError {
  public:
   void keep(std::size_t input, std::exception_ptr error) {

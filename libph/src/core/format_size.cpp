@@ -15,7 +15,7 @@ std::string format_size(double bytes) {
     bytes /= 1024;
     ++unit;
   }
-  // Three digits, but for the last ones before the next unit: no power of ten.
+  // Shows three digits, except just below the next unit, which is not a power of ten.
   constexpr double kFourDigits = 999.5;
   return fmt::format("{:.{}g} {}", bytes, bytes >= kFourDigits ? 4 : 3, kUnits[unit]);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// Letters of ASCII alone, in every locale: all other bytes stay.
+// Converts only ASCII letters, in every locale; all other bytes stay.
 namespace ph {
 
 constexpr char to_lower(char c) {
@@ -17,7 +17,7 @@ inline std::string lower_case(std::string_view text) {
   return result;
 }
 
-/// @param end in lower case; the text may have it in either.
+/// @param end in lower case; the text may be in either case.
 constexpr bool ends_in(std::string_view text, std::string_view end) {
   return text.size() >= end.size() &&
          std::ranges::equal(text.substr(text.size() - end.size()), end, {}, to_lower);

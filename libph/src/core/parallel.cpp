@@ -12,14 +12,14 @@
 namespace ph {
 namespace {
 
-// Pieces are handed out one by one, to whoever asks.
+// Hands out pieces one by one to any thread that asks.
 class Pieces {
  public:
   Pieces(std::size_t count, std::size_t piece, const RunContext& context,
          const std::function<void(std::size_t, std::size_t)>& work)
       : count_(count), piece_(piece), context_(context), work_(work) {}
 
-  /// Works until nothing is left. @param on_piece called after each piece with its size.
+  /// Works until no piece is left. @param on_piece called after each piece with its size.
   template <class OnPiece>
   void take_all(OnPiece&& on_piece) {
     try {
@@ -63,7 +63,7 @@ void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece
   Pieces pieces(count, piece, context, work);
   Ticker ticker(context, stage, count);
   const std::size_t pieces_left = (count + piece - 1) / piece;
-  // To ask the system how many threads there may be takes longer than one small piece.
+  // Asking the system for the number of threads takes longer than one small piece.
   const std::size_t others =
       pieces_left > 1 ? std::min(thread_count(context), pieces_left) : pieces_left;
   std::vector<std::jthread> threads;
@@ -72,7 +72,7 @@ void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece
     try {
       threads.emplace_back([&] { pieces.take_all([](std::size_t) {}); });
     } catch (const std::system_error&) {
-      break;  // those that are there do the work
+      break;  // the existing threads do the work
     }
   }
   pieces.take_all([&](std::size_t steps) {

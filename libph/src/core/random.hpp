@@ -6,27 +6,28 @@
 
 namespace ph {
 
-/// Random numbers that are the same with any C++ library, unlike those of std::*_distribution.
-/// Source: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014 (SplitMix64).
+/// Random numbers that are the same with any C++ library, unlike the numbers of
+/// std::*_distribution. Source: Steele, Lea, Flood, Fast splittable pseudorandom number generators,
+/// 2014 (SplitMix64).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// One of many sequences of a seed: for tasks that threads share.
+  /// One of many sequences of a seed, for tasks that threads share.
   Random(std::uint64_t seed, std::uint64_t task) : state_(mixed(mixed(seed + kStep) + task)) {}
 
   std::uint64_t bits() { return mixed(state_ += kStep); }
-  /// In [0, 1).
+  /// A number in [0, 1).
   double uniform() { return std::ldexp(static_cast<double>(bits() >> 11), -53); }
-  /// A whole number below `count`, which is more than 0. What would make some likelier is drawn
-  /// again.
+  /// An integer below `count`, which must be positive. Numbers that would make some results
+  /// likelier are drawn again.
   std::uint64_t below(std::uint64_t count) {
     const std::uint64_t excess = (UINT64_MAX % count + 1) % count;
     std::uint64_t x = bits();
     while (x > UINT64_MAX - excess) x = bits();
     return x % count;
   }
-  /// Of the normal distribution with mean 0 and variance 1, by the polar method of Marsaglia and
-  /// Bray (1964).
+  /// A number from the normal distribution with mean 0 and variance 1, by the polar method of
+  /// Marsaglia and Bray (1964).
   double normal() {
     if (has_spare_) {
       has_spare_ = false;
@@ -57,8 +58,8 @@ class Random {
   bool has_spare_ = false;
 };
 
-/// Puts `count` elements in front that are drawn at random, without putting any back (Fisher and
-/// Yates). With all of them: a random order.
+/// Moves `count` randomly drawn elements to the front, without replacement (Fisher and Yates). If
+/// `count` is the size, this is a random order.
 template <class Range>
 void draw(Range& elements, std::size_t count, Random& random) {
   for (std::size_t i = 0; i < count; ++i)

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// @throws Error (usage) on a negative extent, or if the voxels' bytes cannot be counted.
+/// @throws Error (usage) on a negative extent, or if the number of bytes overflows.
 std::size_t voxels_of(const std::vector<Index>& extents, std::size_t bytes_of_voxel) {
   std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / bytes_of_voxel, count = 1;
   bool is_empty = false;
@@ -32,8 +32,8 @@ std::size_t voxels_of(const std::vector<Index>& extents, std::size_t bytes_of_vo
   return count;
 }
 
-/// Whether voxels follow each other, the last axis fastest. Of an axis of one voxel the stride does
-/// not matter.
+/// True if voxels are contiguous with the last axis fastest. The stride of an axis with one voxel
+/// does not matter.
 bool is_c_order(const std::vector<Index>& extents, std::span<const std::ptrdiff_t> strides) {
   std::ptrdiff_t expected = 1;
   for (std::size_t k = extents.size(); k-- > 0; expected *= extents[k])
@@ -41,7 +41,7 @@ bool is_c_order(const std::vector<Index>& extents, std::span<const std::ptrdiff_
   return true;
 }
 
-/// Voxels of any strides, one after the other.
+/// Reads voxels with any strides, one after the other.
 template <class T>
 std::vector<T> copied(const void* data, const std::vector<Index>& extents,
                       std::span<const std::ptrdiff_t> strides, std::size_t count) {

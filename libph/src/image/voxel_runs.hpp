@@ -9,14 +9,14 @@
 namespace ph {
 
 /// Calls `use(first, count)` for the runs of a set of voxels, ascending: a run has consecutive
-/// numbers. Most sets of voxels are far fewer runs than voxels.
-/// @param voxels each once, in any order. O(n) where they lie close together, else O(n log n);
+/// numbers. Most sets of voxels have far fewer runs than voxels.
+/// @param voxels each once, in any order. O(n) if they lie close together, otherwise O(n log n);
 /// memory: n / 8 to 8 n bytes. @throws std::bad_alloc.
 template <class Use>
 void for_each_voxel_run(std::span<const std::uint32_t> voxels, Use&& use) {
   if (voxels.empty()) return;
   const auto [low, high] = std::ranges::minmax(voxels);
-  std::uint64_t first = low, end = low;  // of the run so far
+  std::uint64_t first = low, end = low;  // of the current run
   const auto meet = [&](std::uint64_t voxel) {
     if (voxel != end) {
       use(first, end - first);

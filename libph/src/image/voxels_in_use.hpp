@@ -6,11 +6,12 @@
 
 namespace ph {
 
-/// For as long as voxels are read in no order: what is read of those in a file is in memory then,
-/// and is counted. At its end they leave it.
+/// To be held while voxels are read in random order: pages of a file that were read are then in
+/// memory, and are counted. They leave the memory at its end.
 class VoxelsInUse {
  public:
-  /// @param image what it points to outlives this. @throws Error (resource) beyond the limit.
+  /// @param image the data that it points to must outlive this. @throws Error (resource) beyond the
+  /// limit.
   VoxelsInUse(const CubicalImage& image, const RunContext& context)
       : voxels_(image.voxels),
         claim_(context.memory, image.is_in_file ? image.size() * bytes_of(image.type) : 0) {}

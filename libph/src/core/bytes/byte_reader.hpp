@@ -17,18 +17,18 @@
 
 namespace ph {
 
-/// Reads what a ByteWriter has written, and trusts none of it: no count leads to more memory than
-/// the bytes themselves take.
+/// Reads the output of a ByteWriter without trusting it: no count leads to more memory than the
+/// bytes themselves take.
 class ByteReader {
  public:
-  /// @param of what it is, for messages: "part of an image".
+  /// @param of the name of the data, for messages: "part of an image".
   ByteReader(std::span<const std::byte> bytes, std::string_view of) : bytes_(bytes), of_(of) {}
 
   /// @throws Error (bad_data): "part of an image: found a damaged seam".
   [[noreturn]] void refuse(std::string_view what) const {
     throw Error(ErrorKind::bad_data, fmt::format("{}: found a damaged {}", of_, what));
   }
-  /// @throws Error (bad_data) as refuse, if there are fewer bytes.
+  /// @throws Error (bad_data) as refuse, if there are too few bytes.
   template <class T>
   T get(std::string_view what) {
     if (bytes_.size() - at_ < sizeof(T)) refuse(what);
@@ -37,7 +37,7 @@ class ByteReader {
     at_ += sizeof(T);
     return std::bit_cast<T>(little_endian(bytes));
   }
-  /// A filtration value: NaN, which has no place in any order, is refused.
+  /// Reads a filtration value; refuses NaN, because NaN has no place in any order.
   double value(std::string_view what) {
     const auto value = get<double>(what);
     if (std::isnan(value)) refuse(what);
@@ -58,7 +58,7 @@ class ByteReader {
     if (value > 1) refuse(what);
     return value != 0;
   }
-  /// Of things that take that many bytes each, at least.
+  /// Reads a count of items that take at least `bytes_each` bytes each.
   std::size_t count(std::size_t bytes_each, std::string_view what) {
     const auto count = get<std::uint64_t>(what);
     if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
@@ -70,7 +70,7 @@ class ByteReader {
     at_ += size;
     return {data, size};
   }
-  /// So many bytes have been read.
+  /// The number of bytes read.
   std::size_t at() const { return at_; }
   void expect_end() const {
     if (at_ != bytes_.size()) refuse("end");

@@ -13,14 +13,14 @@
 
 namespace ph {
 
-/// The bytes of a number, the low one first: from this machine's order, or to it.
+/// The bytes of a number, low byte first: converts from this machine's order, or to it.
 template <std::size_t n>
 std::array<std::byte, n> little_endian(std::array<std::byte, n> bytes) {
   if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
   return bytes;
 }
 
-/// Numbers, one after another, as bytes that are the same on every machine.
+/// Writes numbers, one after another, as bytes that are the same on every machine.
 class ByteWriter {
  public:
   template <class T>
@@ -29,19 +29,19 @@ class ByteWriter {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
   void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  /// Seven bits a byte, the low ones first: for numbers that are small as a rule.
+  /// Seven bits per byte, low bits first: for numbers that are usually small.
   void put_short(std::uint64_t value) {
     constexpr std::uint64_t more = 0x80;
     for (; value >= more; value >>= 7) put(static_cast<std::uint8_t>(value | more));
     put(static_cast<std::uint8_t>(value));
   }
-  /// Its length first.
+  /// Writes the length first.
   void put(std::string_view text) {
     put(std::uint64_t{text.size()});
     const auto* const data = reinterpret_cast<const std::byte*>(text.data());
     bytes_.insert(bytes_.end(), data, data + text.size());
   }
-  /// Its size first. @param put_one puts one of them.
+  /// Writes the size first. @param put_one writes one item.
   template <class List, class Put>
   void put_list(const List& list, Put&& put_one) {
     put(std::uint64_t{list.size()});

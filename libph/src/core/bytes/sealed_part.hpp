@@ -7,20 +7,21 @@
 
 namespace ph {
 
-/// A part of a result as it is stored and sent: what it is, and a checksum that says whether all of
-/// it arrived. Eight bytes "ph part\n", eight bytes of its kind, the version as 32 bits, the number
-/// of bytes that follow as 64 bits, these bytes, and the CRC-32 of all that is before it.
+/// A part of a result in its stored form: its kind, and a checksum that shows if all of it arrived.
+/// The layout: eight bytes "ph part\n", eight bytes for the kind, the version as 32 bits, the size
+/// of the content as 64 bits, the content, and the CRC-32 of everything before it.
 ///
-/// @param kind at most eight characters: "image". @param content what the part says.
+/// @param kind at most eight characters: "image". @param content the bytes of the part.
 std::vector<std::byte> sealed_part(std::string_view kind, std::span<const std::byte> content);
 
-/// Whether bytes begin as a part does.
+/// True if bytes begin like a part.
 bool is_sealed_part(std::span<const std::byte> bytes);
 
-/// The kind of a part. @throws Error (bad_data) if it is none, or not whole.
+/// The kind of a part. @throws Error (bad_data) if the bytes are not a part, or not complete.
 std::string_view kind_of_part(std::span<const std::byte> bytes);
 
-/// What a part says. @throws Error (bad_data) if it is none, not whole, or of another kind.
+/// The content of a part. @throws Error (bad_data) if the bytes are not a part, not complete, or of
+/// another kind.
 std::span<const std::byte> content_of_part(std::span<const std::byte> bytes, std::string_view kind);
 
 }  // namespace ph

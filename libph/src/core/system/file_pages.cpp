@@ -53,8 +53,8 @@ int open_nameless(const std::string& folder) {
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
   if (bytes == 0) return;
-  // The pages of both ends, too: else a file that is given back block by block would leave a page
-  // of each block. They belong to the mapping, for some of their bytes do.
+  // Includes the pages at both ends: otherwise a file that is given back block by block would leave
+  // one page per block. These pages belong to the mapping, because some of their bytes do.
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = address / page * page;
@@ -70,7 +70,7 @@ ScratchFile::~ScratchFile() {
 
 void ScratchFile::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  // Room is taken now: a write to a mapped page for which there is none would end the program.
+  // Reserves room now, because a write to a mapped page without room would end the program.
   const auto length = static_cast<off_t>(bytes);
   const int error = bytes > size_ ? ::posix_fallocate(file_, 0, length)
                                   : (::ftruncate(file_, length) == 0 ? 0 : errno);
@@ -94,7 +94,7 @@ ResidentFiles::~ResidentFiles() {
 }
 
 std::size_t ResidentFiles::bytes() const {
-  // Pages: all, in memory, of these those of files and shared ones, …
+  // The fields, in pages: total, resident, of these the pages of files and shared memory, …
   std::array<char, 128> text{};
   const ssize_t got = ::pread(file_, text.data(), text.size() - 1, 0);
   std::size_t pages = 0;

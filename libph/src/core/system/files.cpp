@@ -20,7 +20,7 @@
 namespace ph::files {
 namespace {
 
-constexpr int kPollMilliseconds = 50;  // how soon a waiting read sees a stop request
+constexpr int kPollMilliseconds = 50;  // delay after which a waiting read notices a stop request
 
 Status from(const struct stat& status) {
   return {S_ISREG(status.st_mode)   ? Kind::regular
@@ -29,11 +29,12 @@ Status from(const struct stat& status) {
           static_cast<std::uint64_t>(status.st_size), status.st_dev, status.st_ino};
 }
 
-/// A name in `folder` that nobody else has. It does not contain the final name, which may be as
-/// long as names can be.
+/// A name in `folder` that nobody else uses. It does not contain the final name, which may already
+/// have the maximum length.
 std::filesystem::path fresh_name(const std::filesystem::path& folder) {
   std::uint64_t random = 0;
-  // Never short for 8 bytes; a failure (an ancient kernel) leaves the process id to tell us apart.
+  // The result is never short for 8 bytes; if it fails (an ancient kernel), the process id still
+  // makes the name distinct.
   if (::getrandom(&random, sizeof random, 0) < 0) random = static_cast<std::uint64_t>(::getpid());
   return folder / fmt::format(".ph-{:016x}.tmp", random);
 }
@@ -55,7 +56,7 @@ std::optional<Status> status_of(int file) {
 bool close(int file) { return ::close(file) == 0; }
 
 int open_to_read(const std::filesystem::path& path) {
-  // Without O_NONBLOCK, opening a FIFO nobody writes to could not be stopped.
+  // Without O_NONBLOCK, opening a FIFO without a writer could not be stopped.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   struct stat status {};
   if (file < 0 || ::fstat(file, &status) != 0 || !S_ISDIR(status.st_mode)) return file;
@@ -93,7 +94,7 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
 }
 
 std::optional<int> descriptor_named(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // as the system has it
+  constexpr int kMostLinks = 40;  // the system's limit
   std::error_code error;
   for (int links = 0; links <= kMostLinks; ++links) {
     const std::string name = path.filename();
@@ -124,7 +125,7 @@ bool may_write(const std::filesystem::path& path) { return ::access(path.c_str()
 bool may_replace(const std::filesystem::path& path) {
   struct statx file {};
   struct stat folder {};
-  // What cannot be asked for is found out when the file is renamed.
+  // If the system cannot tell, renaming the file will.
   if (::statx(AT_FDCWD, path.c_str(), 0, STATX_UID, &file) != 0 ||
       ::stat(path.parent_path().c_str(), &folder) != 0)
     return true;
@@ -145,7 +146,7 @@ int open_to_write(const std::filesystem::path& path) {
 }
 
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name) {
-  // Naming it later goes through /proc. Not all file systems have such files.
+  // Giving it a name later goes through /proc. Not all file systems support files without a name.
   if (::access("/proc/self/fd", X_OK) == 0) {
     const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (file >= 0) return file;
@@ -164,7 +165,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
 
 bool take_mode(int file, const std::filesystem::path& of) {
   struct stat status {};
-  // Not the bits that set an ID: they were given to the old content.
+  // Excludes the bits that set an ID, because they were granted to the old content.
   if (::stat(of.c_str(), &status) != 0 || ::fchmod(file, status.st_mode & 0777) != 0) return false;
   if (::fchown(file, status.st_uid, status.st_gid) != 0)
     static_cast<void>(!::fchown(file, static_cast<uid_t>(-1), status.st_gid));
@@ -176,7 +177,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
     const ssize_t written = ::write(file, from, most);
     if (written >= 0) return written;
     if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      // Somebody made our standard output non-blocking: wait until there is room.
+      // Standard output was made non-blocking by someone: wait until there is room.
       pollfd room{file, POLLOUT, 0};
       if (::poll(&room, 1, -1) < 0 && errno != EINTR) return -1;
     } else if (errno != EINTR) {
@@ -186,7 +187,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
 }
 
 bool sync(int file) {
-  // Some file systems cannot sync; that is no reason to refuse them.
+  // Some file systems cannot sync, which is not a reason to refuse them.
   return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
 }
 

@@ -7,16 +7,15 @@
 #include <string>
 #include <system_error>
 
-/// Files as the system has them, by descriptors. Where a function says that it failed, errno says
-/// why.
+/// System calls for files, by descriptors. If a function reports failure, errno has the reason.
 namespace ph::files {
 
-/// A name in UTF-8: all texts of ours are, and not all systems take them for it.
+/// A path from a name in UTF-8: all texts of libph are UTF-8, which not all systems assume.
 inline std::filesystem::path path_of(const std::string& name) {
   return std::u8string(name.begin(), name.end());
 }
 
-/// What the system says of an errno.
+/// The system's text for an errno.
 inline std::string reason(int error) { return std::generic_category().message(error); }
 
 constexpr int kStandardInput = 0, kStandardOutput = 1, kStandardError = 2;
@@ -29,63 +28,68 @@ enum class Kind {
 
 struct Status {
   Kind kind = Kind::other;
-  std::uint64_t size = 0;               ///< bytes, of regular files
-  std::uint64_t device = 0, inode = 0;  ///< tell files apart
+  std::uint64_t size = 0;               ///< bytes, for regular files
+  std::uint64_t device = 0, inode = 0;  ///< identify a file
 };
 
-/// Of what is there under a name, or is open. Nothing: failed; ENOENT if there is none.
+/// The status of the file with that name or descriptor. Nothing if it failed; errno is ENOENT if
+/// there is no such file.
 std::optional<Status> status_of(const std::filesystem::path& path);
 std::optional<Status> status_of(int file);
 
-/// @return whether all that was written could be kept.
+/// @return true if all data written could be kept.
 bool close(int file);
 
 /// @{ For reading.
 
-/// Bytes as they are. Does not wait for whoever writes to a FIFO. -1: failed; EISDIR for a folder.
+/// Opens a file to read its bytes unchanged. It does not wait for a writer of a FIFO. @return -1 if
+/// it failed; errno is EISDIR for a folder.
 int open_to_read(const std::filesystem::path& path);
-/// Has standard input and output pass bytes as they are, too.
+/// Makes standard input and output pass bytes unchanged as well.
 void pass_bytes(int standard);
-/// Whether nothing has been read of it yet.
+/// True if nothing has been read from it yet.
 bool is_at_start(int file);
-/// @return how many bytes were read, 0 at the end, -1: failed. EAGAIN: none came, wait and ask
-/// again; returns so after some milliseconds, where the system can.
+/// @return the number of bytes read, 0 at the end, -1 if it failed. EAGAIN means that no bytes
+/// came: wait and ask again. Where the system allows it, the call returns this way after some
+/// milliseconds.
 std::ptrdiff_t read_some(int file, char* to, std::size_t most);
-/// The file as memory, to be read from its begin to its end. nullptr: failed.
+/// Maps the file into memory, to be read from beginning to end. @return nullptr if it failed.
 char* map_to_read(int file, std::size_t bytes);
 void unmap(char* data, std::size_t bytes);
 
 /// @}
 /// @{ For writing.
 
-/// The descriptor that a name like /dev/stdout or /dev/fd/3 stands for, or a link to one. It need
-/// not be open.
+/// The descriptor that a name like /dev/stdout or /dev/fd/3, or a link to such a name, stands for.
+/// The descriptor need not be open.
 std::optional<int> descriptor_named(std::filesystem::path path);
-/// Whether it is open, and for that.
+/// True if it is open for writing.
 bool may_write(int file);
 
-/// A name by which all others of the same file are replaced: the file itself.
+/// The name of the file itself, without links: replacing it affects all names of the file.
 std::filesystem::path resolved(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);
-/// Whether a new file can take the place of one that may be written.
+/// True if a new file can replace a file that may be written.
 bool may_replace(const std::filesystem::path& path);
-/// What cannot be replaced, as a device. -1: failed.
+/// Opens a file that cannot be replaced, such as a device. @return -1 if it failed.
 int open_to_write(const std::filesystem::path& path);
-/// A new file in a folder. It has no name, and vanishes with the process, where the system has
-/// such files. -1: failed. @param name its name; empty: none.
+/// Creates a file in a folder. Where the system supports it, the file has no name and vanishes with
+/// the process. @return -1 if it failed. @param name receives its name; empty if it has none.
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name);
-/// The mode of a file that is there, and its owner and group where that is allowed. @return whether
-/// the mode could be given.
+/// Takes over the mode of an existing file, and its owner and group if that is allowed. @return
+/// true if the mode could be set.
 bool take_mode(int file, const std::filesystem::path& of);
-/// @return how many bytes were written, waiting for room; -1: failed, EPIPE if nobody reads them.
+/// Waits for room. @return the number of bytes written, or -1 if it failed; errno is EPIPE if
+/// nobody reads them.
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most);
-/// Waits until what was written is on the disk. What cannot do that is no failure.
+/// Waits until the written bytes are on the disk. A file system that cannot do this does not count
+/// as a failure.
 bool sync(int file);
-/// Gives a file without a name one that nobody else has. Empty: failed.
+/// Gives a nameless file a name that nobody else uses. Empty if it failed.
 std::filesystem::path name_in(int file, const std::filesystem::path& folder);
-/// Replaces a file, or creates it; it is closed. @return whether it was done.
+/// Replaces or creates a file; the source must be closed. @return true if it was done.
 bool rename(const std::filesystem::path& from, const std::filesystem::path& to);
-/// Waits until a new name is on the disk, where the system can.
+/// Waits until a new name is on the disk, if the system supports that.
 void sync_folder(const std::filesystem::path& folder);
 void remove(const std::filesystem::path& path);
 

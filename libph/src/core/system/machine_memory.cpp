@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// The number in the first line of a file of the kernel's, if there is one.
+/// The number in the first line of a file of the kernel, if there is one.
 std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
   std::string word;
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const std::string& path) {
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root) {
   std::optional<std::uint64_t> least;
-  // A line is "number:controllers:/path"; version 2 names no controllers.
+  // A line is "number:controllers:/path"; version 2 has no controllers.
   for (std::string line; std::getline(memberships, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
@@ -37,7 +37,7 @@ std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
     if (!unified && ("," + controllers + ",").find(",memory,") == std::string::npos) continue;
     const std::string mount = unified ? root : root + "/memory";
     const std::string file = unified ? "/memory.max" : "/memory.limit_in_bytes";
-    // A group is bounded by those around it, too: "/a/b", then "/a", then "".
+    // The limits of enclosing groups apply as well: "/a/b", then "/a", then "".
     for (std::string group = line.substr(second + 1);; group.resize(group.rfind('/'))) {
       const auto limit = number_in(mount + group + file);
       if (limit) least = std::min(least.value_or(*limit), *limit);

@@ -9,20 +9,21 @@
 
 namespace ph {
 
-/// All of the machine's, bytes; 0 where the system does not say.
+/// The memory of the machine in bytes; 0 if the system does not say.
 std::uint64_t physical_memory();
 
-/// What the machine, or the container we run in, has for us; nine tenths of it, so that a budget
-/// is met before the system kills the process. As good as no limit where the system does not say.
+/// Nine tenths of the memory that the machine, or the container, allows us, in order to meet a
+/// budget before the system kills the process. Practically unlimited if the system does not say.
 std::size_t machine_memory();
 
-/// The least memory limit of the control groups a process is in, of both versions.
-/// @param memberships its /proc/self/cgroup. @param root where control groups are mounted.
+/// The smallest memory limit of the control groups of a process, of either version.
+/// @param memberships the process's /proc/self/cgroup. @param root where control groups are
+/// mounted.
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root);
 
-/// A number of /proc/self/status that is given in kB, as "VmHWM:"; in bytes. Nothing where the
-/// system does not say.
+/// A number in /proc/self/status that is given in kB, such as "VmHWM:"; returned in bytes. Nothing
+/// if the system does not say.
 std::optional<std::uint64_t> status_bytes(std::string_view name);
 
 }  // namespace ph

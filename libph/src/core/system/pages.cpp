@@ -11,16 +11,16 @@
 namespace ph {
 namespace {
 
-// Blocks lie on pages of 2 MiB where the system has them for those who ask: a few faults in
-// place of thousands, and what is read in no order misses the table of pages less often.
+// Blocks lie on pages of 2 MiB if the system offers them on request: this takes a few page faults
+// instead of thousands, and random reads miss the page table less often.
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-// Says what the whole pages of a block are for.
+// Tells the system how the complete pages of a block will be used.
 void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   if (std::align(page, page, block, bytes) != nullptr) madvise(block, bytes / page * page, advice);
 }
 
-// Whole pages; what does not fit the address space stays too large.
+// Rounds up to complete pages; a size beyond the address space stays too large.
 std::size_t round_up(std::size_t bytes, std::size_t page) {
   const std::size_t rest = (page - bytes % page) % page;
   return bytes > SIZE_MAX - rest ? SIZE_MAX : bytes + rest;
@@ -29,7 +29,7 @@ std::size_t round_up(std::size_t bytes, std::size_t page) {
 }  // namespace
 
 std::size_t mapped_size(std::size_t bytes) {
-  constexpr std::size_t nearly = 5;  // at most a fifth of a block is left over
+  constexpr std::size_t nearly = 5;  // at most a fifth of a block is unused
   static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t huge = round_up(bytes, kHugePage);
   return huge - bytes > bytes / nearly ? round_up(bytes, page) : huge;
@@ -37,7 +37,7 @@ std::size_t mapped_size(std::size_t bytes) {
 
 void* map_pages(std::size_t bytes) {
   const std::size_t size = mapped_size(bytes);
-  // A huge page begins where its size divides the address: what lies before and behind goes back.
+  // A huge page begins at a multiple of its size: the memory before and after it is given back.
   const std::size_t room = size + kHugePage;
   if (room < size) throw std::bad_alloc();
   void* const all = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -4,26 +4,25 @@
 
 namespace ph {
 
-/// Asks the system to put what is large enough of a fresh block on huge pages, before it is
-/// touched: fewer faults, fewer misses of the address cache. A hint: what comes of it is the
-/// system's business.
+/// Asks the system to put the large parts of a fresh block on huge pages before it is touched, for
+/// fewer page faults and fewer misses of the address cache. A hint: the system decides.
 void prefer_huge_pages(void* block, std::size_t bytes);
 
-/// No machine has smaller pages, so blocks that are mapped are aligned to it.
+/// No machine has smaller pages; mapped blocks are aligned to this size.
 constexpr std::size_t kSmallestPage = 4096;
 
-/// How much of the memory a block of pages takes: whole pages, and whole huge ones if it fills them
-/// nearly.
+/// Memory that a block of pages takes: complete pages, and complete huge pages if it nearly fills
+/// them.
 std::size_t mapped_size(std::size_t bytes);
-/// A block of pages of its own, on huge ones as far as it fills them: few faults, and what is read
-/// in no order misses the address cache less often.
+/// Maps a block of pages, on huge pages as far as it fills them: this means few page faults, and
+/// random reads miss the address cache less often.
 /// @throws std::bad_alloc
 void* map_pages(std::size_t bytes);
 /// Gives a block of `map_pages` back to the system.
 void unmap_pages(void* block, std::size_t bytes);
 
-/// Gives the memory under a block back to the system, as far as it is whole pages. The block stays
-/// allocated; what was in it is lost.
+/// Gives the complete pages under a block back to the system. The block stays allocated; its
+/// content is lost.
 void drop_pages(void* block, std::size_t bytes);
 
 }  // namespace ph

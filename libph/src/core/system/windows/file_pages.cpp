@@ -38,7 +38,7 @@ std::filesystem::path temporary_folder() {
   return folder;
 }
 
-/// The file goes when it is closed, however the process ends.
+/// The file is deleted when it is closed, however the process ends.
 int open_temporary(const std::filesystem::path& folder) {
   std::random_device random;
   int file = -1, error = 0;
@@ -58,7 +58,7 @@ HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file
 }  // namespace
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
-  // Pages that are not locked leave the process's memory when they are unlocked.
+  // Unlocking pages that are not locked removes them from the process's memory.
   if (bytes > 0) VirtualUnlock(const_cast<void*>(begin), bytes);
 }
 
@@ -71,7 +71,7 @@ ScratchFile::~ScratchFile() {
 
 void ScratchFile::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  // A file that is mapped has a length that cannot change.
+  // The length of a mapped file cannot change.
   if (data_ != nullptr) UnmapViewOfFile(data_);
   data_ = nullptr;
   size_ = 0;
@@ -84,13 +84,13 @@ void ScratchFile::resize(std::size_t bytes) {
   if (mapping == nullptr) refuse(temporary_folder().string(), bytes, last_error());
   void* const address = MapViewOfFile(mapping, FILE_MAP_ALL_ACCESS, 0, 0, bytes);
   const std::string why = address == nullptr ? last_error() : "";
-  CloseHandle(mapping);  // the view keeps it
+  CloseHandle(mapping);  // the view keeps the mapping
   if (address == nullptr) refuse(temporary_folder().string(), bytes, why);
   data_ = static_cast<char*>(address);
   size_ = bytes;
 }
 
-// The system does not say how much of the working set is files.
+// The system does not say how much of the working set belongs to files.
 ResidentFiles::ResidentFiles() : file_(-1) {}
 ResidentFiles::~ResidentFiles() = default;
 std::size_t ResidentFiles::bytes() const { return 0; }

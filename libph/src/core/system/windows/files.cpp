@@ -19,7 +19,7 @@ namespace {
 
 HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
 
-/// errno of the system's last error.
+/// Sets errno from the system's last error.
 void keep_error() {
   const DWORD code = GetLastError();
   const auto condition = std::system_category().default_error_condition(static_cast<int>(code));
@@ -42,7 +42,7 @@ std::optional<Status> status_of(HANDLE handle) {
   return status;
 }
 
-/// Binary: line ends are not converted. Not for programs that we start.
+/// Binary: line ends are not converted. Not inherited by programs that we start.
 constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
 
 int open(const std::filesystem::path& path, int how) {
@@ -62,7 +62,7 @@ unsigned at_most(std::size_t bytes) {
 std::optional<Status> status_of(const std::filesystem::path& path) {
   const HANDLE handle =
       CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // folders, too
+                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // folders as well
   if (handle == INVALID_HANDLE_VALUE) {
     keep_error();
     return std::nullopt;
@@ -95,7 +95,7 @@ bool is_at_start(int file) { return _lseeki64(file, 0, SEEK_CUR) == 0; }
 
 std::ptrdiff_t read_some(int file, char* to, std::size_t most) {
   const int got = _read(file, to, at_most(most));
-  // Who wrote to the pipe has closed it.
+  // The writer has closed the pipe.
   return got < 0 && errno == EPIPE ? 0 : got;
 }
 
@@ -103,7 +103,7 @@ char* map_to_read(int file, std::size_t bytes) {
   const HANDLE mapping = CreateFileMappingW(handle_of(file), nullptr, PAGE_READONLY, 0, 0, nullptr);
   if (mapping == nullptr) return nullptr;
   void* const address = MapViewOfFile(mapping, FILE_MAP_READ, 0, 0, bytes);
-  CloseHandle(mapping);  // the view keeps it
+  CloseHandle(mapping);  // the view keeps the mapping
   return static_cast<char*>(address);
 }
 
@@ -133,7 +133,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   std::random_device random;
   for (int attempt = 0; attempt < 16; ++attempt) {
     auto fresh = folder / fmt::format(".ph-{:08x}{:08x}.tmp", random(), random());
-    // What is open can be removed, in case the process has to end.
+    // An open file can be deleted, in case the process has to end.
     const HANDLE handle =
         CreateFileW(fresh.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
                     CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
@@ -147,7 +147,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   return -1;
 }
 
-// There is but one that says that nobody may write, and that file would not be replaced.
+// The only mode bit says that nobody may write, and such a file would not be replaced.
 bool take_mode(int, const std::filesystem::path&) { return true; }
 
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
@@ -161,7 +161,7 @@ bool sync(int file) {
 }
 
 std::filesystem::path name_in(int, const std::filesystem::path&) {
-  errno = ENOTSUP;  // each has a name
+  errno = ENOTSUP;  // every file has a name
   return {};
 }
 
@@ -172,7 +172,7 @@ bool rename(const std::filesystem::path& from, const std::filesystem::path& to) 
   return false;
 }
 
-void sync_folder(const std::filesystem::path&) {}  // `rename` waits
+void sync_folder(const std::filesystem::path&) {}  // `rename` already waits
 
 void remove(const std::filesystem::path& path) { _wunlink(path.c_str()); }
 

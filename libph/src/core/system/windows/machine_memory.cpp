@@ -2,7 +2,7 @@
 #include "core/system/machine_memory.hpp"
 
 #include <windows.h>
-// Behind windows.h, whose types it uses.
+// Must follow windows.h, whose types it uses.
 #include <psapi.h>
 
 namespace ph {
@@ -18,7 +18,7 @@ std::size_t machine_memory() {
   return static_cast<std::size_t>((bytes == 0 ? SIZE_MAX : bytes) / 10 * 9);
 }
 
-// There are none.
+// Windows has no control groups.
 std::optional<std::uint64_t> control_group_limit(std::istream&, const std::string&) {
   return std::nullopt;
 }

@@ -8,7 +8,7 @@
 
 namespace ph {
 
-// Huge pages need a privilege here that programs do not have.
+// On Windows, huge pages need a privilege that programs do not have.
 void prefer_huge_pages(void*, std::size_t) {}
 
 std::size_t mapped_size(std::size_t bytes) {
@@ -26,7 +26,8 @@ void* map_pages(std::size_t bytes) {
 void unmap_pages(void* block, std::size_t) { VirtualFree(block, 0, MEM_RELEASE); }
 
 void drop_pages(void* block, std::size_t bytes) {
-  // Whole pages inside the block: what is reset need not be kept, and may be written to again.
+  // The complete pages inside the block: their content need not be kept, and they may be written
+  // again.
   const auto begin = reinterpret_cast<std::uintptr_t>(block), end = begin + bytes;
   const std::uintptr_t first = (begin + kSmallestPage - 1) / kSmallestPage * kSmallestPage;
   const std::uintptr_t last = end / kSmallestPage * kSmallestPage;
