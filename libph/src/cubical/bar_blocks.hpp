@@ -11,17 +11,17 @@
 
 namespace ph::cubical {
 
-/// Hands bars to a sink: many at a time, or one by one where their cells are wanted. Each comes
+/// Passes bars to a sink: many at a time, or one by one if their cells are wanted. Each bar comes
 /// with its copies around the periodic axes of one voxel.
 class BarBlocks {
  public:
-  /// @param loop_count periodic axes of one voxel.
+  /// @param loop_count number of periodic axes with one voxel.
   BarBlocks(std::size_t loop_count, bool wants_cells, const BarSink& bars)
       : loop_count_(loop_count), wants_cells_(wants_cells), bars_(bars) {}
 
   bool wants_cells() const { return wants_cells_; }
-  /// @param append_cells called, if they are wanted, with (which of the axes the copy goes around,
-  ///        as bits; coordinates of the birth cell; of the death cell): appends to both.
+  /// @param append_cells called, if cells are wanted, with (the axes that the copy goes around, as
+  ///        bits; coordinates of the birth cell; coordinates of the death cell): appends to both.
   template <class AppendCells>
   void add(const Bar& bar, AppendCells&& append_cells) {
     for (unsigned loops = 0; loops < 1U << loop_count_; ++loops) {
@@ -37,7 +37,7 @@ class BarBlocks {
       bars_.add(copy, birth_, death_);
     }
   }
-  /// Hands over what it still holds.
+  /// Passes on all bars that it still holds.
   void finish() {
     bars_.add_all(std::span(block_).first(held_));
     held_ = 0;
@@ -47,7 +47,7 @@ class BarBlocks {
   std::size_t loop_count_;
   bool wants_cells_;
   const BarSink& bars_;
-  std::array<Bar, 256> block_;  // without cells, not yet handed over
+  std::array<Bar, 256> block_;  // bars without cells that were not passed on yet
   std::size_t held_ = 0;
   std::vector<Index> birth_, death_;
 };

@@ -7,11 +7,11 @@
 
 namespace ph {
 
-/// Images of any size; of 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
-/// count) without the loops between the two graphs. All dimensions, no zero-length pairs: cells are
-/// paired voxel by voxel, what is left by union-find from both ends and by reduction between them.
-/// Of three axes with cycles or sets of voxels, not with cocycles. See
-/// docs/explanation/engines/discrete-gradient.md.
+/// Images of any size; for bars from the loops between the two graphs, up to 2^31 voxels (three
+/// axes) or 2^32 cells (more axes; axes with one voxel do not count). All dimensions, no
+/// zero-length pairs: cells are paired voxel by voxel; the rest are paired by union-find from both
+/// ends and by reduction between them. For three axes it gives cycles or sets of voxels, but no
+/// cocycles. See docs/explanation/engines/discrete-gradient.md.
 struct GradientEngine {
   static constexpr Engine id = Engine::gradient;
   template <Filtration F>

@@ -8,22 +8,23 @@
 
 namespace ph::cubical {
 
-/// Turns pairs of the stars' grid into bars of the input.
+/// Turns pairs of cells of the stars' grid into bars of the input.
 class PairSink {
  public:
   PairSink(const GridShape& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), bars_(bars), blocks_(grid.loop_count(), wants_cells, bars) {}
 
-  /// Else cells need a value only.
+  /// If false, cells need only a value.
   bool wants_cells() const { return blocks_.wants_cells(); }
-  /// Says that so many pairs may come next.
+  /// Announces that about `count` pairs may come next.
   void expect(std::size_t count) const { bars_.expect(count); }
-  /// A class of dimension `dim` born with a cell, killed by a cell one dimension higher: a bar
-  /// unless both have the same value. @tparam Cell as StarCell, its voxel of any width.
+  /// A class of dimension `dim` born with a cell and killed by a cell one dimension higher: it
+  /// becomes a bar unless both cells have the same value. @tparam Cell like StarCell, with a voxel
+  /// of any width.
   template <class Cell>
   void pair(int dim, const Cell& birth, const Cell& death) {
     if (birth.value == death.value) return;
-    if (grid_.is_t_construction())  // turned around
+    if (grid_.is_t_construction())  // birth and death swap roles
       add({grid_.top_dim() - dim - 1, value(death), value(birth)}, death, &birth);
     else
       add({dim, value(birth), value(death)}, birth, &death);
@@ -34,7 +35,7 @@ class PairSink {
     add({grid_.is_t_construction() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth,
         static_cast<const Cell*>(nullptr));
   }
-  /// Hands over what it still holds.
+  /// Passes on all bars that it still holds.
   void finish() { blocks_.finish(); }
 
  private:

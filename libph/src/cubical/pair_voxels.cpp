@@ -18,11 +18,11 @@ namespace ph::cubical {
 
 namespace {
 
-constexpr double kBytesOfVoxel = 8;  // a star, and a node of a graph; or ranks
+constexpr double kBytesOfVoxel = 8;  // a star and a node of a graph, or ranks
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
 
-/// Slabs of small images would take as much as they do.
+/// Below this size, slabs save no memory.
 bool may_be_cut(const CubicalImage& grid) {
   constexpr std::size_t few = 1 << 18;  // voxels
   return LayeredImage::can_cut(grid) && grid.size() >= few;
@@ -32,7 +32,8 @@ bool may_be_cut(const CubicalImage& grid) {
 
 bool can_pair_voxels(const CubicalImage& grid, int max_dim) {
   if (StarGrid::can_hold(grid) || can_pair_cells(grid)) return true;
-  // Of three axes loops are refused as they are asked for: no other engine has them either.
+  // For three axes, loops are refused only when they are asked for: no other engine has them
+  // either.
   return can_be_cut(grid, {.min_dim = 0, .max_dim = max_dim});
 }
 
@@ -77,7 +78,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   LoopReduction<K, StarGrid>(grid, free, squares, field, context).run(pairs);
 }
 
-// Bars of all but the loops of three axes.
+// Computes all bars except the loops of three axes.
 void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const RunContext& context,
                         PairSink& pairs) {
   if (grid.top_dim() == 3) {
@@ -95,20 +96,22 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
   if (wants_vertices(grid.shape(), wanted)) pair_vertices_with_edges(grid, edges, context, pairs);
   if (wants_top_cells(grid.shape(), wanted))
     pair_facets_with_top_cells(grid, edges, context, pairs);
-  // What neither graph takes lives for ever: loops around periodic axes.
+  // Cells that neither graph takes live forever: loops around periodic axes.
   if (grid.top_dim() < 2 || wanted.max_dim > 0)
     for (const auto& [value, cell] : edges.order)
       pairs.essential(1,
                       StarCell{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
 }
 
-// Whether all fits into memory at a time: by what some layers take if that is not clear.
+// True if everything fits into memory at once; in doubtful cases it computes some layers to find
+// out.
 bool fits(const CubicalImage& voxels, const RunContext& context) {
   if (!StarGrid::can_hold(voxels)) return false;
-  constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;  // a voxel, a critical cell
+  // Bytes per voxel, and per critical cell.
+  constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;
   const LayeredImage image(voxels);
   const auto size = static_cast<double>(image.size());
-  // What is read of a file is in memory, too.
+  // Pages of a file that were read are in memory as well.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * size;
   if (most * size < left) return true;
@@ -128,13 +131,13 @@ bool fits(const CubicalImage& voxels, const RunContext& context) {
     }
     seen += static_cast<double>(height * image.layer_size());
   }
-  constexpr double margin = 1.3;  // other layers may have more
+  constexpr double margin = 1.3;  // allowance for other layers, which may have more
   return margin * size * (least + per_cell * cells / seen) < left;
 }
 
 bool is_cut(const CubicalImage& voxels, const BarRequest& wanted, const RunContext& context) {
   if (!can_be_cut(voxels, wanted)) return false;
-  // Of four axes and more no cell between those of the two graphs is looked at then.
+  // For four axes and more, only the cells of the two graphs are used then.
   return !has_few_axes(voxels) || context.slab_layers > 0 ||
          (may_be_cut(voxels) && !fits(voxels, context));
 }
@@ -160,7 +163,7 @@ void pair_by_slabs(const CubicalImage& voxels, const K& field, const BarRequest&
 template <Field K>
 void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& wanted,
                  const RunContext& context, const BarSink& bars) {
-  // Two threads may have some at a time.
+  // Two threads may deliver bars at the same time.
   std::mutex mutex;
   const BarSink sink{
       [&](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {

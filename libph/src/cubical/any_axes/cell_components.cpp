@@ -118,7 +118,7 @@ void CellComponents::join(std::pmr::vector<Name>& bridges,
       continue;
     }
     std::optional<Name> younger = name_of(dies), elder = name_of(lives);
-    // What has always been there is older than all else; of top cells younger ones are older.
+    // A node that was always there is older than all others; among top cells, later ones are older.
     if (!younger || (elder && (backwards_ ? *younger > *elder : *younger < *elder))) {
       std::swap(dies, lives);
       std::swap(younger, elder);

@@ -13,36 +13,35 @@
 
 namespace ph::cubical {
 
-/// Persistent components of one of the two graphs of a grid: vertices, joined by edges as they
-/// enter, or top cells, joined by facets backwards, the youngest first. The second one has nodes
-/// that have always been there: the outside, in two parts where one axis alone has ends, and cells
-/// that never enter. Cells in apparent pairs are first parents, the others are joined by the elder
-/// rule.
+/// Persistent components of one of the two graphs of a grid: vertices joined by edges as they
+/// enter, or top cells joined by facets backwards, youngest first. The second graph has nodes that
+/// were always there: the outside, in two parts if only one axis has ends, and cells that never
+/// enter. Apparent pairs give the first parents; the other cells are joined by the elder rule.
 class CellComponents {
  public:
   using Name = CellGrid::Name;
   enum class Graph { of_vertices, of_top_cells };
 
-  /// Memory: 4 bytes a node.
+  /// Takes 4 bytes per node.
   CellComponents(const CellGrid& grid, Graph graph, const RunContext& context);
 
-  /// @param bridges edges or facets in no known pair, in the order of the filtration: those that
-  ///        join something are taken out.
-  /// @param on_merge called with (bridge, node that dies; nothing if both have always been there).
+  /// @param bridges edges or facets in no known pair, in the order of the filtration; those that
+  ///        join components are removed.
+  /// @param on_merge called with (bridge, node that dies, or nothing if both were always there).
   void join(std::pmr::vector<Name>& bridges,
             const std::function<void(Name, std::optional<Name>)>& on_merge);
-  /// Whether a node without an arrow lives for ever. Precondition: all bridges have been joined.
+  /// True if a node without an arrow lives forever. Precondition: all bridges have been joined.
   bool survives(Name node);
 
  private:
-  // Numbers of nodes; two parts of the outside come last.
+  // The number of a node; the two parts of the outside come last.
   std::uint32_t number(const CellGrid::Coordinates& x) const;
   std::uint32_t cell_of(std::uint32_t number) const;
-  /// The node beyond a step of two from a node, or of one from a bridge.
+  /// The node two steps from a node, or one step from a bridge.
   std::uint32_t beyond(std::uint32_t cell, const CellGrid::Coordinates& x, int direction,
                        int steps) const;
   std::array<std::uint32_t, 2> ends(std::uint32_t bridge) const;
-  /// Nothing: it has always been there.
+  /// The name of a node, or nothing if it was always there.
   std::optional<Name> name_of(std::uint32_t node) const;
   void follow_arrows();
   void join_what_never_enters();

@@ -9,7 +9,7 @@
 namespace ph::cubical {
 namespace {
 
-// A vertex alone, or a circle.
+// False for an axis that is a single vertex, or a circle of one voxel.
 bool keeps_axis(const CubicalImage& grid, std::size_t k) {
   return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
 }
@@ -63,7 +63,7 @@ void CellGrid::rank_voxels(const RunContext& context) {
     if (grid_.value(v) <= grid_.limit) order_.push_back(static_cast<std::uint32_t>(v));
     ticker.tick();
   }
-  // Their values are looked up in the image: the two arrays that stay are all that is needed.
+  // Values are looked up in the image: the two arrays kept are enough.
   ranks_.resize(size);
   const std::span<std::uint32_t> sorted = radix_sort_by_value(
       std::span(order_), std::span(ranks_).first(order_.size()),
@@ -88,7 +88,7 @@ void CellGrid::append_numbers(std::uint32_t cell, unsigned loops,
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k)
     numbers[base + input_axis_[k]] = Index{x[k]};
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    // The voxel stands at 0 (V) or 1 (T) of the circle; the copy that goes around has the edge.
+    // The voxel is at 0 (V) or 1 (T) of the circle; the copy that goes around has the edge.
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
   }
 }

@@ -11,30 +11,30 @@
 
 namespace ph::cubical {
 
-/// What is known of a cell of a grid, in two bytes.
+/// The state of a cell of a grid, in two bytes.
 class CellMark {
  public:
-  /// It never enters.
+  /// The cell never enters.
   CellMark() = default;
-  /// A cell in no pair that is known. @param upper the axes along which the voxel that decides its
-  /// value lies above it, as bits.
+  /// A cell in no known pair. @param upper the axes, as bits, along which the voxel that decides
+  /// the cell's value lies above it.
   static CellMark critical(unsigned upper) { return CellMark(kCritical, upper); }
-  /// One that is killed by a cofacet. @param direction see CellGrid::beside.
+  /// A cell that is killed by a cofacet. @param direction see CellGrid::beside.
   static CellMark killed_by(int direction, unsigned upper) {
     return CellMark(kKilled + static_cast<unsigned>(direction), upper);
   }
-  /// One that kills a facet.
+  /// A cell that kills a facet.
   static CellMark killing(int direction, unsigned upper) {
     return CellMark(kKiller + static_cast<unsigned>(direction), upper);
   }
-  /// The same cell, that kills something far away.
+  /// The same cell, marked as killing a cell far away.
   CellMark that_kills() const { return CellMark(kKills, upper()); }
 
   bool enters() const { return state() != kNever; }
   bool is_killed() const { return state() >= kKilled && state() < kKiller; }
   bool is_local_killer() const { return state() >= kKiller; }
   bool kills() const { return state() == kKills || is_local_killer(); }
-  /// Where the other cell of its pair is. Precondition: is_killed() or is_local_killer().
+  /// The direction of the other cell of its pair. Precondition: is_killed() or is_local_killer().
   int direction() const {
     return static_cast<int>(state() - (is_killed() ? unsigned{kKilled} : unsigned{kKiller}));
   }
@@ -49,34 +49,34 @@ class CellMark {
   std::uint16_t bits_ = 0;
 };
 
-/// The cells of an image of any number of axes as places in the doubled grid in C order. Of each
-/// only a mark is kept; its age is that of the voxel that decides its value. Axes of one voxel are
-/// left out where that can be; what a periodic one of them adds is put back by `CellSink`.
+/// The cells of an image with any number of axes, as places in the doubled grid in C order. Each
+/// cell has only a mark; its age is the age of the voxel that decides its value. Axes with one
+/// voxel are left out where possible; `CellSink` adds again the bars of a periodic one.
 class CellGrid {
  public:
   static constexpr int kMostAxes = 8;
   static constexpr std::uint32_t kNone = UINT32_MAX;
-  /// Doubled coordinates, or those of a voxel.
+  /// Doubled coordinates, or the coordinates of a voxel.
   using Coordinates = std::array<std::uint32_t, kMostAxes>;
-  /// A cell in the order of the filtration, among those of one dimension: the rank of the voxel
-  /// that decides its value above its place.
+  /// A cell in the order of the filtration, among the cells of one dimension: the rank of the voxel
+  /// that decides its value in the high bits, its place in the low bits.
   using Name = std::uint64_t;
   static std::uint32_t cell(Name name) { return static_cast<std::uint32_t>(name); }
 
   struct Axis {
-    std::uint32_t extent = 1;  ///< voxels
-    std::uint32_t length = 1;  ///< doubled coordinates
-    std::uint32_t stride = 1;  ///< of doubled coordinates
+    std::uint32_t extent = 1;  ///< in voxels
+    std::uint32_t length = 1;  ///< in doubled coordinates
+    std::uint32_t stride = 1;  ///< stride in the doubled grid
     bool periodic = false;
     Divisor by_length;
   };
 
-  /// How many places its doubled grid has, those of axes that are left out not counted.
+  /// Number of places in the doubled grid, without the axes that are left out.
   static double count_cells(const CubicalImage& grid);
-  /// At most 8 axes and fewer than 2^32 cells, and some.
+  /// True if it has at most 8 axes and fewer than 2^32 cells, and is not empty.
   static bool can_hold(const CubicalImage& grid);
-  /// All marks are those of cells that never enter. Precondition: can_hold(grid).
-  /// Time: O(voxels log voxels). Memory: 8 bytes a voxel and 2 a cell.
+  /// Starts with all cells marked as never entering. Precondition: can_hold(grid). Time: O(voxels
+  /// log voxels). Memory: 8 bytes per voxel and 2 per cell.
   CellGrid(const CubicalImage& grid, const RunContext& context);
 
   int dim() const { return dim_; }
@@ -84,7 +84,7 @@ class CellGrid {
   bool voxels_are_vertices() const { return grid_.voxels_are_vertices; }
   std::size_t voxel_count() const { return ranks_.size(); }
   bool all_enter() const { return order_.size() == ranks_.size(); }
-  /// The place of a voxel in the order of those that enter; kNone if it never does.
+  /// The position of a voxel in the order of the voxels that enter, or kNone if it never enters.
   std::uint32_t rank(std::uint32_t voxel) const { return ranks_[voxel]; }
   double value(Name name) const { return grid_.value(order_[name >> 32U]); }
 
@@ -100,8 +100,8 @@ class CellGrid {
     }
     return x;
   }
-  /// The cell one step away from one at doubled coordinate `x` of the axis, upwards if `direction`
-  /// = 2 * axis + 1, else downwards; kNone outside.
+  /// The cell one step from a cell at doubled coordinate `x` of the axis: upwards if `direction` =
+  /// 2 * axis + 1, otherwise downwards; kNone if it is outside.
   std::uint32_t beside(std::uint32_t cell, std::uint32_t x, int direction) const {
     const Axis& a = axes_[static_cast<std::size_t>(direction) / 2];
     if (direction % 2 != 0) {
@@ -111,19 +111,19 @@ class CellGrid {
     if (x > 0) return cell - a.stride;
     return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
   }
-  /// The coordinate there. Precondition: it is not outside.
+  /// The coordinate of that cell. Precondition: that cell is not outside.
   std::uint32_t next(std::uint32_t x, int direction) const {
     const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;
     if (direction % 2 != 0) return x == last ? 0 : x + 1;
     return x == 0 ? last : x - 1;
   }
-  /// Precondition: the cell enters. @param x its coordinates.
+  /// Precondition: the cell enters. @param x the coordinates of the cell.
   Name name(std::uint32_t cell, const Coordinates& x) const {
     return Name{ranks_[deciding_voxel(cell, x)]} << 32U | cell;
   }
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
-  /// Calls `visit(facet, its coordinates, incidence)`, incidences as in
+  /// Calls `visit(facet, its coordinates, incidence)`, with incidences as in
   /// ph/detail/complex/cubical_cells.hpp.
   /// @param x the coordinates of the cell.
   template <class Visit>
@@ -141,16 +141,15 @@ class CellGrid {
       sign = -sign;
     }
   }
-  /// Calls `visit(cell, its coordinates)` for all cells of the grid whose coordinates are even or
-  /// odd as `parity` says of each axis.
+  /// Calls `visit(cell, its coordinates)` for all cells of the grid whose coordinate is odd on
+  /// exactly the axes that `parity` names.
   template <class Visit>
   void for_each_of_parity(const Coordinates& parity, Visit&& visit) const;
 
-  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
-  /// up.
+  /// Number of periodic axes with one voxel: each adds a copy of every cell, one dimension up.
   std::size_t loop_count() const { return loops_.size(); }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
-  /// of one voxel the copy goes around, as bits.
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the axes of one
+  /// voxel that the copy goes around, as bits.
   void append_numbers(std::uint32_t cell, unsigned loops, std::vector<Index>& numbers) const;
 
  private:
@@ -170,10 +169,10 @@ class CellGrid {
 
   CubicalImage grid_;
   int dim_ = 0;
-  std::array<Axis, kMostAxes> axes_;                 // the last one is the fastest
+  std::array<Axis, kMostAxes> axes_;                 // the last axis is the fastest
   std::array<std::size_t, kMostAxes> input_axis_{};  // the axis of the input
   std::vector<std::size_t> loops_;                   // periodic axes of the input with one voxel
-  std::pmr::vector<std::uint32_t> ranks_, order_;    // by voxel, and back
+  std::pmr::vector<std::uint32_t> ranks_, order_;    // ranks by voxel, and voxels by rank
   std::pmr::vector<CellMark> marks_;
 };
 

@@ -8,14 +8,14 @@
 
 namespace ph::cubical {
 
-/// Turns pairs of a grid's cells into bars of the input.
+/// Turns pairs of cells of the grid into bars of the input.
 class CellSink {
  public:
   CellSink(const CellGrid& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), blocks_(grid.loop_count(), wants_cells, bars) {}
 
-  /// A class of dimension `dim` born with a cell, killed by a cell one dimension higher: a bar
-  /// unless both have the same value. Without a death it never dies.
+  /// A class of dimension `dim` born with a cell and killed by a cell one dimension higher: it
+  /// becomes a bar unless both cells have the same value. Without a death the class never dies.
   void add(int dim, CellGrid::Name birth, std::optional<CellGrid::Name> death) {
     const double from = grid_.value(birth), to = death ? grid_.value(*death) : kInfinity;
     if (from == to) return;
@@ -25,7 +25,7 @@ class CellSink {
                   if (death) grid_.append_numbers(CellGrid::cell(*death), loops, of_death);
                 });
   }
-  /// Hands over what it still holds.
+  /// Passes on all bars that it still holds.
   void finish() { blocks_.finish(); }
 
  private:

@@ -15,14 +15,14 @@ namespace {
 using Name = CellGrid::Name;
 using Graph = CellComponents::Graph;
 
-/// What is left of the critical cells: none, once both its pairs and the bars that never die have
-/// been found.
+/// The critical cells that are left: none, once all pairs and all bars that never die have been
+/// found.
 class CellPairing {
  public:
   CellPairing(CellGrid& grid, CellSink& sink, const RunContext& context)
       : grid_(grid), sink_(sink), context_(context), left_(mark_cells(grid, context)) {}
 
-  /// Vertices with the edges that kill them.
+  /// Pairs vertices with the edges that kill them.
   void pair_vertices() {
     CellComponents components(grid_, Graph::of_vertices, context_);
     components.join(left_[1], [&](Name edge, std::optional<Name> vertex) {
@@ -33,7 +33,7 @@ class CellPairing {
     for (const Name vertex : left_[0])
       if (components.survives(vertex)) sink_.add(0, vertex, std::nullopt);
   }
-  /// Facets with the top cells that kill them, or nothing does.
+  /// Pairs facets with the top cells that kill them; some facets stay alive.
   void pair_top_cells() {
     const auto top = static_cast<std::size_t>(grid_.dim());
     CellComponents components(grid_, Graph::of_top_cells, context_);
@@ -43,7 +43,7 @@ class CellPairing {
     for (const Name cell : left_[top])
       if (components.survives(cell)) sink_.add(grid_.dim(), cell, std::nullopt);
   }
-  /// Cells of a dimension with those that kill them, which give birth to nothing.
+  /// Pairs cells of a dimension with the cells that kill them, which give birth to nothing.
   template <Field K>
   void pair_between(int dim, const K& field) {
     const auto k = static_cast<std::size_t>(dim);
@@ -57,7 +57,7 @@ class CellPairing {
     std::erase_if(left_[k], [&](Name row) { return reduction.is_pivot(row); });
     left_[k + 1] = std::pmr::vector<Name>(&context_.memory);
   }
-  /// What is left lives for ever.
+  /// The remaining cells live forever.
   void add_loops() {
     for (const Name edge : left_[1]) sink_.add(1, edge, std::nullopt);
   }
@@ -86,8 +86,8 @@ void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wan
   CellPairing pairing(grid, sink, context);
   pairing.pair_vertices();
   if (max_dim > 0) {
-    // From above, also where less is asked for: cells that are born with a class make no columns,
-    // which would be reduced to zero in the end and are the longest.
+    // Always starts from the top, because cells that give birth to a class then need no columns;
+    // these columns would be the longest, and would be reduced to zero.
     if (grid.dim() > 1) pairing.pair_top_cells();
     for (int dim = grid.dim() - 2; dim > 0; --dim) pairing.pair_between(dim, field);
     pairing.add_loops();

@@ -5,14 +5,14 @@
 
 namespace ph::cubical {
 
-/// Whether `pair_cells` can: fewer than 2^32 cells, and some.
+/// True if `pair_cells` can do it: there are some cells, and fewer than 2^32.
 bool can_pair_cells(const CubicalImage& grid);
-/// What it keeps of all cells.
+/// Bytes that it keeps for all cells.
 double bytes_of_cells(const CubicalImage& grid);
 
-/// As `pair_voxels`, for any number of axes: components from both ends, a reduction of critical
-/// cells between them. Memory: 8 bytes a voxel, 2 a cell (2^d a voxel), and what critical cells
-/// take.
+/// The same as `pair_voxels` for any number of axes: components from both ends, and a reduction of
+/// critical cells between them. Memory: 8 bytes per voxel, 2 per cell (2^d cells per voxel), and
+/// the critical cells.
 template <Field K>
 void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wants_cells,
                 const RunContext& context, const BarSink& bars);

@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of cells that is being reduced. A cell that is killed inside its star is
-/// replaced by the rest of the boundary of its killer when it comes up, so a chain is followed only
-/// as far down as its pivot; cells that kill are left out (no cycle has its youngest cell there).
-/// Not for several threads at once.
+/// A chain of cells under reduction. A cell that is killed inside its star is replaced, when it
+/// becomes the pivot, by the rest of its killer's boundary; a chain is therefore expanded only down
+/// to its pivot. Cells that kill are left out, because no cycle has such a cell as its youngest. An
+/// object must not be shared by threads.
 template <Field K>
 class BoundaryColumn {
  public:
@@ -28,12 +28,12 @@ class BoundaryColumn {
   BoundaryColumn(const CellGrid& grid, const K& field, const RunContext& context)
       : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
 
-  /// Begins anew with the boundary of a cell.
+  /// Starts again with the boundary of a cell.
   void assign_boundary(std::uint32_t cell) {
     heap_.clear();
     add_boundary(cell, grid_.coordinates(cell), CellGrid::kNone, field_.from_int(1));
   }
-  /// Begins anew with a chain.
+  /// Starts again with a chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -42,23 +42,24 @@ class BoundaryColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Takes out the youngest cell that is in no pair inside its star; nothing if none is left.
+  /// Removes the youngest cell that is in no pair inside its star; nothing if none is left.
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// Before it is kept: replaces cells below its pivot, about as many as it has. What it is added
-  /// to need not do so again, and much cancels out. @return the pivot; all that is left is older.
+  /// To be called before the chain is kept: replaces about as many cells below its pivot as the
+  /// chain has. Columns that it is added to then need not do so again, and many terms cancel.
+  /// @return the pivot; all other cells are older.
   std::optional<Term> settle(const Term& pivot) {
     return heap_.follow(pivot, heap_.size(), [this](const Term& term) { return replace(term); });
   }
-  /// What it holds, each cell once, from young to old.
+  /// The terms that it holds, each cell once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Adds the rest of the boundary of its killer in place of a cell that was taken. @return whether
-  // there is one.
+  // Adds the rest of the killer's boundary instead of a cell that was removed. @return true if
+  // there is a killer.
   bool replace(const Term& term) {
     const std::uint32_t cell = CellGrid::cell(term.cell);
     const CellMark mark = grid_.mark(cell);
@@ -66,7 +67,7 @@ class BoundaryColumn {
     CellGrid::Coordinates x = grid_.coordinates(cell);
     const int direction = mark.direction();
     const auto axis = static_cast<std::size_t>(direction / 2);
-    // The incidence of the cell in its killer, of which it is the lower end if that lies above.
+    // The incidence of the cell in its killer; the cell is the lower end if the killer lies above.
     bool is_negative = direction % 2 != 0;
     for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
     const std::uint32_t killer = grid_.beside(cell, x[axis], direction);
@@ -82,7 +83,8 @@ class BoundaryColumn {
     steps_ = 0;
     context_.poll();
   }
-  // Adds `scale` times the boundary of a cell, but for the facet `skip`. @param at where it is.
+  // Adds `scale` times the boundary of a cell, except for the facet `skip`. @param at coordinates
+  // of the cell.
   void add_boundary(std::uint32_t cell, const CellGrid::Coordinates& at, std::uint32_t skip,
                     Element scale) {
     count(1);
@@ -98,7 +100,7 @@ class BoundaryColumn {
   const CellGrid& grid_;
   const K& field_;
   const RunContext& context_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::size_t steps_ = 0;  // steps since the stop token was last polled
   ChainHeap<K, Term, &BoundaryColumn::precedes> heap_;
 };
 

@@ -11,7 +11,8 @@
 
 namespace ph::cubical {
 
-/// Homology between the two ends: boundaries of cells of one dimension, see ParallelReduction.
+/// Homology between the two ends: reduces the boundaries of cells of one dimension, see
+/// ParallelReduction.
 template <Field K>
 class BoundaryReduction {
   using Chain = BoundaryColumn<K>;
@@ -22,7 +23,7 @@ class BoundaryReduction {
   using Name = CellGrid::Name;
 
   /// @param columns cells in no known pair, in the order of the filtration.
-  /// @param rows those one dimension lower.
+  /// @param rows the cells in no known pair one dimension lower.
   BoundaryReduction(const CellGrid& grid, std::span<const Name> columns, std::span<const Name> rows,
                     const K& field, const RunContext& context)
       : grid_(grid),
@@ -37,7 +38,7 @@ class BoundaryReduction {
   /// @param on_pair called with (column, row), or (column, nothing) if the column is zero.
   template <class OnPair>
   void run(OnPair&& on_pair) {
-    constexpr std::size_t piece = 64;  // columns that a thread takes at a time
+    constexpr std::size_t piece = 64;  // columns per thread at a time
     reduction_.run(
         "boundaries", piece, [&] { return Chain(grid_, field_, context_); },
         [&](Chain& column, std::uint32_t i) { column.assign_boundary(CellGrid::cell(names_[i])); },
@@ -49,7 +50,7 @@ class BoundaryReduction {
       on_pair(names_[i], column ? std::optional<Name>(column->pivot().cell) : std::nullopt);
     }
   }
-  /// Whether a row is a pivot. Precondition: it has run.
+  /// True if a row is a pivot. Precondition: `run` has been called.
   bool is_pivot(Name row) { return owner_of(row) != nullptr; }
 
  private:
@@ -61,14 +62,14 @@ class BoundaryReduction {
       ticker.tick();
     }
   }
-  // Where the column is noted that has its pivot there. Precondition: `row` is one.
+  // The entry for the column whose pivot is that row. Precondition: `row` is a row of the matrix.
   const Column*& owner_of(Name row) { return *owners_.find(CellGrid::cell(row)); }
 
   const CellGrid& grid_;
-  std::span<const Name> names_;  // of the columns
+  std::span<const Name> names_;  // names of the columns
   const K& field_;
   const RunContext& context_;
-  FlatMap<const Column*> owners_;  // by row; null: it is no pivot
+  FlatMap<const Column*> owners_;  // by row; null if it is not a pivot
   Reduction reduction_;
 };
 

@@ -11,11 +11,11 @@
 
 namespace ph::cubical {
 
-/// A chain as a heap, the youngest cell first; a cell may be in it several times. Most of what a
-/// long chain is added to cancels out, but far below the youngest cell it would stay until it comes
-/// up. So the heap is consolidated whenever it has grown to three times what it held.
-/// @tparam Term an Entry. @tparam precedes whether a cell is older than another one; best without a
-///         branch, which no processor could foretell.
+/// A chain as a heap, youngest cell first; a cell may occur several times. When chains are added,
+/// most terms cancel, but terms far below the youngest cell would stay until they come up. The heap
+/// is therefore consolidated whenever it has grown to three times its consolidated size.
+/// @tparam Term an Entry. @tparam precedes true if a cell is older than another one; best without a
+///         branch, because processors could not predict it.
 template <Field K, class Term, auto precedes>
 class ChainHeap {
  public:
@@ -24,12 +24,12 @@ class ChainHeap {
 
   std::size_t size() const { return terms_.size(); }
   void clear() { assign({}); }
-  /// @param chain as `consolidate` gave it.
+  /// @param chain in the form that `consolidate` returns.
   void assign(std::span<const Term> chain) {
     terms_.assign(chain.begin(), chain.end());
     set_most();
   }
-  /// Adds what `append(terms)` appends.
+  /// Adds the terms that `append(terms)` appends.
   template <class Append>
   void add(Append&& append) {
     std::size_t place = terms_.size();
@@ -40,9 +40,9 @@ class ChainHeap {
     }
     for (; place < terms_.size(); ++place) sift_up(place);
   }
-  /// The youngest cell, or one that cancels out; null if there is none.
+  /// The youngest cell, which may still cancel; null if there is none.
   const Term* next() const { return terms_.empty() ? nullptr : &terms_.front(); }
-  /// Takes the youngest cell that does not cancel out.
+  /// Removes and returns the youngest cell that does not cancel.
   std::optional<Term> take() {
     while (!terms_.empty()) {
       const Term first = pop();
@@ -53,17 +53,18 @@ class ChainHeap {
     }
     return std::nullopt;
   }
-  /// Takes the youngest cell that stays what it is; nothing if there is none.
-  /// @param replace called with a term: whether it has added to this what the term stands for.
+  /// Removes and returns the youngest cell that is not replaced; nothing if there is none.
+  /// @param replace called with a term: adds its replacement to this chain and returns true if
+  /// there is one.
   template <class Replace>
   std::optional<Term> take_pivot(Replace&& replace) {
     std::optional<Term> youngest = take();
     while (youngest && replace(*youngest)) youngest = take();
     return youngest;
   }
-  /// Replaces cells below a pivot that was taken out as if they had come up, the youngest first, so
-  /// many at most. What replaces a cell may be younger for a while, so the pivot is taken again.
-  /// @return the pivot; all that is left is older.
+  /// Replaces cells below a pivot that was removed as if they had come up, youngest first, up to a
+  /// maximum number. A replacement may be younger for a while; the pivot is therefore taken again.
+  /// @return the pivot; all other cells are older.
   template <class Replace>
   std::optional<Term> follow(const Term& pivot, std::size_t most, Replace&& replace) {
     stay_.assign(1, pivot);
@@ -78,7 +79,7 @@ class ChainHeap {
     add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
     return take_pivot(replace);
   }
-  /// What it holds, each cell once, from young to old: that is a heap, too.
+  /// The terms that it holds, each cell once, from young to old; this order is also a heap.
   std::span<const Term> consolidate() {
     std::sort(terms_.begin(), terms_.end(),
               [](const Term& a, const Term& b) { return precedes(b.cell, a.cell); });
@@ -108,7 +109,7 @@ class ChainHeap {
     if (!terms_.empty()) sift_down(0, last);
     return top;
   }
-  // Puts a term at a place or below it.
+  // Puts a term at a position or below it.
   void sift_down(std::size_t place, const Term term) {
     Term* const terms = terms_.data();
     const std::size_t size = terms_.size();
@@ -140,7 +141,7 @@ class ChainHeap {
   const K& field_;
   std::pmr::vector<Term> terms_;
   std::pmr::vector<Term> stay_;  // see `follow`
-  std::size_t most_ = kFew;      // terms before it is consolidated
+  std::size_t most_ = kFew;      // number of terms at which it is consolidated
 };
 
 }  // namespace ph::cubical

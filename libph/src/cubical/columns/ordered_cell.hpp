@@ -7,12 +7,12 @@
 namespace ph::cubical {
 
 /// A cell of one dimension, ordered as in the stars' grid: by the value of its star, then by name.
-/// Cells of any two parts of a grid compare.
-/// @tparam rank_bits enough for the rank of a direction in a star.
+/// Cells of any two parts of a grid can be compared.
+/// @tparam rank_bits enough bits for the rank of a direction in a star.
 template <unsigned rank_bits>
 struct OrderedCell {
-  std::uint64_t key;   ///< orders as the value does
-  std::uint64_t name;  ///< (the voxel in the whole grid, the rank of the direction in its star)
+  std::uint64_t key;   ///< has the same order as the value
+  std::uint64_t name;  ///< (the voxel in the entire grid, the rank of the direction in its star)
 
   static OrderedCell of(double value, std::uint64_t voxel, int rank) {
     return {ordered_bits(value + 0.0), voxel << rank_bits | static_cast<std::uint64_t>(rank)};

@@ -20,25 +20,26 @@
 
 namespace ph::cubical {
 
-/// Columns whose numbers go from old to young.
+/// Columns numbered from old to young.
 struct NumberedByAge {
   static bool is_older(std::uint32_t a, std::uint32_t b) { return a < b; }
 };
 
-/// Columns of a boundary matrix, reduced by adding older ones only. Several threads reduce columns
-/// at a time; who has an older column's pivot takes it, and the younger column is reduced further
-/// in the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
-/// not depend on who comes first. Each step of a column reads memory anywhere, so a thread works on
-/// some columns in turns and asks for what the next step will read.
-/// @tparam Chain a working column, such as BoundaryColumn. `settle(pivot)`, if it has that, is
-/// called before it is kept, and returns the pivot.
-/// @tparam Ages `is_older(a, b)`: which one of two columns is older, by their numbers.
+/// Reduces the columns of a boundary matrix by adding only older ones. Several threads reduce
+/// columns at a time. An older column takes a pivot from a younger one, which is reduced further in
+/// the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
+/// not depend on the order of threads. Each step of a column reads memory at random places; a
+/// thread therefore alternates between some columns, and prefetches the data of each column's next
+/// step.
+/// @tparam Chain a working column, such as BoundaryColumn. `settle(pivot)`, if Chain has it, is
+/// called before a chain is kept, and returns the pivot.
+/// @tparam Ages `is_older(a, b)`: true if column a is older than column b, given their numbers.
 template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
  public:
   using Term = typename Chain::Term;
-  /// The boundary of a cell and what was added to it, as far as it was followed. What is below its
-  /// pivot lies behind it in memory: who finds it by its pivot has it all.
+  /// The boundary of a cell plus the boundaries that were added to it, as far as it was expanded.
+  /// The terms below the pivot lie behind it in memory: reading the pivot brings in the rest.
   class Column {
    public:
     Column(const Term& pivot, std::uint32_t number, std::uint32_t size)
@@ -54,9 +55,9 @@ class ParallelReduction {
 
   static constexpr std::size_t kLanes = 8;
 
-  /// @param size columns.
-  /// @param lanes columns that a thread works on in turns. With one, and one piece, columns hold
-  /// what the textbook's do.
+  /// @param size number of columns.
+  /// @param lanes number of columns between which a thread alternates. With one lane and one piece,
+  /// columns are the columns of the textbook.
   ParallelReduction(std::size_t size, const K& field, const RunContext& context,
                     std::size_t lanes = kLanes, const Ages& ages = {})
       : field_(field),
@@ -65,17 +66,17 @@ class ParallelReduction {
         ages_(ages),
         columns_(size, nullptr, &context.memory) {}
 
-  /// Takes in so many columns more.
+  /// Adds that many columns.
   void grow(std::size_t by) { columns_.resize(columns_.size() + by, nullptr); }
 
-  /// All columns, as they were numbered.
-  /// @param piece columns that a thread takes at a time.
-  /// @param make_chain called for a working column.
+  /// Reduces all columns in the order of their numbers.
+  /// @param piece columns per thread at a time.
+  /// @param make_chain makes a working column.
   /// @param assign_boundary called with (chain, column): makes it the boundary of the column's
   /// cell.
-  /// @param owner_of called with a pivot's cell: where its column is noted, null at first.
-  /// @param expect_owner called some time before `owner_of`: what that will read may be prefetched.
-  /// @param arrange called with the columns of a round: may bring them into another order.
+  /// @param owner_of called with a pivot's cell: returns the entry for its column, null at first.
+  /// @param expect_owner called some time before `owner_of`, which lets it prefetch.
+  /// @param arrange called with the columns of a round, which it may reorder.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange>
   void run(std::string_view stage, std::size_t piece, MakeChain&& make_chain,
            AssignBoundary&& assign_boundary, OwnerOf&& owner_of, ExpectOwner&& expect_owner,
@@ -86,9 +87,10 @@ class ParallelReduction {
              arrange,
              [](std::uint32_t, const std::optional<Term>& pivot, Chain&) { return !pivot; });
   }
-  /// Some columns.
-  /// @param is_done called with (column, pivot, chain) when a pivot was looked for: whether nothing
-  /// is left to do here, because it is zero or goes somewhere else. May look further.
+  /// Reduces some columns.
+  /// @param is_done called with (column, pivot, chain) after a search for a pivot: returns true if
+  /// nothing is left to do here, because the column is zero or moves somewhere else. It may look
+  /// for further pivots.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange,
             class IsDone>
   void run_some(std::pmr::vector<std::uint32_t> round, std::string_view stage, std::size_t piece,
@@ -134,22 +136,22 @@ class ParallelReduction {
     }
   }
 
-  /// Those that have run; null: zero.
+  /// The columns after the reduction; null if a column is zero.
   std::span<const Column* const> columns() const { return columns_; }
 
  private:
-  // A column that is being reduced.
+  // A column under reduction.
   struct Lane {
     Chain chain;
     bool is_busy = false;
     std::uint32_t column = 0;
     std::optional<Term> pivot{};
     enum class Step : std::uint8_t { find_owner, read_owner, use_owner } next{};
-    const Column** owner = nullptr;  // where the column of the pivot is noted
+    const Column** owner = nullptr;  // the entry for the column that has the pivot
     const Column* older = nullptr;   // that column
   };
 
-  // What a thread has to itself. Columns stay where they are: others read them.
+  // The private data of a thread. Columns do not move, because other threads read them.
   struct Worker {
     using Unit = std::uint64_t;
     static_assert(alignof(Column) <= alignof(Unit) && sizeof(Column) % sizeof(Unit) == 0 &&
@@ -157,7 +159,7 @@ class ParallelReduction {
 
     std::vector<Lane> lanes{};
     std::vector<std::pmr::vector<Unit>> kept{};
-    std::vector<std::uint32_t> again{};  // lost their pivots
+    std::vector<std::uint32_t> again{};  // columns that lost their pivots
 
     const Column* keep(const Term& pivot, std::uint32_t number, std::span<const Term> below,
                        std::pmr::memory_resource* memory) {
@@ -187,14 +189,14 @@ class ParallelReduction {
     return worker;
   }
 
-  // To look for the column that has the pivot comes next.
+  // Prepares the next step, which looks for the column that has the pivot.
   template <class ExpectOwner>
   static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
     expect_owner(lane.pivot->cell);
     lane.next = Lane::Step::find_owner;
     return true;
   }
-  // The next step of a column. @return whether there are more.
+  // Does the next step of a column. @return true if there are more.
   template <class OwnerOf, class TakePivot>
   bool advance(Lane& lane, Worker& worker, OwnerOf&& owner_of, TakePivot&& take_pivot) {
     using Step = typename Lane::Step;
@@ -225,7 +227,7 @@ class ParallelReduction {
         if (lane.older != nullptr) worker.again.push_back(lane.older->number());
         return false;
       }
-      lane.chain.assign(kept->below());  // an older one came first
+      lane.chain.assign(kept->below());  // an older column came first
     }
     lane.chain.add(
         field_.negate(field_.multiply(lane.pivot->coefficient(),
@@ -239,7 +241,7 @@ class ParallelReduction {
   const std::size_t lanes_;
   const Ages ages_;
   std::pmr::vector<const Column*> columns_;
-  std::mutex mutex_;  // for what follows
+  std::mutex mutex_;  // protects the members below
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<Worker*> idle_;
 };

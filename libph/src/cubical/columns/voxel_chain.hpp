@@ -10,7 +10,7 @@
 
 namespace ph::cubical {
 
-/// A chain of cells that is being put together; a cell may occur several times until `combine`.
+/// A chain of cells under construction; a cell may occur several times until `combine`.
 template <Field K>
 using VoxelChain = std::vector<Entry<StarCell, K>>;
 
@@ -19,8 +19,8 @@ typename K::Element signed_one(const K& field, bool is_positive) {
   return field.from_int(is_positive ? 1 : -1);
 }
 
-/// Leaves each cell once, with the sum of its coefficients, and none whose sum is zero.
-/// Precondition: a cell comes by one star only.
+/// Keeps each cell once, with the sum of its coefficients, and drops cells whose sum is zero.
+/// Precondition: a cell is always given by the same star.
 template <Field K>
 void combine(VoxelChain<K>& chain, const K& field) {
   const auto name = [](const auto& term) { return std::tie(term.cell.voxel, term.cell.direction); };

@@ -10,11 +10,12 @@
 
 namespace ph::cubical {
 
-/// Disjoint sets of nodes, each a tree that begins as arrows: a node's parent is where its arrow
-/// leads until paths are halved and roots are linked. Roots have numbers. No DisjointSets: parents
-/// are asked for only when met, by several threads, and a root has its number in their place.
-/// @tparam Graph `size()` nodes; `arrow(node)`: the node that it points to. Arrows make no circles
-/// and end at roots.
+/// Disjoint sets of nodes, each a tree that begins as arrows: the parent of a node is the end of
+/// its arrow, until paths are halved and roots are linked. Roots have numbers. DisjointSets cannot
+/// be used, because parents are computed on first use, by several threads, and a root stores its
+/// number instead of a parent.
+/// @tparam Graph has `size()` nodes and `arrow(node)`, the node that it points to. Arrows form no
+/// circles and end at roots.
 template <class Graph>
 class ArrowForest {
  public:
@@ -26,14 +27,14 @@ class ArrowForest {
     });
   }
 
-  /// Whether the node is a root, or its arrow has been looked up or replaced.
+  /// True if the node is a root, or if its arrow has been looked up or replaced.
   bool is_known(std::uint32_t node) const { return next_[node] != kUnknown; }
   void set_root(std::uint32_t node, std::uint32_t number) { next_[node] = number | kIsRoot; }
-  /// Hangs a root, or a node that never was asked for, under another node.
+  /// Links a root, or a node that was never asked for, to another node.
   void link(std::uint32_t node, std::uint32_t to) { next_[node] = to; }
 
-  /// The root that a node hangs under. Several threads may ask while nothing else is done: each
-  /// only makes paths shorter.
+  /// The root of a node's tree. Several threads may call it while nothing else is done: each call
+  /// only shortens paths.
   std::uint32_t find(std::uint32_t node) {
     std::uint32_t steps = 0;
     for (std::uint32_t next = after(node); (next & kIsRoot) == 0; next = after(node)) {

@@ -12,14 +12,14 @@
 
 namespace ph::cubical {
 
-/// Links nodes as their arrows say, but for some at the border, where many arrows will be met: all
-/// of them one after another are quicker then.
+/// Links nodes along their arrows, except for some at the border, where many arrows will be used:
+/// linking all of them one after another is quicker then.
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
-  constexpr std::uint32_t many = 256;  // of so many voxels one has a critical cell
+  constexpr std::uint32_t many = 256;  // about one voxel in this many has a critical cell
   if (grid.critical().size() <= grid.size() / many) return;
-  // Rows that share cells with those before them are looked at twice where a piece begins.
+  // Rows that share cells with the rows before them are processed twice where a piece begins.
   const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;
   const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid.extent(2));
   for_each_piece("arrows", grid.row_count(), piece, context,
@@ -39,8 +39,8 @@ void for_each_root(const StarGrid& grid, const Graph& graph, Ticker& ticker, Use
   }
 }
 
-/// The trees that the arrows of a graph make, by the numbers of their roots: first what has always
-/// been there, which has no cell, then critical cells in the order of the grid.
+/// The trees formed by the arrows of a graph, numbered by their roots: first the nodes that were
+/// always there, which have no cell, then critical cells in the order of the grid.
 template <class Graph>
 class Basins {
  public:
@@ -61,15 +61,15 @@ class Basins {
         });
   }
 
-  /// How many have always been there.
+  /// Number of roots that were always there.
   std::uint32_t outer_count() const { return outer_count_; }
-  /// The cells of the others.
+  /// The cells of the other roots.
   std::pmr::vector<NumberedCell>& roots() { return roots_; }
-  /// In which one a node is. Several threads may ask.
+  /// The basin of a node. Several threads may call it.
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
-  // Besides the outside; joined as far as it hangs together.
+  // Joins the connected nodes, other than the outside, that were always there.
   void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {

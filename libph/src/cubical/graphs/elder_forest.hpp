@@ -9,14 +9,14 @@
 
 namespace ph::cubical {
 
-/// Disjoint sets of basins that know which one is older. What has always been there is older than
-/// all else; of others the value decides, then the number. No DisjointSets: parents and values lie
-/// anywhere in memory, and side by side they come in one cache line.
-/// @tparam backwards whether high values and numbers are old.
+/// Disjoint sets of basins that know which basin is older. Basins that were always there are older
+/// than all others; among the others the value decides, then the number. DisjointSets is not used:
+/// parents and values are at random places in memory, and side by side they share a cache line.
+/// @tparam backwards true if high values and numbers are old.
 template <bool backwards>
 class ElderForest {
  public:
-  /// @param value_of(i) of the root i of the basins.
+  /// @param value_of(i) the value of root i of the basins.
   template <class ValueOf>
   ElderForest(std::uint32_t outer_count, std::size_t roots, ValueOf&& value_of,
               const RunContext& context)
@@ -31,7 +31,7 @@ class ElderForest {
   }
   bool is_root(std::uint32_t basin) const { return parent(basin) == basin; }
   double value(std::uint32_t basin) const { return nodes_[basin].value; }
-  /// Hangs the younger one of two roots under the other. @return the younger one.
+  /// Links the younger of two roots to the other. @return the younger one.
   std::uint32_t join(std::uint32_t a, std::uint32_t b) {
     if (is_elder(b, a)) std::swap(a, b);
     nodes_[b].parent = a;
@@ -42,7 +42,7 @@ class ElderForest {
  private:
   struct Node {
     double value;
-    std::uint32_t parent;  // a root's is itself
+    std::uint32_t parent;  // a root is its own parent
   };
   bool is_elder(std::uint32_t a, std::uint32_t b) const {
     if (a < outer_count_ || b < outer_count_) return a < b;

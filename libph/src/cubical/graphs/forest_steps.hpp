@@ -9,26 +9,26 @@
 
 namespace ph::cubical {
 
-// The two graphs as graphs of vertices and edges of the input: voxels and the edges between them in
-// the V-construction, top cells and facets of the stars' grid in the T-construction, where all axes
+// The two graphs in terms of vertices and edges of the input: voxels and the edges between them in
+// the V-construction; top cells and facets of the stars' grid in the T-construction, where all axes
 // run backwards.
 
-/// Along an arrow.
+/// A step along an arrow.
 struct ForestStep {
   StarCell edge;
   std::uint32_t to;
-  bool from_upper;  ///< whether the edge ends where the step begins
+  bool from_upper;  ///< true if the step starts at the upper end of the edge
 };
 
 inline int axis_of(const Direction& d) { return d[0] != 0 ? 0 : d[1] != 0 ? 1 : 2; }
 
-/// The voxel in whose star a node is.
+/// The voxel whose star contains a node.
 inline std::uint32_t owner_of(const VoxelGraph&, std::uint32_t node) { return node; }
 inline std::uint32_t owner_of(const TopGraph& graph, std::uint32_t node) {
   return graph.cell(node).voxel;
 }
 
-/// Nothing at a root.
+/// The step from a node, or nothing at a root.
 inline std::optional<ForestStep> step_from(const StarGrid& grid, const VoxelGraph& graph,
                                            std::uint32_t node) {
   const std::uint32_t star = grid.star(node);
@@ -50,7 +50,7 @@ inline std::optional<ForestStep> step_from(const StarGrid&, const TopGraph& grap
                     side < 0};
 }
 
-/// Where an edge begins and ends.
+/// The start and the end of an edge.
 inline std::array<std::uint32_t, 2> oriented_ends(const VoxelGraph& graph, const StarCell& edge) {
   const int number = number_of(edge.direction);
   const auto [near, far] = graph.ends(edge.voxel, static_cast<std::uint32_t>(number));

@@ -22,8 +22,8 @@ class ComponentPairing {
  public:
   using Place = CriticalCells::Place;
 
-  /// @param bridges critical cells; those in their order will be looked at.
-  /// @param wants_cells else `root_cell` and `bridge_cell` look up the value only.
+  /// @param bridges critical cells; only cells in their order are used.
+  /// @param wants_cells if false, `root_cell` and `bridge_cell` look up only the value.
   ComponentPairing(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
                    bool wants_cells, const RunContext& context)
       : grid_(grid),
@@ -36,10 +36,10 @@ class ComponentPairing {
     find_basins();
   }
 
-  /// No more than so many bars come of it.
+  /// An upper bound for the number of bars.
   std::size_t most_pairs() const { return std::min(bridges_.order.size(), roots_.size()) + 2; }
-  /// Takes the bridges that join something from the order.
-  /// @param on_merge called with (bridge, root that dies; null if both have always been there).
+  /// Removes the bridges that join components from the order.
+  /// @param on_merge called with (bridge, root that dies, or null if both were always there).
   /// @param on_survivor called with each root that never dies.
   template <class OnMerge, class OnSurvivor>
   void run(OnMerge&& on_merge, OnSurvivor&& on_survivor) {
@@ -52,7 +52,7 @@ class ComponentPairing {
     auto& order = bridges_.order;
     const std::size_t size = order.size();
     const auto place = [size](std::size_t i) { return Graph::kBackwards ? size - 1 - i : i; };
-    // What is read lies anywhere: it is fetched long before, step by step.
+    // The data lie at random places: they are fetched long before use, step by step.
     constexpr std::size_t stride = 8, ring_size = 4 * stride;
     std::array<Ends, ring_size> ring{};
     const auto is_in = [size](std::size_t i, std::size_t late) {
@@ -109,7 +109,8 @@ class ComponentPairing {
  private:
   using Ends = std::array<std::uint32_t, 2>;
 
-  // Which basins each bridge joins; in the order of the grid, where neighbours are near in memory.
+  // Finds the basins that each bridge joins, in the order of the grid, where neighbours are close
+  // in memory.
   void find_basins() {
     Basins<Graph> basins(grid_, graph_, context_);
     std::pmr::vector<bool> is_bridge(ends_.size(), false, &context_.memory);
@@ -134,7 +135,7 @@ class ComponentPairing {
   const RunContext& context_;
   RawVector<Ends> ends_;
   std::pmr::vector<NumberedCell> roots_;
-  std::uint32_t outer_count_ = 0;  // basins; the others have a root each
+  std::uint32_t outer_count_ = 0;  // basins without a root; every other basin has one
 };
 
 }  // namespace ph::cubical

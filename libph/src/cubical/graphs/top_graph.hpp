@@ -11,9 +11,9 @@
 
 namespace ph::cubical {
 
-/// The graph of top cells of two or three axes. Roots are critical top cells, bridges critical
-/// facets, but for edges that are marked: they are in pairs with voxels. The same as the graph of
-/// voxels for the image turned around.
+/// The graph of top cells for two or three axes. Roots are critical top cells; bridges are critical
+/// facets, except for marked edges, which are paired with voxels. It equals the graph of voxels for
+/// the reversed image.
 class TopGraph : public TopNodes<StarGrid, 3> {
  public:
   using TopNodes::TopNodes;
@@ -23,11 +23,11 @@ class TopGraph : public TopNodes<StarGrid, 3> {
     return has_cubes() ? kSquares[n] : kEdges[n];
   }
 
-  /// Out of a cell by the facet that it is paired with. Precondition: the cell enters and is not
+  /// Leaves a cell by the facet that it is paired with. Precondition: the cell enters and is not
   /// critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  /// Calls `use(node, node)` for the arrows from the top cells that lie before some rows of voxels,
-  /// but for some at the border.
+  /// Calls `use(node, node)` for the arrows from the top cells before some rows of voxels, except
+  /// for some at the border.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
   /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
@@ -35,11 +35,11 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   void for_each_root(std::uint32_t v, Use&& use) const;
   /// As in VoxelNodes.
   bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
-  /// What a facet in the star of a voxel joins.
+  /// The two nodes that a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
-  /// The star that a top cell is in; one of no direction if it is in none.
+  /// The star cell of a top cell; it has no direction if the cell is in no star.
   StarCell cell(std::uint32_t node) const;
-  /// The axis along which a top cell is left; nothing if it is critical.
+  /// The axis along which the arrow leaves a top cell; nothing if it is critical.
   std::optional<int> exit_of(const StarCell& top) const {
     const int number = number_of(top.direction);
     const unsigned critical =
@@ -51,18 +51,19 @@ class TopGraph : public TopNodes<StarGrid, 3> {
 
  private:
   bool has_cubes() const { return grid_.top_dim() == 3; }
-  /// The axis along which a top cell is left, by its number in the star of a voxel.
+  /// The axis along which the arrow leaves a top cell, given by its number in the star of a voxel.
   int exit_axis(std::uint32_t v, int number) const {
     if (has_cubes()) return grid_.pair_cubes(v).exit(number);
     return exit_of_square(grid_.tables(v).edge_of(grid_.star(v), number));
   }
-  /// That of a square, by the edge that it is paired with.
-  static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }  // the other of 1, 2
-  /// What a voxel says about the arrows of top cells in its star, see `for_each_inner_arrow`.
+  /// The exit axis of a square, given the edge that it is paired with: the other one of axes 1 and
+  /// 2.
+  static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }
+  /// A voxel's information about the arrows of top cells in its star, see `for_each_inner_arrow`.
   template <class ExitOf>
   std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
-  /// Whether a top cell at a coordinate, that of its first voxel, and those beside it along the
-  /// axis lie between voxels that follow each other.
+  /// True if a top cell whose first voxel has this coordinate, and the cells beside it along the
+  /// axis, lie between consecutive voxels.
   bool is_inner(int axis, std::uint32_t low) const {
     const std::uint32_t n = grid_.extent(axis), border = border_[static_cast<std::size_t>(axis)];
     return low >= 1 - border && low < n && n - low > 2 - border && !grid_.is_wrapped(axis, low) &&
@@ -70,10 +71,10 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   }
 };
 
-// A voxel tells the cells around it whose star they are in where their arrows lead, in one word:
-// bit 3u + a where it is corner u of a cell that is left along axis a. Corner u of a cell lies
-// u[a] = bit a of u voxels from its first one. So the corners of a cell together say one bit or
-// none, and nothing is decided by a branch that cannot be foretold.
+// A voxel uses one word to tell the cells around it whose star they are in, and where their arrows
+// lead: bit 3u + a is set if the voxel is corner u of a cell whose arrow leaves along axis a.
+// Corner u of a cell lies u[a] = bit a of u voxels from its first one. The corners of a cell
+// together therefore set at most one bit, and no unpredictable branch is needed.
 template <class Use>
 void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
                                     Use&& use) const {
@@ -96,7 +97,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(),
                       [&](int c) { return pairs.exit(c); });
   };
-  // The words of a row and of those before it that share cells with it.
+  // The words of a row, and of the rows before it that share cells with it.
   const std::uint32_t width = grid_.extent(2), height = grid_.extent(1);
   const std::uint32_t layers = has_cubes() ? 2 : 1, kept = (layers - 1) * height + 2;
   std::vector<std::uint32_t> words(std::size_t{kept} * width);
@@ -107,7 +108,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     std::uint32_t* const own = words_of(number);
     for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
     if (number < first_row) continue;
-    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // of the cells
+    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // coordinates of the cells
     if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) continue;
     std::array<const std::uint32_t*, 4> voxels{};  // by bits 0 and 1 of u
     for (std::uint32_t zy = 0; zy < 4; ++zy)

@@ -10,21 +10,22 @@
 
 namespace ph::cubical {
 
-/// The nodes of a graph of top cells: the cells of the highest dimension, numbered by their corner
-/// that comes first, and what has always been there: the outside, in two parts where one axis alone
-/// has ends, and cells that never enter.
-/// @tparam Grid a SlabFrame that says which voxels enter. @tparam most its axes: three, or at most.
+/// The nodes of a graph of top cells: the cells of the highest dimension, numbered by their first
+/// corner, and the nodes that were always there: the outside, in two parts if only one axis has
+/// ends, and cells that never enter.
+/// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the number of axes: three,
+/// or the maximum.
 template <class Grid, std::size_t most>
 class TopNodes {
  public:
   static constexpr bool kBackwards = true;
-  /// From a voxel to a cell, by axis.
+  /// The direction from a voxel to a cell, by axis.
   using Way = std::array<int, most>;
 
   explicit TopNodes(const Grid& grid) : grid_(grid) {
     for (std::size_t a = axes(); a-- > 0;) {
       const int axis = static_cast<int>(a);
-      // With a border around the voxels there is one more cell than voxels along an axis.
+      // With a border around the voxels, an axis has one more cell than voxels.
       const bool has_border =
           grid.is_t_construction() && grid.has_axis(axis) && !grid.is_periodic(axis);
       border_[a] = has_border ? 1 : 0;
@@ -37,10 +38,10 @@ class TopNodes {
 
   std::size_t size() const { return std::size_t{count_} + 2; }
   std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
-  /// Whether anything but the outside has always been there.
+  /// True if nodes other than the outside were always there.
   bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
-  /// it.
+  /// Calls `use(node)` for the nodes that are connected because a voxel never enters: all top cells
+  /// around it.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const;
   /// As in VoxelNodes: the top cells between the ghost layer and the one beside it.
@@ -58,7 +59,7 @@ class TopNodes {
   std::size_t axes() const {
     return most == 3 ? most : static_cast<std::size_t>(grid_.axis_count());
   }
-  /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
+  /// Calls `use(voxel, direction from it)` for the corners of a top cell, until it returns true.
   template <class Use>
   void for_each_corner(std::uint32_t node, Use&& use) const;
 
@@ -66,7 +67,7 @@ class TopNodes {
   std::array<std::uint32_t, most> extent_{}, stride_{}, border_{};
 
  private:
-  /// Whether a node is a cell: behind the last voxels of an axis that has ends there is none.
+  /// True if a node is a cell: past the last voxels of an axis with ends there is none.
   bool is_cell(std::uint32_t node) const;
   std::uint32_t outside_beyond(const Way& d) const {
     if (grid_.open_axes() == 1)
@@ -141,7 +142,7 @@ template <class Use>
 void TopNodes<Grid, most>::for_each_outer_node(std::uint32_t v, Use&& use) const {
   for (unsigned above = 0; above < 1U << axes(); ++above) {
     Way d{};
-    bool is_first = true;  // of those that differ along axes that are not there
+    bool is_first = true;  // of directions that differ only along missing axes
     for (std::size_t a = 0; a < axes(); ++a) {
       const bool is_above = (above >> (axes() - 1 - a) & 1U) != 0;
       if (grid_.has_axis(static_cast<int>(a)))
@@ -171,7 +172,7 @@ std::optional<double> TopNodes<Grid, most>::seam_value(std::uint32_t node) const
   std::optional<double> youngest;
   if (!is_cell(node)) return youngest;
   for_each_corner(node, [&](std::uint32_t v, const Way&) {
-    // In the T-construction what never enters has always been there.
+    // In the T-construction, cells that never enter were always there.
     if (grid_.enters(v) || !grid_.is_t_construction())
       youngest = std::max(youngest.value_or(grid_.value(v)), grid_.value(v));
     return false;

@@ -7,23 +7,24 @@
 
 namespace ph::cubical {
 
-/// The lowest dimension of pairs that a bar may come from: periodic axes of one voxel raise it.
+/// The lowest dimension of pairs that can give a wanted bar: periodic axes of one voxel raise
+/// dimensions.
 inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
-/// Whether bars of three axes or more are wanted that come from neither graph.
+/// True if bars of three or more axes are wanted that come from neither graph.
 inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
-  // Around periodic axes classes of all dimensions may live for ever.
+  // Around periodic axes, classes of all dimensions may live forever.
   return grid.top_dim() >= 3 && wanted.max_dim > 0 &&
          (lowest_dim(grid, wanted) <= grid.top_dim() - 2 || grid.any_periodic());
 }
-/// Whether bars are wanted that come from the graph that knows H0: of all others than three axes
-/// any bars.
+/// True if bars are wanted from the graph that gives H0; except for three axes, this holds for any
+/// bars.
 inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
-/// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
-/// Of one axis it has all.
+/// True if bars are wanted from the graph of voxels: H0, or the highest dimension if the image is
+/// reversed. For one axis it gives all bars.
 inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
   if (grid.top_dim() < 2) return true;
   return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);
@@ -34,25 +35,26 @@ inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
   return grid.is_t_construction() ? wants_lowest(grid, wanted) : wanted.max_dim > 0;
 }
 
-/// How many of two tasks a thread takes: both where a thread would cost more than it saves.
+/// Number of tasks, out of two, per thread: both if a second thread would cost more than it saves.
 inline std::size_t tasks_at_a_time(const GridFrame& frame) {
   constexpr std::uint32_t few = 1 << 16;  // voxels
   return frame.size() < few ? 2 : 1;
 }
 
-/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
-/// edges that kill from the order of `edges`, all critical ones.
+/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Removes the
+/// edges that kill from the order of `edges`, which holds all critical ones.
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
-/// The same on the dual, backwards: cells of the highest dimension joined by their facets, the
-/// youngest first; what never enters and what is outside has always been there. Takes the facets
-/// that give birth from the order of `facets`, all critical ones that kill nothing. Precondition:
-/// grid.top_dim() >= 2.
+/// The same on the dual graph, backwards: top cells joined by their facets, youngest first; cells
+/// that never enter and the outside were always there. Removes the facets that give birth from the
+/// order of `facets`, which holds all critical ones that kill nothing. Precondition: grid.top_dim()
+/// >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
 
-/// Both, of three axes, side by side if there are threads. @param top_sink receives the second.
+/// Both of them for three axes, in parallel if there are threads. @param top_sink receives the
+/// second.
 void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
                          const RunContext& context, PairSink& sink, PairSink& top_sink);
 

@@ -9,7 +9,7 @@
 namespace ph::cubical {
 
 /// The graph of voxels in the stars of up to three axes: roots are voxels without an older
-/// neighbour, bridges critical edges.
+/// neighbour, and bridges are critical edges.
 class VoxelGraph : public VoxelNodes<StarGrid> {
  public:
   using VoxelNodes::VoxelNodes;
@@ -20,11 +20,11 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  /// Calls `use(node, node)` for the arrows from some rows of voxels but those at the border; a
+  /// Calls `use(node, node)` for the arrows from some rows of voxels, except those at the border; a
   /// root may point to itself.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const {
-    // By the edges of a star: how far its arrow leads inside the grid.
+    // By the edges of a star: the offset of its arrow inside the grid.
     std::array<std::uint32_t, 1 << kEdgeCount> offset{};
     for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {
       const int e = star_tables(0).arrow(edges), axis = axis_of_edge(e);
@@ -34,7 +34,7 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
       const StarGrid::VoxelRow row = grid_.row(number);
       if (row.is_at_border) continue;
       const std::uint32_t end = row.first + grid_.extent(2) - 1;
-      // Of one axis a slab of a ring has the first voxel behind a ghost.
+      // With one axis, a slab of a ring has a ghost before the first voxel.
       const std::uint32_t begin = row.first + (grid_.is_wrapped(2, 1) ? 2 : 1);
       for (std::uint32_t v = begin; v < end; ++v)
         if (const std::uint32_t star = grid_.star(v); star != kAbsent)
@@ -46,13 +46,13 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   void for_each_root(std::uint32_t v, Use&& use) const {
     if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
   }
-  /// What an edge of the star of a voxel joins.
+  /// The two nodes that an edge of the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {
     return {v, across(v, static_cast<int>(number))};
   }
 
  private:
-  // Across an edge of the star of v.
+  // The node across an edge of the star of v.
   std::uint32_t across(std::uint32_t v, int edge) const {
     return or_outside(grid_.step_in_star(v, edge), kEdges[edge][axis_of_edge(edge)]);
   }

@@ -6,10 +6,10 @@
 
 namespace ph::cubical {
 
-/// The nodes of a graph of voxels, in any number of axes: voxels, and what has always been there:
-/// the outside, in two parts where one axis alone has ends, and voxels that never enter if what
-/// never enters is no cell.
-/// @tparam Grid a SlabFrame that says which voxels enter.
+/// The nodes of a graph of voxels for any number of axes: voxels, and nodes that were always there:
+/// the outside, in two parts if only one axis has ends, and voxels that never enter if these are
+/// not cells.
+/// @tparam Grid a SlabFrame that knows which voxels enter.
 template <class Grid>
 class VoxelNodes {
  public:
@@ -19,9 +19,9 @@ class VoxelNodes {
 
   std::size_t size() const { return std::size_t{grid_.size()} + 2; }
   std::uint32_t outside(int part) const { return grid_.size() + static_cast<std::uint32_t>(part); }
-  /// Whether anything but the outside has always been there.
+  /// True if nodes other than the outside were always there.
   bool has_outer_nodes() const { return grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for what has always been there and hangs together because a voxel never
+  /// Calls `use(node)` for the nodes that were always there and are connected because a voxel never
   /// enters.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const {
@@ -33,18 +33,18 @@ class VoxelNodes {
         if (u >= grid_.size() || !grid_.enters(u)) use(u);
       }
   }
-  /// The nodes that a slab shares with the one before it or after it: those of the ghost layer
-  /// and of the one beside it. @return the first one, and how many.
+  /// The nodes that a slab shares with the slab before it or after it: the nodes of the ghost layer
+  /// and of the layer beside it. @return the first node, and their number.
   std::array<std::uint32_t, 2> seam(bool after) const {
     const std::uint32_t count = 2 * grid_.layer_size();
     return {after ? grid_.size() - count : 0, count};
   }
-  /// The value of a node of a seam, in the order of the stars; nothing if it never counts.
+  /// The value of a node of a seam, in the order of the stars; nothing if the node never counts.
   std::optional<double> seam_value(std::uint32_t v) const {
     if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;
     return grid_.value(v);
   }
-  /// Whether the slab knows where a node of a seam leads.
+  /// True if the slab knows the arrow of a node of a seam.
   bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
   /// The node that a step leads to. @param u the voxel. @param sign of the step.
   std::uint32_t or_outside(std::uint32_t u, int sign) const {

@@ -15,24 +15,25 @@ namespace ph::cubical {
 using LayerVoxels = VoxelNodes<LayerGrid>;
 using LayerTops = TopNodes<LayerGrid, GridShape::kMostAxes>;
 
-// The same two graphs as those of stars, of any number of axes. There is no gradient on the cells
-// between: a bridge that only closes a circle around a voxel is left out, all others are looked at.
+// The same two graphs as those of stars, for any number of axes. There is no gradient on the cells
+// between them: bridges that only close a circle around a voxel are left out, and all others are
+// used.
 
-/// Voxels joined by edges. Memory: 4 bytes a voxel, and what roots and bridges take.
+/// Voxels joined by edges. Memory: 4 bytes per voxel, plus roots and bridges.
 class LayerVoxelGraph : public LayerVoxels {
  public:
   LayerVoxelGraph(const LayerGrid& grid, const RunContext& context);
 
   const StarLinks& links() const { return links_; }
   std::uint32_t arrow(std::uint32_t v) const { return links_.arrows[v]; }
-  /// What an edge of the star of a voxel joins.
+  /// The two nodes that an edge of the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
 
  private:
   StarLinks links_;
 };
 
-/// Top cells joined by facets. Memory: 4 bytes a voxel, and what roots and bridges take.
+/// Top cells joined by facets. Memory: 4 bytes per voxel, plus roots and bridges.
 class LayerTopGraph : public LayerTops {
  public:
   LayerTopGraph(const LayerGrid& grid, const RunContext& context);
@@ -42,14 +43,14 @@ class LayerTopGraph : public LayerTops {
   bool is_known_here(std::uint32_t node) const {
     return links_.arrows[node] != StarLinks::kUnknown;
   }
-  /// What a facet in the star of a voxel joins.
+  /// The two nodes that a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
 
  private:
   StarLinks links_;
 };
 
-/// All arrows are known already: nothing need be looked up beforehand.
+/// All arrows are known: no look-up is needed beforehand.
 template <class Graph>
 void follow_inner_arrows(const LayerGrid&, const Graph&, ArrowForest<Graph>&, const RunContext&) {}
 

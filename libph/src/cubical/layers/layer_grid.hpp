@@ -10,37 +10,39 @@
 
 namespace ph::cubical {
 
-/// A grid of more than three axes, or some of its layers, as its two graphs see it: voxels with
-/// their age. It has no cells between those of the graphs, so their number does not matter.
+/// A grid of more than three axes, or some of its layers, for its two graphs: voxels with their
+/// age. It has no cells between the cells of the graphs; their number is therefore irrelevant.
 class LayerGrid : public SlabFrame {
  public:
-  /// Precondition: can_hold(grid), more than three axes. Memory: 8 bytes a voxel.
+  /// Precondition: can_hold(grid), more than three axes. Memory: 8 bytes per voxel.
   LayerGrid(const CubicalImage& grid, const RunContext& context, const SlabPlace& slab = {});
 
-  /// In the order of the stars.
+  /// The value in the order of the stars.
   double value(std::uint32_t v) const { return values_[v]; }
   bool enters(std::uint32_t v) const {
     return (is_t_construction() ? -values_[v] : values_[v]) <= grid_.limit;
   }
   bool all_enter() const { return all_enter_; }
-  /// Whether a voxel is older than another one, which enters and is no ghost. What never enters is
-  /// younger than all in the V-construction and older in the other one, as its value says.
-  /// @param u kOutside: a voxel of the border, which is there in the T-construction alone.
+  /// True if a voxel is older than another one, which must enter and must not be a ghost. By its
+  /// value, a voxel that never enters is younger than all others in the V-construction, and older
+  /// in the T-construction.
+  /// @param u kOutside stands for a voxel of the border, which exists only in the T-construction.
   bool is_older(std::uint32_t u, std::uint32_t v) const {
     if (u == kOutside) return is_t_construction();
     return comes_before(u, v) ? values_[u] <= values_[v] : values_[u] < values_[v];
   }
 
-  /// Where the steps from a voxel lead.
+  /// The voxels to which steps from a voxel lead.
   class Steps {
    public:
     Steps(const LayerGrid& grid, std::uint32_t v);
-    /// A step from a voxel, or from one that lies beside it along other axes. @param up else down.
+    /// A step from the voxel, or from a voxel that lies beside it along other axes. @param up false
+    /// means down.
     std::uint32_t from(std::uint32_t u, int axis, bool up) const {
       const auto way = static_cast<std::size_t>(2 * axis + (up ? 1 : 0));
       return u == kOutside || (leaves_ >> way & 1U) != 0 ? kOutside : u + by_[way];
     }
-    /// Orders the steps along an axis as the cells that they lead to lie in the grid.
+    /// Orders the steps along an axis like the cells that they lead to in the grid.
     /// @param step 0 (none), 1 (down), 2 (up).
     unsigned order(int axis, unsigned step) const {
       constexpr std::array<unsigned, 3> plain{1, 0, 2}, wrapped{1, 3, 2};
@@ -48,9 +50,9 @@ class LayerGrid : public SlabFrame {
     }
 
    private:
-    // By the axis, twice, and one more upwards.
+    // At 2 * axis downwards, and at 2 * axis + 1 upwards.
     std::array<std::uint32_t, 2 * std::size_t{GridShape::kMostAxes}> by_{};  // modulo 2^32
-    unsigned leaves_ = 0;   // whether the step leads outside, as bits
+    unsigned leaves_ = 0;   // steps that lead outside, as bits
     unsigned wrapped_ = 0;  // axes along which the cell below comes last, as bits
   };
 

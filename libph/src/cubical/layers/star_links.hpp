@@ -9,8 +9,8 @@
 
 namespace ph::cubical {
 
-/// What the stars of some voxels say of a graph: the nodes of a star are joined with older ones, or
-/// with each other, by the bridges of the star, as far as these are in pairs of no length.
+/// The findings of the stars of some voxels about a graph: the bridges of a star join its nodes
+/// with older nodes, or with each other, as far as they are in pairs of length zero.
 struct StarLinks {
   struct Root {
     std::uint32_t voxel, node, number;
@@ -20,17 +20,17 @@ struct StarLinks {
   StarLinks(std::size_t nodes, std::pmr::memory_resource* memory)
       : arrows(nodes, kUnknown, memory), roots(memory), bridges(memory) {}
 
-  RawVector<std::uint32_t> arrows;  ///< by node; of a root itself
+  RawVector<std::uint32_t> arrows;  ///< by node; a root points to itself
   std::pmr::vector<Root> roots;     ///< in the order of the grid
-  CriticalCells bridges;            ///< those in no such pair that may join something
+  CriticalCells bridges;            ///< bridges in no such pair that may join components
 };
 
-/// What one thread finds, in the order of the grid.
+/// The findings of one thread, in the order of the grid.
 struct FoundLinks {
   FoundLinks(RawVector<std::uint32_t>& all_arrows, std::pmr::memory_resource* memory)
       : arrows(all_arrows), roots(memory), bridges(memory) {}
 
-  RawVector<std::uint32_t>& arrows;  ///< of all threads: each node is in one star
+  RawVector<std::uint32_t>& arrows;  ///< shared by all threads, because each node is in one star
   std::pmr::vector<StarLinks::Root> roots;
   std::pmr::vector<NumberedCell> bridges;
 };

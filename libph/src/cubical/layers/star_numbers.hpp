@@ -18,8 +18,8 @@ inline WideDirection widened(const Direction& direction) {
   return {direction[0], direction[1], direction[2]};
 }
 
-/// What the number of a cell in a star of more than three axes says: a digit an axis to base 3,
-/// that of the first one the lowest: 0 (none), 1 (down), 2 (up), as in StarShapes.
+/// The direction that the number of a cell in a star of more than three axes encodes: one digit per
+/// axis in base 3, lowest digit for the first axis: 0 (none), 1 (down), 2 (up), as in StarShapes.
 inline WideDirection direction_of_code(std::uint32_t code, int axes) {
   WideDirection direction{};
   for (int& step : std::span(direction).first(static_cast<std::size_t>(axes))) {
@@ -29,8 +29,8 @@ inline WideDirection direction_of_code(std::uint32_t code, int axes) {
   return direction;
 }
 
-/// The direction of a cell of some dimension by its number in a star; nothing if there is none of
-/// that number. @param axes of the grid.
+/// The direction of a cell of some dimension by its number in a star; nothing if that number does
+/// not exist. @param axes of the grid.
 inline std::optional<WideDirection> direction_in_star(int axes, int dim, std::uint32_t number) {
   WideDirection direction{};
   if (dim == 0) return number == 0 ? std::optional(direction) : std::nullopt;

@@ -11,12 +11,12 @@
 
 namespace ph::cubical {
 
-/// The top cells and facets of a voxel's star in the graph of top cells. One for each thread.
+/// The top cells and facets of a voxel's star in the graph of top cells. Each thread has one.
 ///
-/// The top cells around a voxel, in its star or not, are joined as the graph does it: by the facets
-/// of younger voxels first, then by those of the star, the youngest first. What is joined that way
-/// in a pair of no length becomes an arrow. A facet whose sides hang together by then joins nothing
-/// in the whole grid.
+/// The top cells around a voxel, in its star or not, are joined as in the graph: first by the
+/// facets of younger voxels, then by the facets of the star, youngest first. A join that is a pair
+/// of length zero becomes an arrow. A facet whose two sides are already connected at that point
+/// joins nothing in the entire grid.
 class TopStar {
  public:
   using Nodes = LayerTops;
@@ -27,14 +27,15 @@ class TopStar {
  private:
   struct Cell {
     std::uint16_t code;
-    std::uint32_t far;  // the voxel beyond all its steps
+    std::uint32_t far;  // the voxel at the end of all its steps
   };
   /// In the order of the grid.
   struct Placed {
     std::uint32_t place, which;
     friend auto operator<=>(const Placed&, const Placed&) = default;
   };
-  /// The top cells around a voxel are numbered by their sides: bit a is set above it along axis a.
+  /// The top cells around a voxel are numbered by their sides: bit a is set if the cell is above
+  /// the voxel along axis a.
   std::uint32_t code_of(std::uint32_t sides) const { return codes_[sides]; }
   std::uint32_t code_of_facet(std::uint32_t sides, int normal) const {
     const auto a = static_cast<std::size_t>(normal);
@@ -56,11 +57,12 @@ class TopStar {
   const int axes_;
   StarShapes shapes_;
   std::pmr::vector<std::uint16_t> codes_;  // by sides
-  std::pmr::vector<Cell> cells_;           // of the star: a cell after those with a step less
-  std::pmr::vector<std::uint8_t> is_in_;   // by code: whether it is in the star
+  // Cells of the star: each after the cells with one step less.
+  std::pmr::vector<Cell> cells_;
+  std::pmr::vector<std::uint8_t> is_in_;  // by code: 1 if it is in the star
   std::pmr::vector<Placed> facets_, tops_;
-  // By sides: trees of top cells around the voxel. Of a tree in the star alone the root is the
-  // elder, the youngest cell; any other one has been there before.
+  // By sides: trees of top cells around the voxel. The root of a tree that lies in the star is its
+  // elder, the youngest cell; any other tree was there before.
   std::pmr::vector<std::uint32_t> same_, age_;
   std::pmr::vector<std::uint8_t> is_new_;
 };

@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// The edges of a voxel's star in the graph of voxels. One for each thread.
+/// The edges of a voxel's star in the graph of voxels. Each thread has one.
 class VoxelStar {
  public:
   using Nodes = LayerVoxels;
@@ -27,8 +27,8 @@ class VoxelStar {
       found.roots.push_back({v, v, 0});
       return;
     }
-    // The first edge is in a pair with the voxel. Others join something unless their ends hang
-    // together already: over a square, for one.
+    // The first edge is paired with the voxel. Other edges join components unless their ends are
+    // already connected, for example over a square.
     found.arrows[v] = edges_[0].leads_to;
     if (count_ == 1) return;
     join_over_squares(v, steps);
@@ -43,7 +43,8 @@ class VoxelStar {
     std::uint32_t far, leads_to, number;
   };
 
-  // Those of the star, as they lie in the grid: downwards along the slowest axis first, and so on.
+  // The edges of the star in the order of the grid: downwards along the slowest axis first, and so
+  // on.
   void find_edges(std::uint32_t v, const LayerGrid::Steps& steps) {
     count_ = 0;
     std::uint32_t digit = 1;
@@ -77,7 +78,7 @@ class VoxelStar {
     while (same_[i] != i) i = same_[i];
     return i;
   }
-  // Returns whether they were apart.
+  // Returns true if they were separate.
   bool unite(std::size_t i, std::size_t j) {
     i = find(i);
     j = find(j);

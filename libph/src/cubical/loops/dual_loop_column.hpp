@@ -16,20 +16,20 @@
 
 namespace ph::cubical {
 
-/// An edge of the T-construction: a square of the stars' grid. The youngest one is the oldest
-/// square.
+/// An edge of the T-construction, which is a square of the stars' grid. The youngest edge is the
+/// oldest square.
 using DualEdge = LoopSquare;
 
 /// The edges of T that may give birth to loops: critical squares in no pair of the two graphs.
 class FreeDualEdges {
  public:
-  /// @param squares those in the order are in no pair; outlives this.
+  /// @param squares those in its order are in no pair; it must outlive this object.
   FreeDualEdges(const StarGrid& grid, const CriticalCells& squares,
                 std::pmr::memory_resource* memory)
       : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {
     for (const auto& place : squares.order) is_free_[place.cell] = true;
   }
-  /// The place of one among the critical squares. Precondition: it is critical.
+  /// The position of an edge among the critical squares. Precondition: it is critical.
   std::uint32_t number(const DualEdge& edge) const {
     const std::uint32_t v = grid_.here(edge.voxel());
     const int square = grid_.tables(v).square_order().at(edge.rank());
@@ -45,9 +45,8 @@ class FreeDualEdges {
   std::pmr::vector<bool> is_free_;  // by critical square
 };
 
-/// A chain of edges of T that is being reduced: what LoopColumn does, seen from the other side and
-/// backwards. The squares of T are the edges of the stars' grid, and its boundary is the coboundary
-/// there.
+/// A chain of edges of T under reduction: the dual of LoopColumn, in reverse order. The squares of
+/// T are the edges of the stars' grid, and the boundary in T is the coboundary there.
 template <Field K>
 class DualLoopColumn {
  public:
@@ -58,12 +57,12 @@ class DualLoopColumn {
                  const RunContext& context)
       : grid_(grid), free_(free), field_(field), context_(context), heap_(field, &context.memory) {}
 
-  /// Begins anew with the boundary of a square of T, an edge of the star of v.
+  /// Starts again with the boundary of a square of T, which is an edge of the star of v.
   void assign_boundary(std::uint32_t v, int edge) {
     heap_.clear();
     add_coboundary(v, edge, field_.from_int(1), -1);
   }
-  /// Begins anew with a chain.
+  /// Starts again with a chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -72,7 +71,7 @@ class DualLoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Takes out the youngest free edge; nothing if none is left.
+  /// Removes the youngest free edge; nothing if none is left.
   std::optional<Term> take_pivot() {
     while (const std::optional<Term> term = heap_.take()) {
       count(1);
@@ -90,7 +89,7 @@ class DualLoopColumn {
     }
     return std::nullopt;
   }
-  /// What it holds, each edge once, from young to old.
+  /// The terms that it holds, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
@@ -102,17 +101,17 @@ class DualLoopColumn {
     steps_ = 0;
     context_.poll();
   }
-  // The boundary of an edge is known but for its sign by where a square lies beside it.
+  // The place of a square beside an edge determines the boundary of the edge up to its sign.
   static int incidence(int edge, int square) {
     const int along = axis_of_edge(edge);
     int first = along == 0 ? 1 : 0;
     const bool beside_first = kSquares[square][first] != 0;
     const int axis = beside_first ? first : 3 - along - first;
-    // Axes of T run backwards: what lies below in the stars' grid is its upper end.
+    // Axes of T run backwards: the lower end in the stars' grid is the upper end in T.
     return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
   }
   // Adds `scale` times the squares around an edge of the star of v, without the square `skip` of
-  // that star if it is not negative.
+  // that star if `skip` is not negative.
   void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
     heap_.add([&](Terms& terms) {
       const int along = axis_of_edge(edge);
@@ -128,7 +127,7 @@ class DualLoopColumn {
       }
     });
   }
-  // Unless the square is an edge of T that joins components inside its star.
+  // Appends a square, unless it is an edge of T that joins components inside its star.
   void append(const StarCell& square, Element coefficient, Terms& terms) {
     const std::uint32_t v = square.voxel;
     const int number = number_of(square.direction);
@@ -142,7 +141,7 @@ class DualLoopColumn {
   const K& field_;
   const RunContext& context_;
   ChainHeap<K, Term, &DualEdge::follows> heap_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::size_t steps_ = 0;  // steps since the stop token was last polled
 };
 
 }  // namespace ph::cubical

@@ -10,7 +10,7 @@
 
 namespace ph::cubical {
 
-/// H1 of the T-construction of three axes, with cycles, by one thread. See DualLoopColumn.
+/// H1 of the T-construction for three axes, with cycles, on one thread. See DualLoopColumn.
 template <Field K>
 class DualLoopReduction {
   using Chain = DualLoopColumn<K>;
@@ -20,7 +20,8 @@ class DualLoopReduction {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param edges,squares of the stars' grid; those in the orders are in no pair of the two graphs.
+  /// @param edges,squares of the stars' grid; cells in their orders are in no pair of the two
+  /// graphs.
   DualLoopReduction(const StarGrid& grid, const CriticalCells& edges, const CriticalCells& squares,
                     const K& field, const RunContext& context)
       : grid_(grid),
@@ -41,8 +42,7 @@ class DualLoopReduction {
   }
 
   /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop of T that dies,
-  /// `on_surface(edge)` for each column that is zero, `on_loop(square)` for each loop that never
-  /// dies.
+  /// `on_surface(edge)` for each zero column, and `on_loop(square)` for each loop that never dies.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop) const {
     const auto columns = reduction_.columns();
@@ -64,7 +64,7 @@ class DualLoopReduction {
   }
 
  private:
-  // The oldest square of T, the youngest edge of the stars' grid, is the first column.
+  // The oldest square of T, which is the youngest edge of the stars' grid, is the first column.
   std::uint32_t cell_of_column(std::uint32_t i) const {
     return edges_.order[edges_.order.size() - 1 - i].cell;
   }

@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of edges that is being reduced. An edge that is paired inside its star is replaced by
-/// the rest of the boundary of its square when it comes up, so a chain is followed only as far down
-/// as its pivot; edges that kill a component are left out (no column has its pivot there). Not for
-/// several threads at once.
+/// A chain of edges under reduction. An edge that is paired inside its star is replaced, when it
+/// becomes the pivot, by the rest of its square's boundary; a chain is therefore expanded only down
+/// to its pivot. Edges that kill a component are left out, because no column has its pivot there.
+/// An object must not be shared by threads.
 /// @tparam Stars StarGrid, StoredStars, or PartStars.
 template <Field K, class Stars>
 class LoopColumn {
@@ -26,7 +26,7 @@ class LoopColumn {
   using Element = typename K::Element;
   using Term = Entry<LoopEdge, K>;
 
-  /// @param is_cycle whether it is to stay the cycle that it is when it is kept.
+  /// @param is_cycle true if the chain must stay a cycle when it is kept.
   LoopColumn(const Stars& grid, const K& field, const RunContext& context, bool is_cycle = false)
       : grid_(grid),
         field_(field),
@@ -34,12 +34,12 @@ class LoopColumn {
         is_cycle_(is_cycle),
         heap_(field, &context.memory) {}
 
-  /// Begins anew with the boundary of a square.
+  /// Starts again with the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
     heap_.clear();
     heap_.add([&](Terms& terms) { append_boundary(v, square, field_.from_int(1), -1, terms); });
   }
-  /// Begins anew with a chain.
+  /// Starts again with a chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -49,33 +49,33 @@ class LoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Takes out the youngest edge that is in no pair inside its star, or whose pair is not seen from
+  /// Removes the youngest edge that is in no pair inside its star, or whose pair is invisible from
   /// this part of the grid; nothing if none is left.
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// Replaces edges below a pivot that was taken out as if they had come up, the youngest ones
-  /// first, so many at most. A chain that leaves this part of the grid does so once then, and not
-  /// each time that an edge of another part comes up between two of its own.
-  /// @return the pivot; all that is left is older.
+  /// Replaces edges below a pivot that was removed as if they had come up, youngest first, up to a
+  /// maximum number. A chain then leaves this part of the grid once, and not each time that an edge
+  /// of another part comes up between two of its own.
+  /// @return the pivot; all other edges are older.
   std::optional<Term> follow(const Term& pivot, std::size_t most) {
     return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
   }
-  /// Before it is kept: as `follow`, if it is long. What it is added to need not do so again, and
-  /// much cancels out.
+  /// To be called before the chain is kept: does the same as `follow` if the chain is long. Columns
+  /// that it is added to then need not do so again, and many terms cancel.
   std::optional<Term> settle(const Term& pivot) {
     constexpr std::size_t few = 32;
     return is_cycle_ || size() < few ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
-  /// What it holds, each edge once, from young to old.
+  /// The terms that it holds, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Adds the rest of the boundary of the square that an edge is paired with inside its star, in
-  // place of the edge that was taken. @return whether that is seen, and there is one.
+  // Adds the rest of the boundary of the square that an edge is paired with inside its star,
+  // instead of the edge that was removed. @return true if the pair is visible and there is one.
   bool replace(const Term& term) {
     count(1);
     if (const Term* const next = heap_.next()) expect_star(*next);
@@ -114,18 +114,18 @@ class LoopColumn {
         LoopEdge::of(grid_.value(v), grid_.in_whole(v), tables.edge_order().rank(edge)),
         coefficient);
   }
-  // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
-  // not negative. Incidences as in ph/detail/complex/cubical_cells.hpp.
+  // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if `skip`
+  // is not negative. Incidences are as in ph/detail/complex/cubical_cells.hpp.
   void append_boundary(std::uint32_t v, int square, Element scale, int skip, Terms& terms) {
     const auto [first, second] = kEdgesOfSquare[square];
     const int a = axis_of_edge(first), b = axis_of_edge(second);
-    const int at = kSquares[square][a], bt = kSquares[square][b];  // where the square lies
+    const int at = kSquares[square][a], bt = kSquares[square][b];  // directions of the square
     if (second != skip) append_in_star(v, second, times(scale, -at), terms);
     if (first != skip) append_in_star(v, first, times(scale, bt), terms);
     const std::uint32_t over_a = grid_.step(v, a, at), over_b = grid_.step(v, b, bt);
     append_far(over_a, over_b, a, at, b, bt, times(scale, at), times(scale, -bt), terms);
   }
-  // The two edges of a square that do not touch its voxel.
+  // Appends the two edges of a square that do not touch its voxel.
   void append_far(std::uint32_t over_a, std::uint32_t over_b, int a, int at, int b, int bt,
                   Element along_b, Element along_a, Terms& terms) {
     std::uint32_t corner = StarGrid::kOutside;
@@ -136,7 +136,7 @@ class LoopColumn {
     append_between(over_a, corner, b, bt, along_b, terms);
     append_between(over_b, corner, a, at, along_a, terms);
   }
-  // The edge from u to w, one step along an axis; either may be no voxel.
+  // Appends the edge from u to w, one step along an axis; either may be no voxel.
   void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient,
                       Terms& terms) {
     Direction d{};
@@ -155,7 +155,7 @@ class LoopColumn {
   const RunContext& context_;
   const bool is_cycle_;
   ChainHeap<K, Term, &LoopEdge::precedes> heap_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::size_t steps_ = 0;  // steps since the stop token was last polled
 };
 
 }  // namespace ph::cubical

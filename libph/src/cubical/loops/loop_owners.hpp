@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// By free edge the column that has its pivot there; null: none has.
+/// By free edge: the column that has its pivot there, or null.
 /// @tparam Stars as in LoopColumn.
 template <class Stars, class Column>
 class LoopOwners {
@@ -19,12 +19,12 @@ class LoopOwners {
   LoopOwners(const Stars& grid, const FreeEdges& free, const RunContext& context)
       : grid_(grid), free_(free), owners_(free.count(), nullptr, &context.memory) {}
 
-  /// Where the column of a pivot is noted.
+  /// The entry for the column with that pivot.
   const Column*& of(const LoopEdge& pivot) {
     const std::uint32_t v = grid_.here(pivot.voxel());
     return owners_[free_.number(v, grid_.tables(v).edge_order().at(pivot.rank()))];
   }
-  /// Asks for what `of` will read.
+  /// Prefetches the data that `of` will read.
   void expect(const LoopEdge& pivot) const { free_.prefetch(grid_.here(pivot.voxel())); }
   StarCell cell(const LoopEdge& edge) const {
     const std::uint32_t v = grid_.here(edge.voxel());

@@ -15,9 +15,9 @@
 
 namespace ph::cubical {
 
-/// H1 of three axes: boundaries of the critical squares that are left, reduced to critical edges
-/// that are left. See ParallelReduction; where stars lie in a file that does not stay in memory,
-/// columns are taken along the grid instead of from old to young.
+/// H1 for three axes: reduces the boundaries of the remaining critical squares to the remaining
+/// critical edges. See ParallelReduction; if stars are in a file that does not stay in memory,
+/// columns are processed along the grid instead of from old to young.
 /// @tparam Stars StarGrid, whose stars have their marks, or StoredStars.
 template <Field K, class Stars>
 class LoopReduction {
@@ -28,7 +28,7 @@ class LoopReduction {
   using Term = typename Reduction::Term;
   using Column = typename Reduction::Column;
 
-  /// @param squares of which those in the order give birth to nothing.
+  /// @param squares those in its order give birth to nothing.
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
                 const K& field, const RunContext& context)
       : grid_(grid),
@@ -39,7 +39,7 @@ class LoopReduction {
         reduction_(squares.order.size(), field, context) {}
 
   void run(PairSink& sink) {
-    // Threads that come and go would take longer than a few columns do.
+    // Starting threads would take longer than a few columns.
     constexpr std::size_t few = 1024, piece = 64;
     reduce_all(squares_.order.size() < few ? few : piece, false);
     for_each_class([&](const StarCell& edge, const StarCell& square, const Term&,
@@ -48,18 +48,17 @@ class LoopReduction {
                    [&](const StarCell& edge) { sink.essential(1, edge); });
   }
 
-  /// Reduces by one thread, so that the cycles do not depend on who came first.
+  /// Reduces on one thread, which makes the cycles independent of thread order.
   void reduce_to_cycles() { reduce_all(std::max<std::size_t>(1, squares_.order.size()), true); }
   /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop that dies,
-  /// `on_surface(square)` for each column that is zero, `on_loop(edge)` for each loop that never
-  /// dies.
+  /// `on_surface(square)` for each zero column, and `on_loop(edge)` for each loop that never dies.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop);
 
  private:
   static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
 
-  // @param piece columns that a thread takes at a time.
+  // @param piece columns per thread at a time.
   void reduce_all(std::size_t piece, bool to_cycles) {
     reduction_.run(
         "loops", piece, [&] { return Chain(grid_, field_, context_, to_cycles); },
@@ -99,7 +98,7 @@ void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_su
       on_surface(square);
     }
   }
-  // Free edges that nobody has: loops that never die.
+  // Free edges without a column are loops that never die.
   owners_.for_each([&](const StarCell& edge, const Column* owner) {
     ticker.work();
     if (owner == nullptr) on_loop(edge);

@@ -14,23 +14,23 @@
 
 namespace ph::cubical {
 
-/// When an item is in a component that dies: if it is there at a value before that of the death, or
-/// before the death in the order of the filtration.
+/// The time at which an item belongs to a component that dies: at a value below the death's value,
+/// or before the death in the order of the filtration.
 enum class Before { value, order };
 
-/// Persistent components of one of the two graphs of a grid, as `ComponentPairing` has them, with
-/// what it forgets: into which component each of them goes. A component is called by the basin of
-/// the root that is its oldest.
+/// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with the
+/// data that `ComponentPairing` forgets: the component into which each one merges. A component is
+/// named by the basin of its oldest root.
 template <class Graph>
 class ComponentTree {
  public:
   struct Merge {
-    std::uint32_t bridge;      ///< in the cells of the bridges
+    std::uint32_t bridge;      ///< index into the cells of the bridges
     std::uint32_t dies, into;  ///< basins
   };
 
-  /// @param bridges critical cells; those in their order are looked at, and those that join
-  ///        something taken out of it.
+  /// @param bridges critical cells; those in their order are used, and those that join components
+  ///        are removed from it.
   ComponentTree(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
                 const RunContext& context)
       : grid_(grid),
@@ -45,19 +45,19 @@ class ComponentTree {
   const StarGrid& grid() const { return grid_; }
   const Graph& graph() const { return graph_; }
   std::uint32_t basin_count() const { return static_cast<std::uint32_t>(nodes_.size()); }
-  /// In which basin a node is. Several threads may ask.
+  /// The basin of a node. Several threads may call it.
   std::uint32_t basin_of(std::uint32_t node) { return basins_.basin_of(node); }
-  /// Whether the component has always been there.
+  /// True if the component was always there.
   bool is_outer(std::uint32_t basin) const { return basin < basins_.outer_count(); }
   bool dies(std::uint32_t basin) const { return nodes_[basin].parent != basin; }
-  /// Into which one a component goes; itself if into none.
+  /// The component into which a component merges, or itself if it never dies.
   std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
   double death_value(std::uint32_t basin) const { return nodes_[basin].death; }
-  /// In the order in which they happen.
+  /// The merges in their order in time.
   std::span<const Merge> merges() const { return merges_; }
 
-  /// The component that holds an item from where it enters on: the first one, from that of the
-  /// basin upwards, whose death does not come before.
+  /// The component that holds an item from its entry on: starting from the component of the basin
+  /// and going up, the first component whose death does not come before.
   std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
                        Before before) const {
     const auto holds = [&](std::uint32_t b) {
@@ -74,7 +74,7 @@ class ComponentTree {
     return basin;
   }
 
-  /// Precondition: the component has not always been there.
+  /// Precondition: the component was not always there.
   StarCell root_cell(std::uint32_t basin) {
     const auto [voxel, number] = basins_.roots()[basin - basins_.outer_count()];
     return {voxel, graph_.root_direction(number), grid_.value(voxel)};
@@ -92,8 +92,9 @@ class ComponentTree {
   struct Node {
     double death;
     std::uint32_t death_voxel;
-    std::uint32_t parent;       // itself if it never dies
-    std::uint32_t jump, depth;  // far up (Myers, An applicative random-access stack, 1983)
+    std::uint32_t parent;  // itself if the component never dies
+    // An ancestor far up (Myers, An applicative random-access stack, 1983).
+    std::uint32_t jump, depth;
   };
 
   void join(CriticalCells& bridges, const RunContext& context) {
@@ -126,7 +127,7 @@ class ComponentTree {
       order.erase(order.begin(), order.end() - static_cast<std::ptrdiff_t>(kept));
     else
       order.resize(kept);
-    for (std::size_t i = merges_.size(); i-- > 0;) {  // who dies later comes first
+    for (std::size_t i = merges_.size(); i-- > 0;) {  // components that die later come first
       Node& node = nodes_[merges_[i].dies];
       const Node &up = nodes_[node.parent], &far = nodes_[up.jump];
       node.depth = up.depth + 1;

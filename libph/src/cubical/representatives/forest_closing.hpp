@@ -14,9 +14,9 @@
 
 namespace ph::cubical {
 
-/// Closes chains of edges by the spanning forest of the components: arrows, and the bridges that
-/// join components. A cycle is known by its edges outside the forest, and edges of the forest are
-/// never its youngest ones, so what it has of them is added last.
+/// Closes chains of edges along the spanning forest of the components: arrows, and the bridges that
+/// join components. The edges outside the forest determine a cycle, and the youngest edge of a
+/// cycle is never in the forest; edges of the forest are therefore added last.
 template <class Graph, Field K>
 class ForestClosing {
  public:
@@ -32,7 +32,7 @@ class ForestClosing {
     hang_up();
   }
 
-  /// Makes a cycle of a chain whose edges outside the forest are those of a cycle. Each cell comes
+  /// Completes a chain whose edges outside the forest are those of a cycle. Each cell must occur
   /// once.
   void close(VoxelChain<K>& chain) {
     nodes_.clear();
@@ -52,9 +52,9 @@ class ForestClosing {
   struct Up {
     std::uint32_t merge, depth;
   };
-  // What the boundary of the chain is at a node, or in all at the nodes of a basin.
+  // The boundary of the chain at a node, or its sum over the nodes of a basin.
   struct AtNode {
-    std::uint64_t age;  // the younger, the higher
+    std::uint64_t age;  // larger if younger
     std::uint32_t owner, node;
     Element amount;
     auto place() const { return std::tuple(age, Graph::kBackwards ? ~owner : owner, node); }
@@ -65,7 +65,7 @@ class ForestClosing {
     auto place() const { return std::pair(depth, basin); }
   };
 
-  // Each basin but one of those that hang together gets a bridge that leads to it.
+  // In each set of connected basins, every basin except one gets a bridge that leads to it.
   void hang_up() {
     const auto merges = tree_.merges();
     std::pmr::vector<std::uint32_t> begin(up_.size() + 1, 0, &context_.memory);
@@ -115,7 +115,7 @@ class ForestClosing {
     add(lower, field_.negate(coefficient));
   }
 
-  // Takes out what comes last and adds up what is at the same place.
+  // Removes the last node and adds up all entries for it.
   template <class At>
   At take(std::pmr::vector<At>& heap) {
     const auto before = [](const At& a, const At& b) { return a.place() < b.place(); };
@@ -141,7 +141,7 @@ class ForestClosing {
                    [](const At& a, const At& b) { return a.place() < b.place(); });
   }
 
-  // From the deepest basin up, until the boundary in each is zero in all.
+  // Goes from the deepest basin up, until the boundary in each basin sums to zero.
   void cross_bridges(VoxelChain<K>& chain) {
     order(basins_);
     Ticker ticker(context_, {});
@@ -153,7 +153,7 @@ class ForestClosing {
       const StarCell bridge = tree_.bridge_cell(tree_.merges()[merge].bridge);
       const auto [lower, upper] = oriented_ends(tree_.graph(), bridge);
       const std::uint32_t below = tree_.basin_of(lower);
-      const bool goes_up = below == at.basin;  // along the edge
+      const bool goes_up = below == at.basin;  // in the direction of the edge
       const Element coefficient = goes_up ? at.amount : field_.negate(at.amount);
       chain.emplace_back(bridge, coefficient);
       add_boundary(bridge, coefficient);
@@ -162,14 +162,14 @@ class ForestClosing {
       sift(basins_);
     }
   }
-  // From the youngest node down, until nothing is left.
+  // Goes from the youngest node down, until nothing is left.
   void follow_arrows(VoxelChain<K>& chain) {
     order(nodes_);
     Ticker ticker(context_, {});
     while (!nodes_.empty()) {
       const AtNode at = take(nodes_);
       if (field_.is_zero(at.amount)) continue;
-      // Inside a star arrows know no order.
+      // Inside a star, arrows have no order.
       std::uint32_t node = at.node;
       while (const auto step = step_from(tree_.grid(), tree_.graph(), node)) {
         ticker.work();

@@ -12,9 +12,9 @@
 
 namespace ph::cubical {
 
-/// What the components of a tree consist of when they die. One set holds another or has nothing in
-/// common with it, so all of them are slices of one array: a component's own items, then the sets
-/// of those that went into it before.
+/// The content of the components of a tree at their deaths. Two sets are nested or disjoint; all
+/// sets are therefore slices of one array: the component's own items, followed by the sets of the
+/// components that merged into it before.
 class NestedSets {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -24,8 +24,8 @@ class NestedSets {
   };
 
   /// @param holder_of(item) the component that holds an item, see `ComponentTree::holder`, or
-  ///        kNone; asked by several threads.
-  /// @param name(item) what is kept of it.
+  ///        kNone; called by several threads.
+  /// @param name(item) the number stored for it.
   template <class Graph, class HolderOf, class Name>
   NestedSets(const ComponentTree<Graph>& tree, Before before, std::uint32_t items,
              HolderOf&& holder_of, Name&& name, const RunContext& context)
@@ -36,7 +36,7 @@ class NestedSets {
     for_each_piece("sets", items, piece, context, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) {
         std::uint32_t holder = holder_of(static_cast<std::uint32_t>(i));
-        // What has always been there and never dies belongs to no bar.
+        // A component that was always there and never dies belongs to no bar.
         if (holder != kNone && tree.is_outer(holder) && !tree.dies(holder)) holder = kNone;
         component_of_[i] = holder;
       }
@@ -63,14 +63,14 @@ class NestedSets {
     const auto [begin, end] = ranges_[basin];
     return std::span(items_).subspan(begin, end - begin);
   }
-  /// Whether a set holds an item. Not to be asked after `forget_components`.
+  /// True if a set holds an item. Must not be called after `forget_components`.
   bool contains(std::uint32_t basin, std::uint32_t item) const {
     const std::uint32_t holder = component_of_[item];
     if (holder == kNone) return false;
-    const std::size_t place = ranges_[holder].begin;  // of its first own item
+    const std::size_t place = ranges_[holder].begin;  // position of its first own item
     return place >= ranges_[basin].begin && place < ranges_[basin].end;
   }
-  /// Gives their memory back.
+  /// Frees the memory of the components.
   void forget_components() {
     RawVector<std::uint32_t>(component_of_.get_allocator()).swap(component_of_);
   }
@@ -83,7 +83,7 @@ class NestedSets {
     std::pmr::vector<std::uint32_t> above(ranges_.size(), kNone, &context.memory);
     for (std::size_t i = merges.size(); i-- > 0;) {
       const auto [bridge, dies, into] = merges[i];
-      // Those that die at one value have nothing to do with each other before it.
+      // Components that die at the same value are unrelated before it.
       const bool together = before == Before::value && tree.dies(into) &&
                             tree.death_value(into) == tree.death_value(dies);
       above[dies] = together ? above[into] : into;

@@ -18,11 +18,11 @@
 namespace ph::cubical {
 namespace {
 
-/// Whether its nodes are the top cells.
+/// True if its nodes are the top cells.
 template <class Graph>
 constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
 
-/// The components of a line as V has them, by voxels; in one dimension they are those of T.
+/// The components of a line in V, by voxels; in one dimension they equal the components of T.
 class LineComponents {
  public:
   LineComponents(const CubicalImage& image, const RunContext& context)
@@ -39,7 +39,7 @@ class LineComponents {
             [](std::uint32_t v) { return v; }, context) {}
 
   const NestedSets& sets() const { return sets_; }
-  /// The component of which a voxel is the oldest one.
+  /// The component whose oldest voxel this is.
   std::uint32_t born_at(std::uint32_t voxel) { return tree_.basin_of(voxel); }
 
  private:
@@ -84,7 +84,8 @@ class Representing {
     const bool turned_around = grid_.is_t_construction();
     const VoxelGraph voxels(grid_);
     if (top < 2) {
-      // The only graph is that of the voxels: of T it is the dual one, with the homology of both.
+      // The only graph is the graph of the voxels: for T it is the dual one, which has the homology
+      // of both.
       ComponentTree<VoxelGraph> tree(grid_, voxels, edges, context_);
       if (turned_around) return add_line(tree, edges);
       add_components(tree);
@@ -129,7 +130,7 @@ class Representing {
     }
   }
 
-  // Pairs as `pair_vertices_with_edges` and `pair_facets_with_top_cells` give them.
+  // The pairs of `pair_vertices_with_edges` and `pair_facets_with_top_cells`.
   template <class Graph>
   void add_merge(ComponentTree<Graph>& tree, const ComponentTree<Graph>::Merge& merge,
                  const Fill& fill) {
@@ -149,7 +150,7 @@ class Representing {
         pairs_.essential(kIsDual<Graph> ? grid_.top_dim() : 0, tree.root_cell(b), fill_of(b));
   }
 
-  // H0: of V by the voxels, of T by the top cells of the stars' grid, its vertices.
+  // H0: for V by the voxels, for T by the top cells of the stars' grid, which are its vertices.
   template <class Graph>
   void add_components(ComponentTree<Graph>& tree) {
     std::optional<NestedSets> sets;
@@ -172,13 +173,13 @@ class Representing {
     });
   }
 
-  // The highest dimension less one, and the highest: by the dual graph.
+  // The second highest and the highest dimension, by the dual graph.
   template <class Graph>
   void add_hollows(ComponentTree<Graph>&& tree) {
     std::optional<NestedSets> sets;
     std::size_t stored = 0;
     if (pairs_.wants_hollows()) stored = make_sets(tree, true, sets);
-    // What separates is asked for by few bars if sets are wanted.
+    // If sets are wanted, few bars need a separating cycle.
     std::unique_ptr<SeparatingCycles<Graph, K>> cycles;
     const auto separating = [&]() -> SeparatingCycles<Graph, K>& {
       if (!cycles) cycles = std::make_unique<SeparatingCycles<Graph, K>>(tree, field_, context_);
@@ -189,7 +190,7 @@ class Representing {
       ticker.tick();
       add_merge(tree, merge, [&](Rep& rep) {
         if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
-        // No voxel lies towards an end where all that are there are in the way.
+        // All existing voxels are in the way, and none lies towards an end.
         if (rep.voxels.begin != rep.voxels.end) return;
         separating().append(merge.dies, rep.chain);
       });
@@ -199,7 +200,7 @@ class Representing {
     });
   }
 
-  // Sets of voxels by value. @return where they begin among all that are kept.
+  // Stores sets of voxels by value. @return the position of the first among all places kept.
   template <class Graph>
   std::size_t make_sets(ComponentTree<Graph>& tree, bool with_absent,
                         std::optional<NestedSets>& sets) {
@@ -207,7 +208,7 @@ class Representing {
     for (int a = 0; a < 3; ++a) up[a] = grid_.has_axis(a) ? 1 : 0;
     const auto holder_of = [&](std::uint32_t v) {
       if (!with_absent && !grid_.enters(v)) return NestedSets::kNone;
-      // All top cells around a voxel are together as soon as it is there.
+      // All top cells around a voxel are joined as soon as it enters.
       std::uint32_t node = v;
       if constexpr (kIsDual<Graph>) node = tree.graph().node(v, up);
       return tree.holder(tree.basin_of(node), grid_.value(v), v, Before::value);
@@ -223,8 +224,8 @@ class Representing {
     rep.voxels = {stored + begin, stored + end};
   }
 
-  // T of one axis, or of none: the graph of the voxels is that of the hollows, which are what lies
-  // between components. The components as voxels are those of V.
+  // T with one axis or none: the graph of the voxels is the graph of the hollows, which lie between
+  // components. The components, as sets of voxels, are those of V.
   void add_line(ComponentTree<VoxelGraph>& tree, const CriticalCells& edges) {
     SeparatingCycles<VoxelGraph, K> cycles(tree, field_, context_);
     std::optional<LineComponents> line;
@@ -244,7 +245,7 @@ class Representing {
         cycles.append_all(b, rep.chain);
       };
     });
-    // Around a periodic axis.
+    // The class around a periodic axis.
     for (const auto& [value, cell] : edges.order) {
       const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
       pairs_.essential(1, edge, [&](Rep& rep) {
@@ -254,7 +255,7 @@ class Representing {
     }
   }
 
-  // Classes around periodic axes, if there are two axes at most: edges that are left.
+  // Classes around periodic axes, for at most two axes: the remaining edges.
   template <class Graph>
   void close_left(ComponentTree<Graph>& tree, const CriticalCells& edges) {
     if (edges.order.empty() || wants_no_loops_) return;
@@ -268,7 +269,7 @@ class Representing {
     }
   }
 
-  // H1 of V, and what is left of H2.
+  // H1 of V, and the rest of H2.
   void add_loops(ComponentTree<VoxelGraph>& tree, const CriticalCells& squares) {
     using Reduction = LoopReduction<K, StarGrid>;
     const FreeEdges free = free_edges(grid_, context_);

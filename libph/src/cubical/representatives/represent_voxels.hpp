@@ -11,34 +11,34 @@
 
 namespace ph::cubical {
 
-/// What represents a bar: a chain, or a set of voxels.
+/// The representative of a bar: a chain or a set of voxels.
 struct RepresentedBar {
-  std::span<const Index> numbers;  ///< of the cells of the chain, one after another
+  std::span<const Index> numbers;  ///< numbers of the cells of the chain, one after another
   std::span<const std::int64_t> coefficients;
-  VoxelRange voxels;                                ///< of what was stored
-  std::span<const Index> birth_voxel, death_voxel;  ///< coordinates; none for a death that never is
+  VoxelRange voxels;                                ///< range among the stored voxels
+  std::span<const Index> birth_voxel, death_voxel;  ///< coordinates; empty if there is no death
 };
 
-/// Receives bars and what represents them, from one thread.
+/// Receives bars and their representatives, from one thread.
 struct RepresentativeSink {
-  /// A bar with its cells, in doubled grid coordinates of the input. @return whether it is kept.
+  /// Adds a bar with its cells, in doubled grid coordinates of the input. @return true if it is
+  /// kept.
   std::function<bool(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
       add;
-  /// What represents the bar kept last.
+  /// Gives the last bar kept its representative.
   std::function<void(const RepresentedBar&)> represent;
-  /// Keeps places of voxels. @return where they begin among all that are kept.
+  /// Stores places of voxels. @return the position of the first among all places kept.
   std::function<std::size_t(std::span<const std::uint32_t>)> store;
 };
 
-/// Whether `represent_voxels` can: if at most three axes have more than one voxel (T: or are not
-/// periodic), and there are fewer than about 2^31 voxels, and not none.
+/// True if `represent_voxels` can do it: at most three axes have more than one voxel (T: or are not
+/// periodic), and there are some voxels, fewer than about 2^31.
 bool can_represent_voxels(const CubicalImage& grid);
 
-/// The bars that `pair_voxels` gives, each with a cycle or, if `kind` is voxels, those of H0 and of
-/// the highest dimension less one with a set of voxels. Precondition: it can, and kind is
-/// cycles or voxels.
-/// Time: three to five times that of `pair_voxels`. Memory: 20 bytes a voxel, what critical cells
-/// take, and what is put out. Not in slabs: the image must fit.
+/// The bars of `pair_voxels`, each with a cycle; if `kind` is voxels, bars of H0 and of the second
+/// highest dimension have a set of voxels instead. Precondition: `can_represent_voxels`, and kind
+/// is cycles or voxels. Time: three to five times the time of `pair_voxels`. Memory: 20 bytes per
+/// voxel, the critical cells and the output. It does not work in slabs: the image must fit.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);

@@ -10,16 +10,16 @@
 
 namespace ph::cubical {
 
-/// What represents a bar, to be filled in by who knows.
+/// The representative of a bar, filled in by the code that finds the bar.
 template <Field K>
 struct Representation {
-  bool as_set = false;  ///< a set of voxels is wanted; who knows of none fills in the chain
+  bool as_set = false;  ///< a set of voxels is wanted; code that has none fills in the chain
   VoxelChain<K> chain;  ///< cells of the stars' grid, each once
   VoxelRange voxels;
 };
 
-/// Turns pairs of the stars' grid into bars of the input, as PairSink does, and asks for what
-/// represents those that are kept.
+/// Turns pairs of cells of the stars' grid into bars of the input, as PairSink does, and asks for
+/// the representatives of the bars that are kept.
 template <Field K>
 class RepresentedPairs {
  public:
@@ -37,10 +37,10 @@ class RepresentedPairs {
   RepresentedPairs& operator=(const RepresentedPairs&) = delete;
 
   bool wants_sets() const { return kind_ == Representatives::voxels; }
-  /// Whether hollows are wanted as sets. Where an axis of one voxel closes up, whatever surrounds
-  /// something goes around that axis, too: a set would not say so.
+  /// True if hollows are wanted as sets. If an axis with one voxel closes up, a surface around
+  /// something also goes around that axis, which a set could not express.
   bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }
-  /// See PairSink. @param fill is called for a set, for a chain, for both or never.
+  /// See PairSink. @param fill called for a set, for a chain, for both or never.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
           fill);
@@ -60,7 +60,7 @@ class RepresentedPairs {
     death_voxel_.reset();
     if (death != nullptr) death_voxel_ = death->voxel;
   }
-  // Copies around axes of one voxel come in the order of their bits.
+  // Copies around axes with one voxel come in the order of their bits.
   void add(const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
     const unsigned loops = copies_++;
     if (!sink_.add(bar, birth, death)) return;
@@ -91,10 +91,10 @@ class RepresentedPairs {
     }
     sink_.represent(bar_of);
   }
-  // Whether going around axes of one voxel changes the sign of a cell: by the product rule each
-  // axis that the cell spans behind one of them does.
+  // True if going around axes with one voxel changes the sign of a cell: by the product rule, each
+  // axis after one of them that the cell spans changes it.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
-    bool result = false, is_odd = false;  // the number of axes gone around so far
+    bool result = false, is_odd = false;  // parity of the number of axes gone around
     std::size_t i = grid_.shape().loop_count();
     for (std::size_t k = 0; k < cell.size(); ++k) {
       if (i > 0 && grid_.shape().loop_axis(i - 1) == k) {
@@ -118,7 +118,7 @@ class RepresentedPairs {
                              std::span<const Index> death) { add(bar, birth, death); },
                       {},
                       {}};
-  MemoryClaim claim_;  // of the longest chain, and of the same in numbers
+  MemoryClaim claim_;  // for the longest chain, and for its numbers
   PairSink pairs_;
   const Fill* fill_ = nullptr;
   unsigned copies_ = 0;

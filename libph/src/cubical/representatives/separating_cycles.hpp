@@ -10,23 +10,24 @@
 
 namespace ph::cubical {
 
-/// The top cells of the input as one of the two graphs has them, with their facets.
+/// The top cells of the input as nodes of one of the two graphs, with their facets.
 class InputTopCells {
  public:
   explicit InputTopCells(const StarGrid& grid) : grid_(grid) {
     for (int a = 0; a < 3; ++a)
       if (grid.has_axis(a)) up_[a] = 1;
   }
-  /// Top cells are voxels, or lie before voxels but for those at the end of an axis.
+  /// Top cells are voxels, or lie before voxels except at the end of an axis.
   std::uint32_t count() const { return grid_.size(); }
 
-  /// The component that holds a top cell from its place in the order on; kNone for what is none.
+  /// The component that holds a top cell from its entry in the order on; kNone if the node is not a
+  /// top cell.
   std::uint32_t holder(ComponentTree<TopGraph>& tree, std::uint32_t node) const {
     for (int a = 0; a < 3; ++a)
       if (up_[a] != 0 && grid_.step(node, a, 1) == StarGrid::kOutside) return NestedSets::kNone;
     const std::uint32_t basin = tree.basin_of(node);
     const StarCell top = tree.graph().cell(node);
-    // What never enters has no place in the order, and has always been there.
+    // A cell that never enters has no place in the order, and was always there.
     if (top.direction == Direction{}) return basin;
     return tree.holder(basin, grid_.value(top.voxel), top.voxel, Before::order);
   }
@@ -34,7 +35,7 @@ class InputTopCells {
     return tree.holder(tree.basin_of(node), grid_.value(node), node, Before::order);
   }
 
-  /// Calls `use(facet, the node beyond it, whether the facet has the sign of the cell)`.
+  /// Calls `use(facet, the node beyond it, true if the facet has the sign of the cell)`.
   template <class Use>
   void for_each_facet(const TopGraph& graph, std::uint32_t node, Use&& use) const {
     for (int a = 0; a < 3; ++a) {
@@ -64,8 +65,8 @@ class InputTopCells {
   Direction up_{};
 };
 
-/// Cycles of the highest dimension less one: what separates a component of the dual graph from all
-/// that is not in it, when it dies.
+/// Cycles of the second highest dimension: when a component of the dual graph dies, its cycle
+/// separates it from everything outside it.
 template <class Graph, Field K>
 class SeparatingCycles {
  public:
@@ -91,7 +92,7 @@ class SeparatingCycles {
                             });
     }
     if (basin != kUpperOutside) return;
-    // It has a part of the outside in it, and all that borders on that.
+    // It contains a part of the outside, and everything that borders on that part.
     for (std::uint32_t node = 0; node < cells_.count(); ++node) {
       ticker.work();
       if (cells_.holder(tree_, node) == NestedSets::kNone || sets_.contains(basin, node)) continue;

@@ -13,10 +13,10 @@ namespace ph::cubical {
 
 /// Surfaces that go around three periodic axes and never die.
 ///
-/// Top cells that are joined by facets younger than the birth get a place each in the space that
-/// covers the torus, as far as paths lead. A linear function of how often one goes around each axis
-/// that vanishes on all closed paths, but not on the one that the birth closes, jumps at the birth
-/// and at older facets only: the jumps are a cycle.
+/// Each top cell that facets younger than the birth connect gets a place in the space that covers
+/// the torus, as far as paths lead. Consider a linear function of the numbers of turns around each
+/// axis that vanishes on all closed paths, except for the path that the birth closes: it jumps only
+/// at the birth and at older facets, and its jumps are a cycle.
 template <Field K>
 class TorusSurfaces {
  public:
@@ -48,12 +48,12 @@ class TorusSurfaces {
   using Element = typename K::Element;
   using Turns = std::array<std::int32_t, 3>;
   using Function = std::array<Element, 3>;
-  // From a top cell over one of its facets.
+  // A step from a top cell across one of its facets.
   struct Step {
     int axis;
-    std::uint32_t voxel;  // of the facet
+    std::uint32_t voxel;  // voxel of the facet
     Direction facet;
-    int turn;  // around the axis
+    int turn;  // change of the number of turns around the axis
   };
 
   Step step(std::uint32_t node, std::uint32_t to, int axis, int sign) const {
@@ -68,7 +68,7 @@ class TorusSurfaces {
     d[axis] = 0;
     return {axis, sign > 0 ? to : node, d, turn};
   }
-  // Upwards along each axis.
+  // Steps upwards along each axis.
   template <class Use>
   void for_each_crossing(Use&& use) const {
     Ticker ticker(context_, {});
@@ -80,7 +80,7 @@ class TorusSurfaces {
       }
     }
   }
-  // Whether the cycle must not have a facet: it is younger, or never enters.
+  // True if the cycle must not contain a facet: it is younger, or never enters.
   bool is_open(const StarCell& birth, const Step& step) const {
     const auto facet = in_its_star(grid_, step.voxel, step.facet);
     if (!facet) return true;
@@ -102,7 +102,7 @@ class TorusSurfaces {
     return sum;
   }
 
-  // Those that vanish on all closed paths; a basis.
+  // A basis of the functions that vanish on all closed paths.
   std::vector<Function> functions_of(const StarCell& birth, RawVector<Turns>& at) const {
     const Element zero = field_.from_int(0), one = field_.from_int(1);
     std::vector<Function> functions{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
@@ -136,7 +136,7 @@ class TorusSurfaces {
     }
     return functions;
   }
-  // Leaves those that vanish on a path.
+  // Keeps the functions that vanish on a path.
   void restrict(std::vector<Function>& functions, const Turns& path) const {
     if (path == Turns{}) return;
     const auto used = std::ranges::find_if(

@@ -18,28 +18,28 @@
 
 namespace ph::cubical {
 
-/// What parts of a grid tell each other while they reduce columns, as bytes: stars of the layers
-/// that are ghosts of the other one, and columns whose pivots are the other's.
+/// The messages, as bytes, that parts of a grid exchange while they reduce columns: stars of the
+/// layers that are ghosts of the other part, and columns whose pivots belong to the other part.
 template <Field K>
 class LoopMessage {
  public:
   using Term = Entry<LoopEdge, K>;
 
   struct Header {
-    std::uint64_t image;  ///< tells images, fields and options from others
+    std::uint64_t image;  ///< distinguishes images, fields and options
     std::int32_t from, to;
-    std::uint64_t number;  ///< among those from the one to the other
+    std::uint64_t number;  ///< among the messages from one part to the other
   };
   struct Layer {
     std::uint64_t layer;  ///< of the stars' grid
     std::vector<std::uint32_t> stars;
   };
   struct Column {
-    LoopSquare square;             ///< whose boundary it was
+    LoopSquare square;             ///< the square whose boundary it was
     std::pmr::vector<Term> terms;  ///< from young to old
   };
 
-  /// What is to be sent to one part.
+  /// A message to one part under construction.
   class Writer {
    public:
     bool is_empty() const { return layers_ == 0 && columns_ == 0; }
@@ -55,7 +55,7 @@ class LoopMessage {
       put(pivot);
       for (const Term& term : below) put(term);
     }
-    /// What has been added since the last call.
+    /// The bytes added since the last call.
     std::vector<std::byte> take(std::uint64_t image, std::int32_t from, std::int32_t to) {
       ByteWriter all;
       all.put(image);
@@ -90,8 +90,8 @@ class LoopMessage {
   std::vector<Layer> layers;
   std::vector<Column> columns;
 
-  /// @param voxels of the whole grid. @param memory for columns. @throws Error (bad_data) on what
-  /// Writer has not made, or for another part.
+  /// @param voxels number of voxels of the entire grid. @param memory for columns. @throws Error
+  /// (bad_data) on bytes that Writer did not make, or that are for another part.
   LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
               int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {

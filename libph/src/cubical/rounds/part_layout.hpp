@@ -9,19 +9,20 @@
 
 namespace ph::cubical {
 
-/// Which layers of a grid each of its parts has, as the input counts them: those that it is told,
-/// else n · p / parts up to n · (p + 1) / parts of the n of the slowest axis. The stars' grid of
-/// the T-construction counts from the other end: so do all layers and voxels here.
+/// The layers of a grid that each of its parts has, as the input counts them: the given layers,
+/// otherwise n · p / parts up to n · (p + 1) / parts of the n layers of the slowest axis. The
+/// stars' grid of the T-construction counts from the other end, and so do all layers and voxels
+/// here.
 class PartLayout {
  public:
-  /// Layers that follow each other.
+  /// Consecutive layers.
   struct Layers {
     std::uint64_t begin, end;
     std::uint64_t count() const { return end - begin; }
   };
 
   /// Precondition: 0 < parts <= layers of the slowest axis.
-  /// @param first_layers none, or those of the parts, ascending from 0 on.
+  /// @param first_layers empty, or the first layers of the parts, ascending from 0.
   PartLayout(const GridShape& grid, int parts, const std::vector<Index>& first_layers = {})
       : layers_(grid.axis(grid.layer_axis()).extent),
         layer_size_(grid.axis(grid.layer_axis()).stride),
@@ -32,7 +33,7 @@ class PartLayout {
 
   int parts() const { return static_cast<int>(parts_); }
   std::uint64_t layer_size() const { return layer_size_; }
-  /// Voxels of the whole grid.
+  /// Voxels of the entire grid.
   std::uint64_t size() const { return layers_ * layer_size_; }
   Layers own(int part) const {
     const auto cut = [&](std::uint64_t i) {
@@ -42,7 +43,7 @@ class PartLayout {
     const auto i = static_cast<std::uint64_t>(part);
     return turned({cut(i), cut(i + 1)});
   }
-  /// The part that has a layer.
+  /// The part that contains a layer.
   int part_of(std::uint64_t layer) const {
     const std::uint64_t of_input = from_end_ ? layers_ - 1 - layer : layer;
     if (first_layers_.empty()) return static_cast<int>(((of_input + 1) * parts_ - 1) / layers_);
@@ -50,7 +51,7 @@ class PartLayout {
                             first_layers_.begin()) -
            1;
   }
-  /// Layers of the stars' grid as the input counts them, and the other way around.
+  /// Converts layers of the stars' grid to layers of the input, and the reverse.
   Layers turned(const Layers& layers) const {
     return from_end_ ? Layers{layers_ - layers.end, layers_ - layers.begin} : layers;
   }
@@ -62,11 +63,12 @@ class PartLayout {
     place.is_in_ring = is_ring_;
     return place;
   }
-  /// The first voxel of a part, ghosts included (modulo 2^64).
+  /// The first voxel of a part, including ghosts (modulo 2^64).
   std::uint64_t first_voxel(int part) const {
     return (own(part).begin - (place(part).has_ghost_before() ? 1 : 0)) * layer_size_;
   }
-  /// The layers that are ghosts of a part; in a ring of two layers both may be one.
+  /// The layers that are ghosts of a part; in a ring of two layers, both ghosts may be the same
+  /// layer.
   std::vector<std::uint64_t> ghosts(int part) const {
     std::vector<std::uint64_t> layers;
     if (place(part).has_ghost_before()) layers.push_back((own(part).begin + layers_ - 1) % layers_);

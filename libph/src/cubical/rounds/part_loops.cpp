@@ -161,8 +161,8 @@ void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
 template <Field K>
 bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
   const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
-  // What it sees costs about as much as to send the rest; no column may take for ever. An edge that
-  // was not seen to be in a pair may make way for one that is here.
+  // Expanding visible cells costs about as much as sending the rest, but no column may take
+  // forever. An edge whose pair was invisible may be replaced by an edge of this part.
   constexpr std::size_t few = 64, times = 4;
   if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));
   if (is_here()) return false;
@@ -190,7 +190,7 @@ void PartLoops<K>::work(std::size_t most) {
     queue_.clear();
     next_ = 0;
   }
-  // Threads that come and go would take longer than a few columns do.
+  // Starting threads would take longer than a few columns.
   constexpr std::size_t few = 1024, piece = 64;
   reduction_->run_some(
       std::move(round), "loops", count < few ? few : piece,

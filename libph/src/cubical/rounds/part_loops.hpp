@@ -20,9 +20,10 @@
 
 namespace ph::cubical {
 
-/// H1 of three axes in one part of a grid. What LoopReduction does, but that a column is where its
-/// pivot's star is: if the pivot turns out to be in another part, the column goes there. So columns
-/// are added here only, and nobody waits for an answer. See docs/explanation/engines/slabs.md.
+/// H1 for three axes in one part of a grid. Works like LoopReduction, except that a column belongs
+/// to the part with its pivot's star: if the pivot turns out to be in another part, the column is
+/// sent there. Columns are therefore only added locally, and no part waits for an answer. See
+/// docs/explanation/engines/slabs.md.
 template <Field K>
 class PartLoops {
   using Chain = LoopColumn<K, PartStars>;
@@ -39,31 +40,31 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param stars of the part; they and the whole outlive this.
-  /// @param image tells images, fields and options from others.
+  /// @param stars of the part; they and the entire grid must outlive this object.
+  /// @param image distinguishes images, fields and options.
   PartLoops(PartStars& stars, const GridShape& whole, const PartLayout& layout, int part,
             std::uint64_t image, const K& field, const RunContext& context);
   PartLoops(const PartLoops&) = delete;
   PartLoops& operator=(const PartLoops&) = delete;
 
-  /// @param free the part's cells that neither graph takes.
-  /// @throws Error (bad_data) if they are not that.
+  /// @param free the part's cells that neither graph pairs.
+  /// @throws Error (bad_data) if they are not such cells.
   void begin(FreeCells free);
-  /// Takes in what another part has sent; also before it begins.
-  /// @throws Error (bad_data) if that is damaged, or has come before.
+  /// Takes in a message from another part, which may come before `begin`.
+  /// @throws Error (bad_data) if the message is damaged or has come before.
   void receive(std::span<const std::byte> message);
-  /// Whether there is nothing to do until something is received.
+  /// True if there is nothing to do until a message is received.
   bool is_idle() const { return !is_ready() || next_ == queue_.size(); }
   /// Reduces some columns as far as this part can.
   void work(std::size_t most);
-  /// Calls `use(part, bytes)` with what is to be sent since the last call.
+  /// Calls `use(part, bytes)` with the messages to send since the last call.
   template <class Use>
   void send(Use&& use) {
     for (auto& [to, writer] : outbox_)
       if (!writer.is_empty()) use(to, writer.take(image_, part_, to));
   }
-  /// Hands over the pairs whose edges are here, and the classes that never die of what is here.
-  /// Precondition: all parts are idle, and all that was sent has been received.
+  /// Passes on the pairs whose edges are in this part, and the classes of this part that never die.
+  /// Precondition: all parts are idle, and every message sent has been received.
   void finish(PairSink& pairs) const;
 
   std::uint64_t columns_sent = 0, columns_received = 0;
@@ -86,21 +87,22 @@ class PartLoops {
   const K field_;
   const RunContext& context_;
   PartStars& grid_;
-  std::size_t layers_missing_ = 0;             // ghosts that it has not heard of
-  std::vector<std::vector<std::byte>> early_;  // came before it began
+  std::size_t layers_missing_ = 0;             // ghost layers that have not arrived yet
+  std::vector<std::vector<std::byte>> early_;  // messages that came before it began
   std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message
 
   FreeEdges free_;
-  std::pmr::vector<LoopSquare> squares_;  // of columns; its own come first, from old to young
+  // Squares of columns; its own come first, from old to young.
+  std::pmr::vector<LoopSquare> squares_;
   std::size_t own_ = 0;
-  // What came of the others, until they are reduced here.
+  // Columns that arrived from other parts, until they are reduced here.
   std::pmr::vector<std::pmr::vector<Term>> arrived_;
   std::pmr::vector<std::uint32_t> queue_;
-  std::size_t next_ = 0;  // in the queue
+  std::size_t next_ = 0;  // position in the queue
   std::optional<LoopOwners<PartStars, Column>> owners_;
   std::optional<Reduction> reduction_;
 
-  std::mutex mutex_;  // for what follows
+  std::mutex mutex_;  // protects the members below
   std::vector<LoopSquare> zero_;
   std::map<int, typename Message::Writer> outbox_;
 };

@@ -11,11 +11,11 @@
 
 namespace ph::cubical {
 
-/// The stars of a part of a grid, and those of its ghosts once their parts have told them. Cells
-/// have the names that they have in the whole grid, so that chains may go anywhere.
+/// The stars of a part of a grid, and the stars of its ghosts once the other parts have sent them.
+/// Cells have the same names as in the entire grid, which lets chains go anywhere.
 class PartStars : public StarGrid {
  public:
-  /// @param voxels those of the part and its ghosts.
+  /// @param voxels the voxels of the part and its ghosts.
   PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
             const RunContext& context)
       : StarGrid(voxels, context, layout.place(part)),
@@ -24,16 +24,16 @@ class PartStars : public StarGrid {
         begin_(layout.own(part).begin * layer_size()),
         count_(layout.own(part).count() * layer_size()) {}
 
-  /// Whether the part has a voxel of the whole grid: it has no others than its own.
+  /// True if the part has a voxel of the entire grid as its own.
   bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
-  /// Whether it sees one where it is: its own, and ghosts but those around a ring.
+  /// True if it sees a voxel in place: its own voxels and ghosts, except ghosts around a ring.
   bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
-  /// Where it sees it. Precondition: sees(voxel).
+  /// The local number of a voxel. Precondition: sees(voxel).
   std::uint32_t here(std::uint64_t voxel) const {
     return static_cast<std::uint32_t>(voxel - first_);
   }
-  /// Whether it sees all of a square in the star of a voxel that it sees: those of ghosts may lead
-  /// further out.
+  /// True if it sees all of a square in the star of a voxel that it sees; squares of ghosts may
+  /// lead further out.
   bool sees_square(std::uint32_t v, int square) const {
     if (!is_ghost(v)) return true;
     const int away = kSquares[square][layer_axis()];
@@ -59,8 +59,8 @@ class PartStars : public StarGrid {
   void mark_own(const FreeEdges& free) {
     mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
-  /// Takes in what the part says that has a layer, where it is a ghost.
-  /// @return how often that is, or nothing if other voxels enter there.
+  /// Takes in the stars of a layer from the part that owns it, wherever that layer is a ghost here.
+  /// @return the number of such places, or nothing if other voxels enter there.
   std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
     std::size_t count = 0;
     for (const std::uint32_t first : {0U, size() - layer_size()}) {
@@ -74,7 +74,7 @@ class PartStars : public StarGrid {
   }
 
  private:
-  // Of a ghost: whether it is the one before.
+  // For a ghost: true if it is the ghost before the part.
   bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
 
   std::uint64_t whole_, first_, begin_, count_;

@@ -9,13 +9,12 @@
 
 namespace ph::cubical {
 
-/// A cell of the whole grid, by the star that it is in: a voxel, and the number of its direction
-/// there.
+/// A cell of the entire grid, given by a voxel and the number of its direction in the voxel's star.
 class GridCell {
-  static constexpr unsigned kBits = 13;  // in a star of eight axes there are 3^8 cells
+  static constexpr unsigned kBits = 13;  // a star of eight axes has 3^8 cells
 
  public:
-  /// Those of a grid that can be told apart.
+  /// The largest number of voxels of a grid whose cells can be told apart.
   static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << (64 - kBits);
 
   GridCell() = default;
@@ -28,15 +27,15 @@ class GridCell {
   std::uint64_t both_ = 0;
 };
 
-/// A StarCell of the whole grid.
+/// A StarCell of the entire grid.
 struct WholeCell {
   std::uint64_t voxel;
   WideDirection direction;
   double value;
 };
 
-/// Receives the critical edges and squares of three axes that neither graph takes, each once, as
-/// soon as they are known to be that: what loops are made of.
+/// Receives the critical edges and squares of three axes that neither graph pairs, each once, as
+/// soon as this is known: loops are made of these.
 class FreeCellSink {
  public:
   virtual ~FreeCellSink() = default;
@@ -45,7 +44,7 @@ class FreeCellSink {
   virtual void add_square(double value, const GridCell& square) = 0;
 };
 
-/// Keeps them.
+/// Stores the cells.
 struct FreeCells final : FreeCellSink {
   explicit FreeCells(std::pmr::memory_resource* memory) : edges(memory), squares(memory) {}
   void add_edge(const GridCell& edge) override { edges.push_back(edge); }

@@ -14,9 +14,9 @@
 
 namespace ph::cubical {
 
-/// The edges of two axes that neither graph takes: around a torus two classes live for ever. Each
-/// edge that is handed over by the graph of voxels as one that joins nothing is met by the graph of
-/// top cells sooner or later, as one that joins something if it is in a pair.
+/// The edges of two axes that neither graph pairs: around a torus, two classes live forever. The
+/// graph of voxels passes on edges that join nothing; the graph of top cells meets each of them
+/// sooner or later, as an edge that joins components if it is in a pair.
 class EdgesInNeither {
  public:
   explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}
@@ -31,39 +31,39 @@ class EdgesInNeither {
   std::pmr::map<GridCell, double> met_once;
 };
 
-/// The pairs of a grid but for loops of three axes, as its layers come: components of its two
-/// graphs. Hands over pairs as soon as no other layers can change them.
+/// The pairs of a grid, except for loops of three axes, computed as its layers come: components of
+/// its two graphs. Passes on pairs as soon as no other layer can change them.
 class LayerPairs {
  public:
-  /// Which of the graphs are looked at.
+  /// The graphs that are used.
   struct Graphs {
     bool vertices, tops;
   };
-  /// @param grid the whole one; outlives the pairs.
+  /// @param grid the entire grid; it must outlive the pairs.
   LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
 
-  /// The slab right after those that have come; there may be none.
-  /// @param first its first voxel in the whole grid, ghosts included (modulo 2^64).
-  /// @param free receives the cells of three axes that neither graph takes; may be null.
+  /// Adds the slab right after the layers that have come, if any.
+  /// @param first its first voxel in the entire grid, including ghosts (modulo 2^64).
+  /// @param free receives the cells of three axes that neither graph pairs; may be null.
   void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
            FreeCellSink* free = nullptr);
-  /// The same of more than three axes.
+  /// The same for more than three axes.
   void add(const LayerGrid& slab, std::uint64_t first, PairSink& pairs);
-  /// What is known of the layers right after those that have come, or right before them.
+  /// Joins the pairs of the layers right after, or right before, the layers that have come.
   /// @throws Error (bad_data) if seams differ; nothing has changed then.
-  /// @param free as in `add`, of all layers.
+  /// @param free as in `add`, for all layers.
   void join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free = nullptr);
-  /// Once all layers have come: hands over what neither graph takes.
+  /// Passes on the cells that neither graph pairs, once all layers have come.
   void finish(PairSink& pairs) const;
 
   bool wants_vertices() const { return graphs_.vertices; }
   bool wants_tops() const { return graphs_.tops; }
 
-  /// Whether the layers begin and end where the grid does.
+  /// True if the layers begin, or end, where the grid does.
   bool has_begin = false, has_end = false;
   std::optional<SeamForest<false>> vertices;
   std::optional<SeamForest<true>> tops;
-  EdgesInNeither around;  ///< of a torus of two axes
+  EdgesInNeither around;  ///< for a torus of two axes
 
  private:
   void check_seams(const LayerPairs& others, bool come_before) const;

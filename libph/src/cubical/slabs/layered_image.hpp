@@ -10,39 +10,39 @@
 
 namespace ph::cubical {
 
-/// An image of any size, or a part of one, as layers along its slowest axis, which stars count: the
-/// T-construction from the other end. Places in it have 64 bits, those in a GridFrame of some of
-/// its layers 32.
+/// An image of any size, or a part of one, as layers along its slowest axis, counted as in stars:
+/// in the T-construction from the other end. Places in it have 64 bits; places in a GridFrame of
+/// some of its layers have 32.
 class LayeredImage {
  public:
-  /// Whether some layers at a time fit a GridFrame: one, with one on either side.
+  /// True if a GridFrame can hold a layer with one more on either side.
   static bool can_cut(const CubicalImage& image) {
     const int axes = GridShape::count_axes(image);
     if (axes < 1 || axes > GridShape::kMostAxes || image.size() == 0) return false;
     if (image.size() > GridCell::kMostVoxels) return false;
     return GridFrame::can_hold(LayeredImage(image).layers_of(image.voxels, 3));
   }
-  /// Precondition: at least one axis is not left out, and no more are kept than a shape can hold.
+  /// Precondition: at least one axis is kept, and no more axes than a shape can hold.
   explicit LayeredImage(const CubicalImage& image) : image_(image), shape_(image) {}
 
   const GridShape& shape() const { return shape_; }
-  /// How many layers there are.
+  /// The number of layers.
   std::uint64_t extent() const { return layer_axis().extent; }
   std::uint64_t layer_size() const { return layer_axis().stride; }
-  /// Voxels.
+  /// The number of voxels.
   std::uint64_t size() const { return extent() * layer_size(); }
-  /// Whether the first layer and the last one are neighbours.
+  /// True if the first layer and the last one are neighbours.
   bool is_ring() const { return layer_axis().periodic; }
 
   const CubicalImage& all() const { return image_; }
-  /// The image of some layers. Its slowest axis is not periodic.
+  /// The image formed by some layers. Its slowest axis is not periodic.
   CubicalImage layers(std::uint64_t begin, std::uint64_t end) const {
     const std::uint64_t first = shape_.is_t_construction() ? extent() - end : begin;
     return layers_of(
         static_cast<const std::byte*>(image_.voxels) + first * layer_size() * bytes_of(image_.type),
         end - begin);
   }
-  /// The same of voxels that lie elsewhere, in the order of the image.
+  /// The same for voxels stored elsewhere, in the order of the image.
   CubicalImage layers_of(const void* voxels, std::uint64_t count) const {
     const auto axis = static_cast<std::size_t>(layer_axis().of_input);
     CubicalImage image = image_;

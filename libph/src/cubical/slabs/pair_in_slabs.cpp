@@ -24,7 +24,7 @@ namespace {
                        : "all other dimensions take less (max_dim 0, or min_dim 2)"));
 }
 
-/// What is done while the critical cells of loops are there: without them it would fit.
+/// Runs a task while the critical cells of loops are stored; without these it would fit.
 template <class Run>
 void with_loops(const GridShape& shape, Run&& run) {
   try {
@@ -49,8 +49,8 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    {.vertices = loops || wants_vertices(shape, wanted),
                     .tops = loops || wants_top_cells(shape, wanted)},
                    context);
-  // Loops give way before there is no memory for the slabs and the other bars; their columns would
-  // take more than they do.
+  // Loops give way before memory for the slabs and the other bars runs out; their columns would
+  // take more than the slabs.
   const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;
 

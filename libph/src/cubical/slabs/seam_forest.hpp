@@ -19,16 +19,16 @@
 
 namespace ph::cubical {
 
-/// What arrows end at: a component that is still to be joined with others.
+/// The end of arrows: a component that is still to be joined with others.
 struct SeamRoot {
   enum class Kind : std::uint32_t {
-    outer,        ///< has always been there; it has no cell
+    outer,        ///< was always there; it has no cell
     critical,     ///< a critical cell
-    open_before,  ///< a node of the seam before the layers from where the arrows go on beyond it
-    open_after,   ///< the same of the seam after them
+    open_before,  ///< a node of the seam before the layers; its arrows continue beyond the seam
+    open_after,   ///< the same at the seam after the layers
   };
-  double value;   ///< in the order of the stars; not of what has always been there
-  GridCell cell;  ///< of a critical cell
+  double value;   ///< in the order of the stars; unset if it was always there
+  GridCell cell;  ///< only if it is a critical cell
   Kind kind;
 };
 
@@ -39,26 +39,26 @@ struct SeamBridge {
   std::uint32_t from, to;
 };
 
-/// The nodes that some layers share with those beside them, by place: the layer on either side.
+/// The nodes that some layers share with the layer on one side, by place.
 struct Seam {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   explicit Seam(std::pmr::memory_resource* memory) : roots(memory), values(memory) {}
   bool is_open() const { return !roots.empty(); }
   void close() { *this = Seam(roots.get_allocator().resource()); }
-  /// Of a seam that is going to be joined: nobody asks for them any more.
+  /// For a seam that is being joined: its values are no longer needed.
   void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
-  std::pmr::vector<std::uint32_t> roots;  ///< kNone: it never counts
+  std::pmr::vector<std::uint32_t> roots;  ///< kNone if a node never counts
   std::pmr::vector<double> values;        ///< in the order of the stars
 };
 
-/// The persistent components of one of the two graphs of a grid, as far as some layers that follow
-/// each other tell. What is kept is what the layers beside them may still change: the components
-/// that reach a seam, and of the cells that join them those of a minimum spanning forest.
+/// The persistent components of one of the two graphs of a grid, as far as some consecutive layers
+/// determine them. It stores only the parts that adjacent layers may still change: the components
+/// that reach a seam, and a minimum spanning forest of the cells that join them.
 ///
-/// To join two is associative: the pairs are the same however layers are grouped.
-/// @tparam backwards whether the graph is that of the top cells.
+/// Joining is associative: the pairs are the same however layers are grouped.
+/// @tparam backwards true for the graph of the top cells.
 template <bool backwards>
 class SeamForest {
  public:
@@ -69,13 +69,14 @@ class SeamForest {
         bridges(&context.memory),
         context_(context) {}
 
-  /// Whether what comes right after may be that: seams say the same of their nodes.
+  /// True if `next` may come right after: both seams agree about their nodes.
   bool is_before(const SeamForest& next) const {
     const auto counts = [](std::uint32_t root) { return root != Seam::kNone; };
     return after.is_open() && after.values == next.before.values &&
            std::ranges::equal(after.roots, next.before.roots, {}, counts, counts);
   }
-  /// Joins what comes right after. Nothing is final until `settle`. Precondition: is_before(next).
+  /// Joins the layers that come right after. Nothing is final until `settle`. Precondition:
+  /// is_before(next).
   void join(SeamForest next) {
     const auto shift = static_cast<std::uint32_t>(roots.size());
     const std::size_t count = roots.size() + next.roots.size() + next.resolved;
@@ -104,7 +105,7 @@ class SeamForest {
     };
     std::pmr::vector<SeamBridge> all(&context_.memory);
     all.reserve(bridges.size() + next.bridges.size());
-    // Of equal ones those of the layers before come first, as in the grid.
+    // Among equal bridges, those of the first layers come first, as in the grid.
     std::ranges::merge(bridges, next.bridges | std::views::transform(moved),
                        std::back_inserter(all), {}, &SeamBridge::value, &SeamBridge::value);
     bridges.swap(all);
@@ -113,8 +114,8 @@ class SeamForest {
     for (std::uint32_t& root : after.roots) root = shifted(root);
     identify(same, count, next.roots);
   }
-  /// Joins the end with the beginning: the layers are all there are of a periodic axis.
-  /// Precondition: is_before(*this).
+  /// Joins the end to the beginning: the layers are all layers of a periodic axis. Precondition:
+  /// is_before(*this).
   void close_ring() {
     DisjointSets same(roots.size(), &context_.memory);
     unite_seams(
@@ -127,8 +128,9 @@ class SeamForest {
     after.close();
     identify(same, roots.size(), {});
   }
-  /// Hands over what other layers cannot change any more. Without seams that is all.
-  /// @param on_merge called with (bridge, root that dies; null if both have always been there).
+  /// Passes on the pairs that other layers cannot change any more. Without seams these are all
+  /// pairs.
+  /// @param on_merge called with (bridge, root that dies, or null if both were always there).
   /// @param on_cycle called with each bridge that joins nothing.
   /// @param on_survivor called with each root that never dies.
   template <class OnMerge, class OnCycle, class OnSurvivor>
@@ -140,9 +142,9 @@ class SeamForest {
         outer_count, roots.size() - outer_count,
         [&](std::size_t i) { return roots[outer_count + i].value; }, context_);
     std::pmr::vector<double> reached = when_reached();
-    // Roots that are one for all that comes: (the root that stands for it).
+    // Roots that are one from now on, each with the root that represents it.
     DisjointSets merged(roots.size(), &context_.memory);
-    // Whether a component may have been joined with another one in other layers by then.
+    // True if other layers may have joined a component with another one by then.
     const auto may_change = [&](std::uint32_t root, double by) {
       return !is_whole && (backwards ? reached[root] >= finite(by) : reached[root] <= finite(by));
     };
@@ -158,7 +160,7 @@ class SeamForest {
         continue;
       }
       const std::uint32_t dies = forest.join(a, b), stays = dies == a ? b : a;
-      // Two that have always been there are equals: it is enough that one is closed.
+      // Two components that were always there are equals: it is enough that one of them is closed.
       const bool is_closed = !may_change(dies, bridge.value);
       const bool is_certain = is_closed || (dies < outer_count && !may_change(stays, bridge.value));
       reached[stays] = earlier(reached[stays], reached[dies]);
@@ -166,7 +168,7 @@ class SeamForest {
         bridges[place(kept++)] = bridge;
         continue;
       }
-      // The closed one has been merged into one root; from now on it is where the bridge leads.
+      // The closed component has become one root; from now on the bridge leads there.
       const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
                                                             : std::pair{bridge.to, bridge.from};
       merged.link(merged.find(closed), merged.find(other));
@@ -183,16 +185,16 @@ class SeamForest {
     forget_closed();
   }
 
-  /// What has always been there comes first, then critical cells in the order of the grid. What is
-  /// open counts as the youngest of its value, and comes behind or before these: nothing dies in
-  /// its favour on account of its number.
+  /// Components that were always there come first, then critical cells in the order of the grid. An
+  /// open root counts as the youngest of its value, and comes after or before these: no component
+  /// dies because of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
-  /// Of what is to be joined with what is right before it: so many roots behind the others are open
-  /// before. They turn out to be something else then, and nothing need be known of them.
+  /// If this is to be joined with the layers right before it: this many roots after the others are
+  /// open before. Joining replaces them by other roots; no data are needed for them.
   std::uint32_t resolved = 0;
-  std::array<std::uint32_t, 2> outside{};  ///< those that are the parts of the outside
+  std::array<std::uint32_t, 2> outside{};  ///< the roots that are parts of the outside
   Seam before, after;                      ///< not open where the grid ends
-  std::pmr::vector<SeamBridge> bridges;    ///< ascending, of equal ones as in the grid
+  std::pmr::vector<SeamBridge> bridges;    ///< ascending; equal ones as in the grid
 
   bool is_in_order() const { return std::ranges::is_sorted(roots, {}, &SeamForest::age_of); }
 
@@ -205,15 +207,15 @@ class SeamForest {
     if (root.kind == Kind::outer) return 0;
     return (root.kind == Kind::critical) == backwards ? 2 : 1;
   }
-  // kNever is no value of a cell.
+  // kNever is not a value of a cell.
   static double finite(double value) {
     constexpr double most = std::numeric_limits<double>::max();
     return std::clamp(value, -most, most);
   }
   static double earlier(double a, double b) { return backwards ? std::max(a, b) : std::min(a, b); }
 
-  // What has always been there stands for all else, then a critical cell, then what is open still,
-  // last what is resolved. Of two that have always been there the first one.
+  // The representative of several roots: first one that was always there, then a critical cell,
+  // then an open root, then a resolved one. Among several that were always there, the first.
   template <class Rank>
   static void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, Rank&& rank) {
     a = same.find(a);
@@ -228,8 +230,8 @@ class SeamForest {
     for (std::size_t k = 0; k < ends.size(); ++k)
       if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), rank);
   }
-  // Leaves out roots that turned out to be others, and puts the rest in order.
-  // @param count of all numbers. @param others behind the roots.
+  // Removes roots that turned out to be others, and sorts the rest.
+  // @param count of all numbers. @param others numbers after the roots.
   void identify(DisjointSets& same, std::size_t count, std::span<const SeamRoot> others) {
     std::pmr::vector<std::uint32_t> number(count, Seam::kNone, &context_.memory);
     std::pmr::vector<SeamRoot> left(&context_.memory);
@@ -249,7 +251,7 @@ class SeamForest {
     for (std::uint32_t i = 0; i < count; ++i) number[i] = number[same.find(i)];
     renumber(number);
   }
-  // @param number receives the new ones of those that are kept.
+  // @param number receives the new numbers of the roots that are kept.
   template <class IsKept>
   void keep_roots(std::span<std::uint32_t> number, IsKept&& is_kept) {
     std::uint32_t count = 0;
@@ -268,7 +270,7 @@ class SeamForest {
     for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside) part = number[part];
   }
-  // By root: the value from which on it hangs together with a node that other layers share.
+  // By root: the value from which on it is connected to a node that other layers share.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
     for (const Seam* const seam : {&before, &after})
@@ -288,7 +290,7 @@ class SeamForest {
       for (std::uint32_t& root : seam->roots)
         if (root != Seam::kNone) use(root);
   }
-  // The bridges that were looked at first and are still needed.
+  // Keeps the first `count` bridges, which are still needed.
   void keep(std::size_t count) {
     if (backwards)
       bridges.erase(bridges.begin(), bridges.end() - static_cast<std::ptrdiff_t>(count));
@@ -296,7 +298,7 @@ class SeamForest {
       bridges.resize(count);
     bridges.shrink_to_fit();
   }
-  // Keeps what a seam or a bridge names, and the outside.
+  // Keeps the roots that a seam or a bridge names, and the outside.
   void forget_closed() {
     std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
     for (const std::uint32_t part : outside) number[part] = 0;

@@ -14,14 +14,14 @@
 
 namespace ph::cubical {
 
-/// The trees that the arrows make in one slab of a grid. Roots have numbers, in the order of
+/// The trees formed by the arrows in one slab of a grid. Roots are numbered in the order of
 /// SeamForest.
-/// @tparam Grid of the graph: a SlabFrame that says which voxels enter.
+/// @tparam Grid the grid of the graph: a SlabFrame that knows which voxels enter.
 template <class Grid, class Graph>
 class SlabBasins {
  public:
-  /// @param first the slab's first voxel in the whole grid, ghosts included (modulo 2^64).
-  /// @param is_next whether it is to be joined with what is right before it.
+  /// @param first the slab's first voxel in the entire grid, including ghosts (modulo 2^64).
+  /// @param is_next true if it will be joined with the layers right before it.
   SlabBasins(const Grid& grid, const Graph& graph, std::uint64_t first, bool is_next,
              const RunContext& context)
       : grid_(grid),
@@ -43,8 +43,8 @@ class SlabBasins {
     if (is_next) add_open(false);
   }
 
-  /// What is known of the slab alone.
-  /// @param cells the critical cells that are the graph's bridges, in their order.
+  /// The components of the slab alone.
+  /// @param cells the critical cells that are bridges of the graph, in their order.
   SeamForest<Graph::kBackwards> forest(const CriticalCells& cells) {
     SeamForest<Graph::kBackwards> result(context_);
     result.bridges.resize(cells.order.size());
@@ -73,13 +73,13 @@ class SlabBasins {
  private:
   using Kind = SeamRoot::Kind;
 
-  // Which root a node hangs under. Several threads may ask at a time.
+  // The number of the root of a node's tree. Several threads may call it at the same time.
   std::uint32_t number_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
   std::uint32_t add(const SeamRoot& root) {
     roots_.push_back(root);
     return same_.add();
   }
-  // Of two that have always been there the first one stays.
+  // Of two roots that were always there, the first one stays.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = same_.find(a);
     b = same_.find(b);
@@ -129,7 +129,7 @@ class SlabBasins {
       forest_.set_root(node, is_stored ? add({*value, {}, kind}) : same_.add());
     }
   }
-  // The nodes shared with what comes before it or after it.
+  // The nodes shared with the layers before it or after it.
   Seam seam(bool after, bool with_values) {
     const auto [begin, count] = graph_.seam(after);
     Seam seam(&context_.memory);
@@ -150,8 +150,8 @@ class SlabBasins {
   const RunContext& context_;
   ArrowForest<Graph> forest_;
   std::pmr::vector<SeamRoot> roots_;
-  std::uint32_t resolved_ = 0;  // numbers behind them
-  DisjointSets same_;           // of roots
+  std::uint32_t resolved_ = 0;  // resolved numbers after the others
+  DisjointSets same_;           // sets of roots
 };
 
 }  // namespace ph::cubical

@@ -13,8 +13,8 @@
 
 namespace ph::cubical {
 
-/// What is kept of slabs of three axes for loops: the stars, and the critical edges and squares
-/// that neither graph takes, as they come.
+/// The data of slabs of three axes that loops need: the stars, and the critical edges and squares
+/// that neither graph pairs, as they come.
 class SlabLoops final : public FreeCellSink {
  public:
   SlabLoops(const GridFrame& frame, const RunContext& context)
@@ -25,13 +25,13 @@ class SlabLoops final : public FreeCellSink {
   void add_square(double value, const GridCell& square) override {
     squares_.push_back({value, numbered(square)});
   }
-  /// The bars of loops, when all slabs have come. @throws Error (resource) if columns do not fit.
+  /// The bars of loops, once all slabs have come. @throws Error (resource) if columns do not fit.
   template <Field K>
   void pair(const K& field, PairSink& pairs) {
     const FreeEdges free = free_edges();
     stars_.mark_all_but(free, context_);
     const CriticalCells squares = sorted_squares();
-    // A third of what is left for stars and voxels, the rest for columns.
+    // A third of the remaining memory is for stars and voxels, the rest for columns.
     const MemoryClaim pages(context_.memory, context_.memory.left() / 3);
     stars_.let_stay(pages.bytes());
     LoopReduction<K, StoredStars>(stars_, free, squares, field, context_).run(pairs);

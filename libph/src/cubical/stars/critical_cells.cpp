@@ -5,7 +5,7 @@ namespace ph::cubical {
 
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
   CriticalCells critical(&context.memory);
-  critical.cells.reserve(grid.critical().size());  // one each, about
+  critical.cells.reserve(grid.critical().size());  // usually one per voxel
   Ticker ticker(context, {});
   for (const std::uint32_t v : grid.critical()) {
     ticker.work();

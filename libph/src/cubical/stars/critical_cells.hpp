@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// A cell by the star that it is in: the number of its direction there.
+/// A cell given by a star that contains it and the number of its direction there.
 struct NumberedCell {
   std::uint32_t voxel, number;
 };
@@ -20,15 +20,15 @@ struct NumberedCell {
 struct CriticalCells {
   struct Place {
     double value;        ///< in the order of the stars
-    std::uint32_t cell;  ///< in `cells`
+    std::uint32_t cell;  ///< index into `cells`
   };
   std::pmr::vector<NumberedCell> cells;  ///< in the order of the grid
-  std::pmr::vector<Place> order;         ///< those in no pair yet, by (value, place in the grid)
+  std::pmr::vector<Place> order;         ///< cells in no pair yet, by (value, place in the grid)
 
   explicit CriticalCells(std::pmr::memory_resource* memory) : cells(memory), order(memory) {}
 };
 
-/// Puts all cells into the order. @tparam Grid knows the values of voxels.
+/// Puts all cells into the order. @tparam Grid has the values of voxels.
 template <class Grid>
 void put_in_order(CriticalCells& critical, const Grid& grid, const RunContext& context) {
   critical.order.resize(critical.cells.size());
@@ -40,11 +40,11 @@ void put_in_order(CriticalCells& critical, const Grid& grid, const RunContext& c
 
 /// @param dim 1 or 2.
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
-/// Marks in the stars of three axes the edges that are no longer in the order.
+/// Marks the edges that are no longer in the order, in the stars of three axes.
 void mark_paired(StarGrid& grid, const CriticalCells& edges);
 /// Marks the critical edges of some voxels that are not free.
 void mark_all_but(StarGrid& grid, const FreeEdges& free, std::uint32_t begin, std::uint32_t end);
-/// Those of the stars whose other edges are marked.
+/// The free edges of stars whose other edges are marked.
 FreeEdges free_edges(const StarGrid& grid, const RunContext& context);
 
 }  // namespace ph::cubical

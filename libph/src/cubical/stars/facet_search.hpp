@@ -8,7 +8,7 @@
 
 namespace ph::cubical {
 
-/// A cell by the star that it is in, if it is in any: of its voxels the youngest one.
+/// A cell as part of the star that contains it, if there is one: the star of its youngest voxel.
 inline std::optional<StarCell> in_its_star(const StarGrid& grid, std::uint32_t voxel,
                                            const Direction& direction) {
   const unsigned corners = 1U << dimension_of(direction);
@@ -30,8 +30,8 @@ inline std::optional<StarCell> in_its_star(const StarGrid& grid, std::uint32_t v
   return std::nullopt;
 }
 
-/// Whether a cell comes before another one of its dimension in the order of the stars. Both as
-/// their stars see them, with their values.
+/// True if a cell comes before another cell of its dimension in the order of the stars. Both cells
+/// are given in their stars, with their values.
 inline bool comes_before(const StarGrid& grid, const StarCell& a, const StarCell& b) {
   const auto rank = [&](const StarCell& cell) {
     const int number = number_of(cell.direction);

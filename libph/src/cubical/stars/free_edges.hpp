@@ -10,8 +10,8 @@
 
 namespace ph::cubical {
 
-/// The critical edges of three axes that kill no component: what gives birth to loops. They have
-/// numbers, in the order of (voxel, edge).
+/// The critical edges of three axes that kill no component; they give birth to loops. They are
+/// numbered in the order of (voxel, edge).
 class FreeEdges {
  public:
   FreeEdges(const GridFrame& frame, const RunContext& context)
@@ -19,14 +19,14 @@ class FreeEdges {
         voxels_before_(&context.memory),
         at_(&context.memory) {}
 
-  /// Those of one voxel, as bits. Voxels come in ascending order.
+  /// Adds the edges of one voxel, as bits. Voxels come in ascending order.
   void add(std::uint32_t voxel, unsigned edges) {
     if (edges == 0) return;
     has_some_[voxel / kWord] |= std::uint64_t{1} << (voxel % kWord);
     at_.push_back({count_, static_cast<std::uint8_t>(edges)});
     count_ += static_cast<std::uint32_t>(std::popcount(edges));
   }
-  /// When all have come.
+  /// To be called when all edges were added.
   void finish() {
     voxels_before_.reserve(has_some_.size());
     std::uint32_t voxels = 0;
@@ -37,14 +37,14 @@ class FreeEdges {
   }
 
   std::uint32_t count() const { return count_; }
-  /// Precondition: it is one.
+  /// Precondition: it is a free edge.
   std::uint32_t number(std::uint32_t voxel, int edge) const {
     const auto& [first, edges] = at_[place(voxel)];
     return first + static_cast<std::uint32_t>(std::popcount(edges & ((1U << edge) - 1)));
   }
-  /// Asks for what `number` will read.
+  /// Prefetches the data that `number` will read.
   void prefetch(std::uint32_t voxel) const { __builtin_prefetch(&at_[place(voxel)]); }
-  /// Those of one voxel, as bits.
+  /// The edges of one voxel, as bits.
   unsigned edges(std::uint32_t voxel) const {
     return has_some_[voxel / kWord] >> (voxel % kWord) & 1 ? at_[place(voxel)].edges : 0;
   }
@@ -62,7 +62,7 @@ class FreeEdges {
  private:
   static constexpr std::uint32_t kWord = 64;
   struct AtVoxel {
-    std::uint32_t first;  // number
+    std::uint32_t first;  // number of its first edge
     std::uint8_t edges;   // as bits
   };
   std::size_t place(std::uint32_t voxel) const {
@@ -72,8 +72,8 @@ class FreeEdges {
   }
 
   std::pmr::vector<std::uint64_t> has_some_;       // by voxel, as bits
-  std::pmr::vector<std::uint32_t> voxels_before_;  // by word: voxels that have some before it
-  std::pmr::vector<AtVoxel> at_;                   // of these voxels
+  std::pmr::vector<std::uint32_t> voxels_before_;  // by word: number of voxels with edges before it
+  std::pmr::vector<AtVoxel> at_;                   // by voxel with edges
   std::uint32_t count_ = 0;
 };
 

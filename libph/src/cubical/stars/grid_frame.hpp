@@ -11,14 +11,14 @@
 
 namespace ph::cubical {
 
-/// A cell as the star that it is in sees it, with its value in the order of the stars.
+/// A cell as part of the star that contains it, with its value in the order of the stars.
 struct StarCell {
   std::uint32_t voxel = 0;
   Direction direction{};
   double value = 0;
 };
 
-/// Divides by a number that is known beforehand (Lemire, Kaser, Kurz, Faster remainder by direct
+/// Divides by a number that is known in advance (Lemire, Kaser, Kurz, Faster remainder by direct
 /// computation, 2019).
 class Divisor {
  public:
@@ -33,15 +33,15 @@ class Divisor {
   std::uint64_t factor_ = 0;
 };
 
-/// Where the voxels of an image are, as GridShape counts its axes.
+/// The positions of the voxels of an image, with axes counted as in GridShape.
 ///
-/// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
-/// around: reversed in value, with all axes running backwards, a border of voxels that have always
-/// been there around it, and dimension k in place of top - k; what has always been there is no cell
-/// (homology relative to it).
+/// Both constructions are handled as one. The T-construction of f is the V-construction of -f,
+/// turned around: values are reversed, all axes run backwards, a border of voxels that were always
+/// there surrounds it, and dimension k becomes top - k. Voxels that were always there are not cells
+/// (homology is relative to them).
 class GridFrame {
  public:
-  /// No more than about 2^31 voxels, and some.
+  /// True if there are some voxels, at most about 2^31.
   static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);
@@ -49,22 +49,22 @@ class GridFrame {
   const GridShape& shape() const { return shape_; }
   int top_dim() const { return shape_.top_dim(); }  ///< of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
-  std::uint32_t size() const { return size_; }  ///< voxels
+  std::uint32_t size() const { return size_; }  ///< number of voxels
   int axis_count() const { return shape_.axis_count(); }
   bool has_axis(int axis) const { return axes_[axis].exists; }
   bool is_periodic(int axis) const { return axes_[axis].periodic; }
   bool any_periodic() const { return any_periodic_; }
-  /// Whether the voxels at a coordinate are the first ones of a periodic axis.
+  /// True if the voxels at a coordinate are the first voxels of a periodic axis.
   bool is_wrapped(int axis, std::uint32_t x) const { return x == axes_[axis].wrapped; }
   std::uint32_t extent(int axis) const { return axes_[axis].extent; }
   std::uint32_t stride(int axis) const { return axes_[axis].stride; }
-  /// Whether an axis has two ends.
+  /// True if an axis has two ends.
   bool has_ends(int axis) const { return axes_[axis].has_ends; }
-  /// How many do.
+  /// The number of axes with two ends.
   int open_axes() const {
     return static_cast<int>(std::ranges::count(axes_, true, &Axis::has_ends));
   }
-  /// The slowest axis. A layer is what lies at one place of it.
+  /// The slowest axis. A layer is the set of voxels at one place of this axis.
   int layer_axis() const { return shape_.layer_axis(); }
   std::uint32_t layer_size() const { return stride(layer_axis()); }
 
@@ -72,12 +72,12 @@ class GridFrame {
   double value(std::uint32_t v) const {
     return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
-  // As PartStars has them: of a whole grid all voxels are here.
+  // As in PartStars: the frame of an entire grid sees all voxels.
   static constexpr bool sees(std::uint64_t) { return true; }
   static constexpr bool sees_square(std::uint32_t, int) { return true; }
   static std::uint32_t here(std::uint64_t voxel) { return static_cast<std::uint32_t>(voxel); }
   static std::uint64_t in_whole(std::uint32_t v) { return v; }
-  /// Where a voxel is in the input.
+  /// The position of a voxel in the input.
   std::uint32_t place(std::uint32_t v) const { return is_t_construction_ ? size_ - 1 - v : v; }
   std::uint32_t coordinate(std::uint32_t v, int axis) const {
     const Axis& a = axes_[axis];
@@ -89,7 +89,7 @@ class GridFrame {
     return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
   }
 
-  /// Voxels along the last axis.
+  /// A row of voxels along the last axis.
   struct VoxelRow {
     std::uint32_t z, y, first;
     bool is_at_border;  ///< at an end of one of the other axes
@@ -111,8 +111,8 @@ class GridFrame {
     if (x > 0) return v - a.stride;
     return a.periodic ? v + (a.extent - 1) * a.stride : kOutside;
   }
-  /// The same for a step along an edge of the star of v: without looking where v lies, if no step
-  /// in such a direction leaves the grid.
+  /// The same for a step along an edge of the star of v; if no step in that direction leaves the
+  /// grid, the position of v is not checked.
   std::uint32_t step_in_star(std::uint32_t v, int edge) const {
     const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];
     if (is_t_construction_ || any_periodic_) return step(v, axis, sign);
@@ -124,28 +124,29 @@ class GridFrame {
     std::uint32_t extent = 1, stride = 1;
     bool exists = false, periodic = false;
     Divisor by_extent, by_stride;
-    /// Whether the whole grid ends there.
+    /// True if the entire grid ends there.
     bool has_ends = false;
-    /// Where the voxels are whose cells before them come last: the first ones of a periodic axis.
+    /// The coordinate of the voxels whose preceding cells come last: the first voxels of a periodic
+    /// axis.
     std::uint32_t wrapped = UINT32_MAX;
   };
-  /// Whether cells of a voxel at a coordinate are not as they are inside the grid.
+  /// True if cells of a voxel at a coordinate differ from cells inside the grid.
   bool is_at_end(int a, std::uint32_t x) const {
     return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent || is_wrapped(a, x));
   }
-  /// Of which periodic axes it is the first voxel, as bits.
+  /// The periodic axes of which it is the first voxel, as bits.
   unsigned wrapped(std::uint32_t v) const {
     unsigned result = 0;
     for (int a = 0; a < 3; ++a)
       if (is_wrapped(a, coordinate(v, a))) result |= 1U << a;
     return result;
   }
-  /// Takes note that this is a slab of a grid whose slowest axis is periodic. @param wrapped where
-  /// the first layer of that grid is, if it is here.
+  /// Notes that this is a slab of a grid whose slowest axis is periodic. @param wrapped the
+  /// position of the first layer of that grid, if it is here.
   void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;
-  std::array<Axis, GridShape::kMostAxes> axes_;  // the last one is the fastest
+  std::array<Axis, GridShape::kMostAxes> axes_;  // the last axis is the fastest
   std::uint32_t size_ = 0;
   bool is_t_construction_ = false, any_periodic_ = false;
 

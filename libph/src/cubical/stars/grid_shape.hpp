@@ -11,9 +11,9 @@
 
 namespace ph::cubical {
 
-/// The axes of an image of any size as the stars see them: those of one voxel are left out, and
-/// what a periodic one of them adds is put back by `PairSink`. Up to three are the last of three,
-/// so that stars know them by number. See GridFrame.
+/// The axes of an image of any size as stars see them: axes with one voxel are left out, and
+/// `PairSink` adds the bars of periodic ones again. Up to three axes are the last of three, which
+/// fixes their numbers in stars. See also GridFrame.
 class GridShape {
  public:
   static constexpr int kMostAxes = 8;
@@ -23,44 +23,43 @@ class GridShape {
     int of_input = 0;
   };
 
-  /// Whether an axis of the input is not left out.
+  /// True if an axis of the input is kept.
   static bool keeps_axis(const CubicalImage& image, std::size_t k) {
     return image.extents[k] > 1 || (!image.voxels_are_vertices && !image.periodic[k]);
   }
-  /// How many axes are not.
+  /// The number of axes that are kept.
   static int count_axes(const CubicalImage& image);
-  /// Precondition: count_axes(image) <= kMostAxes. Voxels are not looked at.
+  /// Precondition: count_axes(image) <= kMostAxes. Voxels are not read.
   explicit GridShape(const CubicalImage& image);
 
   int top_dim() const { return top_dim_; }  ///< of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
-  /// How many there are with those that are left out of three.
+  /// The number of axes, counted as at least three.
   int axis_count() const { return std::max(top_dim_, 3); }
-  /// The last one is the fastest.
+  /// The last axis is the fastest.
   const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
   bool any_periodic() const { return std::ranges::any_of(axes_, &Axis::periodic); }
-  /// How many axes have two ends.
+  /// The number of axes with two ends.
   int open_axes() const {
     return static_cast<int>(
         std::ranges::count_if(axes_, [](const Axis& a) { return a.exists && !a.periodic; }));
   }
-  /// The slowest axis. A layer is what lies at one place of it.
+  /// The slowest axis. A layer is the set of voxels at one place of this axis.
   int layer_axis() const { return axis_count() - top_dim_; }
-  /// Of which periodic axes a voxel is the first one, as bits: see StarTables.
+  /// The periodic axes of which a voxel is the first one, as bits: see StarTables.
   unsigned wrapped(std::uint64_t voxel) const {
     unsigned result = 0;
     for (std::size_t a = 0; a < axes_.size(); ++a)
       if (axes_[a].periodic && voxel / axes_[a].stride % axes_[a].extent == 0) result |= 1U << a;
     return result;
   }
-  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
-  /// up.
+  /// Number of periodic axes with one voxel: each adds a copy of every cell, one dimension up.
   std::size_t loop_count() const { return loops_.size(); }
-  /// One of them as an axis of the input; descending.
+  /// One of these axes as an axis of the input, in descending order.
   std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
-  /// of one voxel the copy goes around, as bits.
-  /// @param direction from the voxel to it, by axis; none along those that it leaves out.
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the axes with one
+  /// voxel that the copy goes around, as bits.
+  /// @param direction from the voxel to the cell, by axis; 0 along axes that are left out.
   void append_numbers(std::uint64_t voxel, std::span<const int> direction, unsigned loops,
                       std::vector<Index>& numbers) const;
 

@@ -10,12 +10,13 @@
 namespace ph::cubical {
 namespace {
 
-constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
-constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
+constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are processed together
+constexpr std::uint32_t kPiece = 1 << 16;  // approximate number of voxels per thread at a time
 
-// Whether u is older than v, which is not absent: with and without equality, which the places
-// decide. An absent voxel, NaN, is younger than all in the V-construction and older than all in the
-// T-construction, in which what never enters has always been there.
+// Compares the age of u with that of v, which must not be absent. There are two versions, without
+// and with equality, because the places decide between equal voxels. An absent voxel, NaN, is
+// younger than all others in the V-construction and older in the T-construction, where a voxel that
+// never enters was always there.
 template <bool descending, bool absent_is_older>
 struct VoxelAges {
   template <class T>
@@ -85,15 +86,15 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
   return star;
 }
 
-// The stars of a part of a row. Inside the row neighbours are at fixed distances: no test, one
-// comparison each, which compilers do for several voxels at a time.
+// Finds the stars of a part of a row. Inside the row, neighbours are at fixed distances: no test is
+// needed and each takes one comparison, which compilers vectorise.
 template <class Ages, class T>
 void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
   const Axis &deep = axes_[0], &high = axes_[1];
   const std::uint32_t n = axes_[2].extent, first = block.z * deep.stride + block.y * high.stride;
   const std::uint32_t count = block.end - block.begin;
   std::fill_n(stars, count, 0U);
-  // From here on x runs as the memory does; in the T-construction that is backwards.
+  // From here on, x runs in the order of memory, which is backwards in the T-construction.
   const auto block_at = [&](std::uint32_t row) {
     return is_t_construction_ ? voxels + (size_ - row - block.end) : voxels + (row + block.begin);
   };
@@ -117,7 +118,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
         const bool leaves = by > 0 ? x + 1 == axis.extent : x == 0;
         outside = outside || (leaves && !axis.periodic);
         const std::uint32_t to = by > 0 ? (leaves ? 0 : x + 1) : (leaves ? axis.extent : x) - 1;
-        row += (to - x) * axis.stride;  // unsigned, also where it goes down
+        row += (to - x) * axis.stride;  // unsigned even when it decreases
       };
       move(deep, block.z, dz);
       move(high, block.y, dy);
@@ -136,7 +137,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
                       (is_older_above(other[x + 1], v) ? above : 0U);
         }
       };
-      // Voxels that come before v are older if they are equal.
+      // Voxels that come before v are older if they have the same value.
       const auto older = [](T u, T v) { return Ages::is_older(u, v); };
       const auto not_younger = [](T u, T v) { return Ages::is_not_younger(u, v); };
       if (row == first) {
@@ -153,15 +154,16 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
   };
   find(0);
   find(n - 1);
-  // Of one axis ghosts are in the row, and may come from the other end.
+  // With one axis, ghosts are in the row, and may come from the other end.
   if (layer_size() == 1 && slab().is_in_ring && n > 2) {
     find(1);
     find(n - 2);
   }
 }
 
-// Takes out what cannot be in the stars of some voxels, and lists those that have a critical cell.
-// @return how many these are.
+// Removes cells that cannot be in the stars of some voxels, and lists the voxels with a critical
+// cell.
+// @return the number of these voxels.
 std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::uint32_t* list) {
   const auto close = [&](auto&& tables_of) {
     std::size_t count = 0;
@@ -169,8 +171,8 @@ std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::u
       if (stars_[v] == kAbsent) continue;
       const auto [star, critical] = tables_of(v).closed(stars_[v]);
       stars_[v] = star;
-      // Written first, counted afterwards, and without a condition: which voxels are critical
-      // cannot be foretold. The sign of one of the two is set unless it is 0.
+      // Writes first and counts afterwards, without a condition, because critical voxels cannot be
+      // predicted. The sign of one of the two is set unless the number is 0.
       list[count] = v;
       count += (critical | (0U - critical)) >> 31;
     }
@@ -187,7 +189,7 @@ void StarGrid::find_stars(const T* voxels) {
   const std::uint32_t blocks_a_row = (n - 1) / kBlock + 1;
   const std::size_t blocks = std::size_t{size_ / n} * blocks_a_row;
   const std::size_t blocks_a_piece = std::max<std::size_t>(1, kPiece / std::min(n, kBlock));
-  // What enters: value <= limit, with the sign that superlevel sets have.
+  // A voxel enters if value <= limit, with the sign of superlevel sets.
   const bool superlevel = grid_.superlevel;
   const double limit = grid_.limit;
   const bool some_may_not = std::is_floating_point_v<T> || limit < std::numeric_limits<int>::max();
@@ -229,7 +231,7 @@ void StarGrid::find_stars(const T* voxels) {
             all = all && block_enters;
           }
           if (is_ghost) continue;
-          // Of one axis only the ends of the row may be ghosts.
+          // With one axis, only the ends of the row may be ghosts.
           const std::uint32_t begin_own = is_line && this->is_ghost(first) ? 1 : 0;
           const std::uint32_t end_own =
               count - (is_line && this->is_ghost(first + count - 1) ? 1 : 0);

@@ -14,7 +14,7 @@ namespace ph::cubical {
 /// The lower stars of a grid, or of some of its layers.
 class StarGrid : public SlabFrame {
  public:
-  /// At most three axes, and as many voxels as a frame can hold.
+  /// True for at most three axes, and as many voxels as a frame can hold.
   static bool can_hold(const CubicalImage& grid) {
     return GridShape::count_axes(grid) <= 3 && GridFrame::can_hold(grid);
   }
@@ -23,17 +23,17 @@ class StarGrid : public SlabFrame {
 
   std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
   std::span<const std::uint32_t> stars() const { return stars_; }
-  /// Asks for a star some time before it is looked at.
+  /// Prefetches a star some time before it is read.
   void expect_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
-  /// As StoredStars has it: all are in memory anyway.
+  /// As in StoredStars: here all stars are in memory anyway.
   static void tidy() {}
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
-  /// Marks edges of a star: they kill a component. Of three axes only.
+  /// Marks edges of a star that kill a component. Only for three axes.
   void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
   bool all_enter() const { return all_enter_; }
-  /// The voxels with a critical cell in their stars, ascending.
+  /// The voxels whose stars have a critical cell, ascending.
   std::span<const std::uint32_t> critical() const { return critical_; }
-  /// Of three axes only.
+  /// Only for three axes.
   CubePairs pair_cubes(std::uint32_t v) const {
     return (*cube_pairs_)[any_periodic_ ? wrapped(v) : 0].pair_cubes(stars_[v]);
   }

@@ -10,40 +10,39 @@
 
 namespace ph::cubical {
 
-/// By dimension the cells of a grid that are in no pair that is known, in the order of the
-/// filtration.
+/// By dimension: the cells of a grid that are in no known pair, in the order of the filtration.
 using CriticalNames = std::array<std::pmr::vector<CellGrid::Name>, CellGrid::kMostAxes + 1>;
 
-/// Marks the cells of a grid: which voxel decides when they enter, and their pairs inside stars as
-/// a discrete gradient. @return those that are in no such pair.
+/// Marks each cell of a grid with the voxel that decides its entry, and with its pair inside the
+/// star, as a discrete gradient. @return the cells in no such pair.
 CriticalNames mark_cells(CellGrid& grid, const RunContext& context);
 
-/// What the cells of a star look like from its voxel, for a number of axes: a cell has a code, its
-/// steps away from the voxel along the axes as digits 0 (none), 1 (down), 2 (up), to base 3.
+/// The cells of a star as seen from its voxel, for a given number of axes. The code of a cell has
+/// one digit to base 3 per axis, for its step away from the voxel: 0 (none), 1 (down), 2 (up).
 struct StarShapes {
   struct Shape {
-    std::uint8_t steps = 0;  ///< how many axes it leaves the voxel along
-    std::uint8_t down = 0;   ///< along which of them downwards, as bits
+    std::uint8_t steps = 0;                                    ///< number of axes with a step
+    std::uint8_t down = 0;                                     ///< axes with a step down, as bits
     std::array<std::uint16_t, CellGrid::kMostAxes> without{};  ///< codes with one step less
   };
   explicit StarShapes(int axes, std::pmr::memory_resource* memory);
 
-  std::array<std::uint16_t, CellGrid::kMostAxes> digit{};  ///< what one step down adds, by axis
+  std::array<std::uint16_t, CellGrid::kMostAxes> digit{};  ///< the value of a step down, by axis
   std::pmr::vector<Shape> shapes;                          ///< by code
 };
 
-/// Finds the star of a voxel, the cells whose value it decides, and pairs inside it. One for each
-/// thread.
+/// Finds the star of a voxel, that is, the cells whose value it decides, and pairs inside it. Each
+/// thread has one.
 ///
-/// A cell of the star lies some steps away from the voxel, one along each of some axes. It is in
-/// the star if all voxels that it can be reached by are older (V; younger or none: T). Adding a
-/// step turns a cell into a coface (V) or a face (T): both stars are cut out of the same 3^d cells,
-/// and with steps and cells in the order of their places (backwards: T) both have the same pairs.
-/// Apparent ones (ph/detail/reduction/apparent_pairs.hpp) first: two cells one step apart such that
-/// it is the first that can be added to the one and the first that the other has. Then as in any
-/// discrete gradient: a cell from which one path alone leads to the youngest cell that can be
-/// reached kills it, and the path is turned around (Forman, Morse theory for cell complexes,
-/// section 11).
+/// A cell of the star lies some steps away from the voxel, at most one along each axis. It is in
+/// the star if all other voxels of the cell are older (T: younger, or missing). Adding a step turns
+/// a cell into a coface (V) or a face (T). Both stars are therefore cut out of the same 3^d cells,
+/// and if steps and cells are ordered by their places (T: backwards), both have the same pairs.
+/// Apparent pairs (ph/detail/reduction/apparent_pairs.hpp) come first: two cells one step apart
+/// such that this step is the first that can be added to the one and the first step of the other.
+/// The rest proceeds as in any discrete gradient: if exactly one path leads from a cell to the
+/// youngest cell that it can reach, the first cell kills the second, and the path is reversed
+/// (Forman, Morse theory for cell complexes, section 11).
 class StarMatcher {
  public:
   StarMatcher(CellGrid& grid, const StarShapes& shapes, const RunContext& context);
@@ -54,22 +53,22 @@ class StarMatcher {
 
  private:
   struct Step {
-    std::int64_t places;       // how far it leads in the doubled grid
-    std::uint32_t to;          // how far to the next voxel, modulo 2^32
-    std::uint32_t steps_back;  // the other step along the axis, as bit
+    std::int64_t places;       // offset in the doubled grid
+    std::uint32_t to;          // offset to the next voxel, modulo 2^32
+    std::uint32_t steps_back;  // the opposite step along the axis, as a bit
     std::uint16_t code;
     std::uint8_t direction;  // 2 * axis + 1: up
-    bool is_outside;         // beyond it there is no voxel
+    bool is_outside;         // there is no voxel beyond it
   };
-  using Place = std::uint16_t;  // among the cells of the star
+  using Place = std::uint16_t;  // index among the cells of the star
   static constexpr Place kNone = UINT16_MAX;
   struct StarCell {
     std::uint32_t cell;
-    std::uint32_t voxel;  // the far one of those it touches; CellGrid::kNone: outside
+    std::uint32_t voxel;  // the farthest voxel that it touches; CellGrid::kNone if outside
     std::uint32_t steps;  // as bits
     std::uint16_t code;
     Place partner = kNone;
-    // While paths are counted:
+    // Used while paths are counted:
     Place paths_in = 0, paths = 0, from = kNone;
   };
 
@@ -77,11 +76,11 @@ class StarMatcher {
   void find_cells(std::uint32_t voxel, const CellGrid::Coordinates& at);
   void pair_apparent_cells();
   void pair_rest();
-  /// Pairs a cell with one of those a step below. @return false if that is not decided by paths.
+  /// Pairs a cell with a cell one step below. @return false if paths do not decide it.
   bool pair_along_path(Place cell);
-  /// Counts the paths from a cell to those in `reached_`: none, one, or more.
+  /// Counts the paths from a cell to the cells in `reached_`: none, one, or more.
   void count_paths(Place cell);
-  /// Calls `visit(place)` for the cells a step below that are left along a path from `cell`.
+  /// Calls `visit(place)` for the cells one step below through which a path from `cell` continues.
   template <class Visit>
   void for_each_next(Place cell, Visit&& visit);
   void mark_cells(std::uint32_t voxel);
@@ -94,7 +93,7 @@ class StarMatcher {
     const std::uint32_t x = cells_[a].cell, y = cells_[b].cell;
     return grid_.voxels_are_vertices() ? x > y : x < y;
   }
-  /// Whether a cell is in a pair with one a step below.
+  /// True if a cell is in a pair with a cell one step below.
   bool is_upper(const StarCell& c) const {
     return c.partner != kNone && (cells_[c.partner].steps & ~c.steps) == 0;
   }
@@ -103,9 +102,9 @@ class StarMatcher {
   const StarShapes& shapes_;
   std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;  // in the order of apparent pairs
   std::size_t step_count_ = 0;
-  std::uint32_t border_ = UINT32_MAX;  // at which ends of the axes the last voxel was
-  std::pmr::vector<StarCell> cells_;   // a cell after those with a step less
-  std::pmr::vector<Place> place_;      // by code; kNone: it is not in the star
+  std::uint32_t border_ = UINT32_MAX;  // the ends of the axes at which the last voxel was
+  std::pmr::vector<StarCell> cells_;   // each cell after the cells with one step less
+  std::pmr::vector<Place> place_;      // by code; kNone if the cell is not in the star
   std::pmr::vector<Place> rest_, reached_, stack_;
   CriticalNames critical_;
 };

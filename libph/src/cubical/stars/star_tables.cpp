@@ -7,7 +7,8 @@
 namespace ph::cubical {
 namespace {
 
-// No DisjointSets: with eight nodes at most no path is worth halving, nor an allocation.
+// DisjointSets is not used: with at most eight nodes, neither halving paths nor an allocation is
+// worthwhile.
 template <std::size_t size>
 int root_of(const std::array<int, size>& parent, int i) {
   while (parent[i] != i) i = parent[i];
@@ -41,9 +42,10 @@ StarTables::StarTables(unsigned wrapped)
   }
 }
 
-// Kruskal with the elder rule on the link: squares, in order, join edges of the star; of two
-// components the one whose oldest edge is younger dies. So all but the oldest edge of a component
-// are killed. In the tree that is left each of them is matched with the square towards the oldest.
+// Kruskal's algorithm with the elder rule on the link: squares, in order, join edges of the star;
+// of two components, the one whose oldest edge is younger dies. All edges of a component except the
+// oldest are therefore killed. In the resulting tree, each of them is matched with the square
+// towards the oldest.
 void StarTables::pair_edges(unsigned squares) {
   std::array<int, kEdgeCount> parent{};
   std::iota(parent.begin(), parent.end(), 0);
@@ -78,8 +80,8 @@ void StarTables::pair_edges(unsigned squares) {
   of_squares_[squares].joined = static_cast<std::uint8_t>(63U & ~roots);
 }
 
-// The same on the dual, backwards: the eight triangles of the octahedron are nodes, those that are
-// not in the star have always been there; squares, the youngest first, join the cubes beside them.
+// The same on the dual, backwards: the eight triangles of the octahedron are nodes, and triangles
+// outside the star were always there; squares, youngest first, join the cubes beside them.
 CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   CubePairs pairs;
   const unsigned cubes = this->cubes(star), all = squares(star);
@@ -101,7 +103,7 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
     return number_of(turned(kSquares[s], normal_of_square(s), sign));
   };
   const auto is_there = [&](int c) { return (cubes >> c & 1U) != 0; };
-  // Roots: what has always been there, then the youngest.
+  // The root is a node that was always there, otherwise the youngest.
   const auto outlives = [&](int a, int b) {
     if (is_there(a) != is_there(b)) return !is_there(a);
     return cube_order_.rank(a) > cube_order_.rank(b);

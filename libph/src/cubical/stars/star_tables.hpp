@@ -12,11 +12,11 @@
 namespace ph::cubical {
 
 // The lower star of a voxel v in a grid of at most three axes: v and the edges, squares and cubes
-// whose youngest voxel is v. Each cell is named by its direction, the offset in {-1, 0, 1}^3 from v
-// to its centre, doubled. A star is one word: bits 0-5 the edges, 6-17 the squares, 18-25 the
+// whose youngest voxel is v. Each cell is named by its direction: twice the offset from v to its
+// centre, in {-1, 0, 1}^3. A star is one word: bits 0-5 are the edges, 6-17 the squares, 18-25 the
 // cubes, each in lexicographic order of the directions. As a complex it is a cone over the lower
-// link, a part of the octahedron: edges of the star are its vertices, squares its edges, cubes its
-// triangles.
+// link, which is a part of the octahedron: edges of the star are its vertices, squares its edges,
+// cubes its triangles.
 
 /// A direction, by axis; the last axis is the fastest.
 using Direction = std::array<int, 3>;
@@ -24,7 +24,7 @@ using Direction = std::array<int, 3>;
 constexpr int kEdgeCount = 6, kSquareCount = 12, kCubeCount = 8;
 constexpr int kSquareShift = kEdgeCount, kCubeShift = kEdgeCount + kSquareCount;
 /// Bits 26-30 mark edges that are known to be in a pair; the oldest edge needs no mark.
-constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // of rank 0
+constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // for rank 0
 constexpr std::uint32_t kAbsent = std::uint32_t{1} << 31;  ///< the voxel never enters
 
 constexpr int dimension_of(const Direction& d) { return (d[0] != 0) + (d[1] != 0) + (d[2] != 0); }
@@ -45,7 +45,7 @@ inline constexpr auto kSquares = directions_of<kSquareCount>(2);
 inline constexpr auto kCubes = directions_of<kCubeCount>(3);
 
 constexpr int place_of(const Direction& d) { return (d[0] + 1) * 9 + (d[1] + 1) * 3 + d[2] + 1; }
-/// By place_of a direction: its number among those of its dimension.
+/// By place_of a direction: its number among the directions of its dimension.
 inline constexpr std::array<int, 27> kNumbers = [] {
   std::array<int, 27> numbers{};
   for (int i = 0; i < kEdgeCount; ++i) numbers[place_of(kEdges[i])] = i;
@@ -59,7 +59,7 @@ constexpr std::uint32_t star_bit(const Direction& d) {
   const int shift = dimension_of(d) == 1 ? 0 : dimension_of(d) == 2 ? kSquareShift : kCubeShift;
   return std::uint32_t{1} << (shift + number_of(d));
 }
-/// The same direction but for one axis.
+/// The same direction, changed on one axis.
 constexpr Direction turned(Direction d, int axis, int to) {
   d[axis] = to;
   return d;
@@ -67,7 +67,7 @@ constexpr Direction turned(Direction d, int axis, int to) {
 constexpr int axis_of_edge(int edge) {
   return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
 }
-/// The two edges of a square at the star's voxel, the one along the slower axis first.
+/// The two edges of a square at the star's voxel, first the edge along the slower axis.
 constexpr std::array<int, 2> edges_of_square(int square) {
   std::array<int, 2> edges{};
   int next = 0;
@@ -88,7 +88,7 @@ inline constexpr auto kEdgesOfSquare = [] {
 constexpr int normal_of_square(int square) {
   return kSquares[square][0] == 0 ? 0 : kSquares[square][1] == 0 ? 1 : 2;
 }
-/// The square of a cube at the star's voxel across an axis.
+/// The square of a cube, at the star's voxel, across an axis.
 constexpr int square_of_cube(int cube, int axis) {
   return number_of(turned(kCubes[cube], axis, 0));
 }
@@ -102,7 +102,7 @@ class GridOrder {
     const auto place = [&](int i) {
       Direction d = directions[i];
       for (int a = 0; a < 3; ++a)
-        if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // behind all others of the axis
+        if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // after all others of the axis
       return d;
     };
     std::iota(at_.begin(), at_.end(), 0);
@@ -128,14 +128,14 @@ class GridOrder {
   bool is_by_number_;
 };
 
-/// What the cubes of a star are paired with, and what is left; in one word.
+/// The partners of the cubes of a star, and the remaining cells, in one word.
 class CubePairs {
  public:
   CubePairs() = default;
   explicit CubePairs(std::uint64_t word) : word_(word) {}
   std::uint64_t word() const { return word_; }
 
-  /// The axis to turn to leave a cube by the square that it is paired with.
+  /// The axis to turn in order to leave a cube by the square that it is paired with.
   int exit(int cube) const { return static_cast<int>(word_ >> (2 * cube) & 3U); }
   /// The squares that are paired with cubes.
   unsigned squares() const { return static_cast<unsigned>(word_ >> 16) & 4095U; }
@@ -151,28 +151,28 @@ class CubePairs {
 };
 
 /// Pairs inside a star: the persistence pairs of the star modulo its lower link, in the order of
-/// the filtration. Which cells are killed, which kill and which do neither (critical cells) is that
-/// of the pairs; who is matched with whom is changed so that the matching is a forest, which alters
-/// nothing for critical cells (see docs/explanation/engines/discrete-gradient.md).
+/// the filtration. The pairs decide which cells are killed, which kill and which do neither
+/// (critical cells). The partners are then changed to make the matching a forest, which does not
+/// affect critical cells (see docs/explanation/engines/discrete-gradient.md).
 class StarTables {
  public:
-  /// @param wrapped bit a: the voxel is the first one of the periodic axis a, so that the cells
-  ///        before it along a come last in the grid.
+  /// @param wrapped bit a is set if the voxel is the first one of the periodic axis a; the cells
+  ///        before it along a then come last in the grid.
   explicit StarTables(unsigned wrapped);
 
   struct Closed {
     std::uint32_t star;
-    /// Not 0 if a cell of it, or the voxel, is critical: not paired inside it.
+    /// Not 0 if a cell of the star, or the voxel, is critical: not paired inside it.
     unsigned critical;
   };
-  /// Takes out squares that lack an edge and cubes that lack a square.
+  /// Removes squares that lack an edge and cubes that lack a square.
   Closed closed(std::uint32_t raw) const {
     const unsigned e = raw & 63U;
     const OfEdges& of_edges = of_edges_[e];
     const unsigned s = raw >> kSquareShift & of_edges.squares_on;
     const OfSquares& of_squares = of_squares_[s];
     const unsigned c = raw >> kCubeShift & of_squares.cubes_on;
-    // Each cube but one in a full star takes a square that closes a loop.
+    // Each cube takes a square that closes a loop, except for one cube in a full star.
     const unsigned critical = static_cast<unsigned>(e == 0) |
                               (e & ~unsigned{of_squares.joined} & ~unsigned{of_edges.lowest}) |
                               (of_squares.loops ^ kBitCount[c]) | static_cast<unsigned>(c == 255);
@@ -182,7 +182,7 @@ class StarTables {
   static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
   static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
 
-  /// The edge with which the voxel is paired: the oldest one. Precondition: there is one.
+  /// The edge that the voxel is paired with: the oldest one. Precondition: there is one.
   int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
   /// The edges not paired inside the star.
   unsigned critical_edges(std::uint32_t star) const {
@@ -200,20 +200,20 @@ class StarTables {
   std::uint32_t taken_mark(int edge) const {
     return std::uint32_t{1} << (kTakenShift + edge_order_.rank(edge));
   }
-  /// The square with which an edge is paired; -1 if there is none.
+  /// The square that an edge is paired with, or -1.
   int square_of(std::uint32_t star, int edge) const { return up_[squares(star)][edge]; }
   /// The squares that are paired with edges.
   unsigned edge_squares(std::uint32_t star) const { return tree_[squares(star)]; }
-  /// The edge with which a square is paired. Precondition: it is in `edge_squares`.
+  /// The edge that a square is paired with. Precondition: it is in `edge_squares`.
   int edge_of(std::uint32_t star, int square) const {
     const auto [a, b] = kEdgesOfSquare[square];
     return up_[squares(star)][a] == square ? a : b;
   }
   CubePairs pair_cubes(std::uint32_t star) const;
-  /// Of a star among those that differ in squares or cubes: below `cube_place_count`.
+  /// The index of a star among stars that differ in squares or cubes: below `cube_place_count`.
   std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
-    // Which subset of the cubes that the squares allow.
+    // Adds the index of the subset among the cubes that the squares allow.
     std::uint32_t place = places_begin_[squares(star)];
     int bit = 0;
     for (unsigned rest = of_squares_[squares(star)].cubes_on; rest != 0; rest &= rest - 1, ++bit)
@@ -244,32 +244,32 @@ class StarTables {
   GridOrder<kSquareCount> square_order_;
   GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
-  // What each voxel asks for lies side by side.
+  // Data that each voxel needs, side by side.
   struct OfEdges {
-    std::uint16_t squares_on;  // squares that have both
+    std::uint16_t squares_on;  // squares that have both of these edges
     std::uint8_t lowest;       // the oldest edge, as a bit
   };
   struct OfSquares {
-    std::uint8_t cubes_on;  // cubes that have all three
-    std::uint8_t joined;    // edges paired with one of them
-    std::uint8_t loops;     // how many are not paired with an edge
+    std::uint8_t cubes_on;  // cubes that have all three of these edges
+    std::uint8_t joined;    // edges paired with one of these squares
+    std::uint8_t loops;     // number of squares not paired with an edge
   };
   std::array<OfEdges, 64> of_edges_{};
   std::array<OfSquares, 4096> of_squares_{};
-  std::array<std::uint16_t, 4096> tree_{};  // by squares: those paired with an edge
+  std::array<std::uint16_t, 4096> tree_{};  // by squares: the squares paired with an edge
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
   std::array<std::uint32_t, 4096> places_begin_{};  // by squares
   std::uint32_t place_count_ = 0;
 };
 
-/// Made once, when they are first asked for.
+/// Made once, on first use.
 const StarTables& star_tables(unsigned wrapped);
 
-/// `StarTables::pair_cubes`, which is slow, once for each kind of star that is met: most are never.
-/// For several threads at a time.
+/// Caches `StarTables::pair_cubes`, which is slow, once for each kind of star that occurs: most
+/// never do. Several threads may use it.
 class CubePairMemo {
  public:
-  /// @param is_used else nothing is asked of it.
+  /// @param is_used false if it will never be asked.
   CubePairMemo(const StarTables& tables, bool is_used, std::pmr::memory_resource* memory)
       : tables_(&tables), words_(is_used ? tables.cube_place_count() : 0, memory) {}
   CubePairs pair_cubes(std::uint32_t star) const {

@@ -9,13 +9,14 @@
 
 namespace ph::cubical {
 
-/// The stars of a grid in a temporary file, to be looked at anywhere once they are all there.
+/// The stars of a grid in a temporary file, for random access once all of them are there.
 class StoredStars : public GridFrame {
  public:
   explicit StoredStars(const GridFrame& frame)
       : GridFrame(frame), file_(std::size_t{size()} * sizeof(std::uint32_t)) {}
 
-  /// Keeps the stars of a slab, but for its ghosts. @param first its first voxel, ghosts included.
+  /// Stores the stars of a slab, except for its ghosts. @param first its first voxel, including
+  /// ghosts.
   void add(const StarGrid& slab, std::uint32_t first) {
     std::uint32_t begin = 0, end = slab.size();
     while (begin < end && slab.is_ghost(begin)) begin += layer_size();
@@ -40,18 +41,19 @@ class StoredStars : public GridFrame {
                                    [&](int edge) { star |= tables.taken_mark(edge); });
     }
   }
-  /// Bytes of files that may be in memory, about, while stars and voxels are looked at.
+  /// The approximate number of bytes of files that may be in memory while stars and voxels are
+  /// used.
   void let_stay(std::size_t bytes) {
     most_ = resident_.bytes() + bytes;
     all_stay_ = file_.size() + voxel_bytes() <= bytes;
   }
-  /// Whether these are all: then it does not matter where one looks.
+  /// True if this is enough for everything: access is then free.
   bool all_stay() const { return all_stay_; }
 
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
   void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
   bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
-  /// To be called now and then, by any thread: what has come into memory may have to leave.
+  /// To be called now and then, by any thread: pages that came into memory may have to leave.
   void tidy() const {
     if (resident_.bytes() <= most_) return;
     forget_file_pages(file_.data(), file_.size());
