@@ -39,7 +39,7 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
                               i));
 }
 
-/// Of numbers whose squares may be too large for doubles.
+/// For numbers whose squares may be too large for doubles.
 double root_mean_square(const std::vector<double>& numbers) {
   const double largest = std::ranges::max(numbers);
   if (!(largest > 0)) return 0;
@@ -48,7 +48,7 @@ double root_mean_square(const std::vector<double>& numbers) {
   return largest * std::sqrt(sum / static_cast<double>(numbers.size()));
 }
 
-/// The first of the diagrams with the least sum of squares of distances.
+/// The first diagram with the least sum of squared distances.
 std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   const DistanceMatrix distances = diagram_distances(
       diagrams,
@@ -73,8 +73,8 @@ std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   return best;
 }
 
-/// The mean of some bars and, where there are fewer of them than `count`, of the points of the
-/// diagonal that are nearest to their mean. Ends that are infinite stay so.
+/// The mean of some bars and, if there are fewer of them than `count`, of the points on the
+/// diagonal nearest to their mean. Infinite ends stay infinite.
 Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
   const auto n = static_cast<double>(partners.size());
   double birth = 0, death = 0;
@@ -112,7 +112,7 @@ class Alternation {
       distances.push_back(matching.distance.value);
     return root_mean_square(distances);
   }
-  /// Moves bars to where their partners want them, by the matchings of the last `match`.
+  /// Moves bars to the place that their partners prefer, by the matchings of the last `match`.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;
@@ -127,11 +127,11 @@ class Alternation {
       }
     for (const std::vector<Bar>& own : partners)
       if (!own.empty()) moved.push_back(mean_of(own, diagrams_.size()));
-    // A new one may be too short for doubles.
+    // The length of a new bar may underflow.
     std::erase_if(moved, [](const Bar& bar) { return !(bar.birth < bar.death); });
     bars_.swap(moved);
   }
-  /// The bars in order. Which one was which is not known any more.
+  /// The bars in order. Their former numbers are lost.
   std::vector<Bar> bars() const {
     std::vector<Bar> sorted = bars_;
     std::ranges::sort(sorted, {}, [](const Bar& bar) { return std::tie(bar.birth, bar.death); });
@@ -157,7 +157,7 @@ Barycentre barycentre(Diagrams diagrams, const BarycentreOptions& options,
   for (; result.rounds < options.most_rounds; ++result.rounds) {
     alternation.move();
     const double now = alternation.match();
-    // Rounding may raise what has come to its end.
+    // Rounding may raise the value after convergence.
     result.converged = !(result.root_mean_square - now > options.least_gain * now);
     if (now < result.root_mean_square) {
       result.root_mean_square = now;

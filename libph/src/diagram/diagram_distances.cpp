@@ -13,21 +13,21 @@ using Diagram = std::span<const Bar>;
 
 struct Pair {
   Diagram a, b;
-  std::size_t place;  ///< of its distance in the result
+  std::size_t place;  ///< place of its distance in the result
 
   std::size_t bars() const { return a.size() + b.size(); }
 };
 
-/// @param count how many pairs. @param add_pairs does to a list of them.
+/// @param count number of pairs. @param add_pairs adds them to a list.
 template <class AddPairs>
 std::vector<double> distances_of(std::size_t count, const DiagramDistance& distance,
                                  const RunContext& context, AddPairs&& add_pairs) {
-  // Half of what is sorted once more: the room in which it is merged.
+  // The claim counts half of the sorted list once more, for the buffer of the merge.
   const MemoryClaim claim(context.memory, count * (3 * sizeof(Pair) / 2 + sizeof(double)));
   std::vector<Pair> pairs;
   pairs.reserve(count);
   add_pairs(pairs);
-  // The longest first: no thread is left with a long one in the end.
+  // The largest come first, which keeps a thread from starting a large one at the end.
   std::ranges::stable_sort(pairs, std::ranges::greater(), &Pair::bars);
   std::vector<double> result(pairs.size());
   const diagram::ThreadContexts contexts(pairs.size(), context);

@@ -12,29 +12,31 @@
 
 namespace ph::diagram {
 
-/// The finite end of a bar, and its place among the bars that were given.
+/// The finite end of a bar, and the bar's place in the input.
 struct PlacedEnd {
   double value;
   std::uint32_t place;
 };
 
-/// Bars of a diagram by which of their ends are finite. The infinite ones by what is left of them.
+/// The bars of a diagram, divided by which of their ends are finite. Infinite bars are represented
+/// by their finite ends.
 struct DiagramParts {
-  std::vector<Point> finite;  // the longest first, equally long ones as they were given
+  std::vector<Point> finite;  // longest first, equally long ones in their original order
   std::vector<std::uint32_t> places;
-  std::vector<PlacedEnd> rays[2];    // births of bars without death; deaths of those without birth
-  std::vector<std::uint32_t> lines;  // neither
+  // Births of bars without death, and deaths of bars without birth.
+  std::vector<PlacedEnd> rays[2];
+  std::vector<std::uint32_t> lines;  // bars without birth and death
 
-  /// Leaves bars of length 0 out. @param function the name for messages.
+  /// Leaves out bars of length 0. @param function its name, for messages.
   /// @throws Error (bad_data) on a NaN, or a death before its birth.
   DiagramParts(std::span<const Bar> bars, std::string_view function);
 };
 
-/// Whether the infinite bars can be paired: there are as many of each kind.
+/// True if the infinite bars can be paired: both diagrams have the same number of each kind.
 bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 
-/// Places of infinite bars that are for each other: on a line nobody gains by crossing over.
-/// Requires as many of each kind.
+/// The places of infinite bars that are paired: on a line, crossing pairs have no advantage. Both
+/// must have the same number of each kind.
 void pair_infinite(const DiagramParts& a, const DiagramParts& b,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 

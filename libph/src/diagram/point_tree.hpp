@@ -13,21 +13,21 @@ namespace ph::diagram {
 /// Birth and death of a bar, both finite.
 using Point = std::array<double, 2>;
 
-/// No point, no partner.
+/// No point, or no partner.
 inline constexpr std::uint32_t kNone = UINT32_MAX;
 
 inline double distance(const Point& p, const Point& q) {
   return std::max(std::abs(p[0] - q[0]), std::abs(p[1] - q[1]));
 }
 
-/// How far a bar is from the diagonal.
+/// The distance of a bar from the diagonal.
 inline double to_diagonal(const Point& p) {
   const double length = p[1] - p[0];
   return std::isfinite(length) ? length / 2 : p[1] / 2 - p[0] / 2;
 }
 
-/// The points of a diagram in a k-d tree. They are named by their positions in its order: what is
-/// near in space is near in memory.
+/// The points of a diagram in a k-d tree. Points are named by their positions in the order of the
+/// tree: neighbours in space are close in memory.
 class PointTree {
  public:
   using Node = KdTree::Node;
@@ -38,7 +38,7 @@ class PointTree {
 
   std::size_t size() const { return tree_.size(); }
   const Point& point(Position q) const { return points_[q]; }
-  /// By position: the place among the points that were given.
+  /// By position: the place of the point in the input.
   std::span<const std::uint32_t> places() const { return tree_.rows(); }
 
   Node node_count() const { return tree_.node_count(); }
@@ -49,10 +49,10 @@ class PointTree {
     const std::uint64_t leaves = tree_.first_leaf();
     return static_cast<Node>(leaves + ((q + std::uint64_t{1}) * leaves - 1) / size());
   }
-  /// Least and largest birth, least and largest death.
+  /// Smallest and largest birth, smallest and largest death.
   const double* box(Node node) const { return tree_.box(node); }
-  /// In the maximum metric. Rounding keeps the order of distances, so no point of the node is
-  /// nearer than this.
+  /// In the maximum metric. Rounding keeps the order of distances; no point of the node is
+  /// therefore nearer than this.
   double distance_to_box(const Point& p, Node node) const {
     const double* const b = box(node);
     return std::max({0.0, b[0] - p[0], p[0] - b[1], b[2] - p[1], p[1] - b[3]});

@@ -7,11 +7,11 @@
 
 namespace ph::diagram {
 
-/// Contexts for tasks that several threads do at the same time: a context reports to one thread
-/// only, and limits memory.
+/// Contexts for tasks that run on several threads: a context reports to one thread only, and limits
+/// memory.
 class ThreadContexts {
  public:
-  /// @param tasks as many at the same time, at most. @param parent outlives this.
+  /// @param tasks largest number of tasks at the same time. @param parent must outlive this object.
   ThreadContexts(std::size_t tasks, const RunContext& parent)
       : parent_(parent),
         share_(parent.memory.limit() == MemoryBudget::kUnlimited
@@ -19,7 +19,7 @@ class ThreadContexts {
                    : parent.memory.left() /
                          std::clamp<std::size_t>(thread_count(parent), 1, std::max(tasks, kOne))) {}
 
-  /// Makes a new context that of a task: one thread, stopped with the others, a share of the
+  /// Prepares a new context for a task: one thread, stopped with the others, and a share of the
   /// memory.
   void prepare(RunContext& task) const {
     task.stop = parent_.stop;

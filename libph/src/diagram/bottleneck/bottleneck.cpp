@@ -12,7 +12,7 @@ namespace {
 
 using diagram::DiagramParts;
 
-/// What infinite bars alone decide.
+/// The part of the distance that infinite bars decide.
 double distance_of_infinite(const DiagramParts& a, const DiagramParts& b) {
   if (!diagram::have_as_many_infinite(a, b)) return kInfinity;
   double result = 0;
@@ -22,20 +22,21 @@ double distance_of_infinite(const DiagramParts& a, const DiagramParts& b) {
   return result;
 }
 
-/// The finite bars of two diagrams: one side after the other.
+/// The finite bars of two diagrams, and matchings from either side.
 class TwoSides {
  public:
   TwoSides(const DiagramParts& a, const DiagramParts& b, const RunContext& context)
       : there_(a.finite, b.finite, context), back_(b.finite, a.finite, context) {}
 
-  /// @param least the distance is not less.
+  /// @param least a lower bound for the distance.
   DistanceBounds bounds(double least, const DistanceLimits& limits) {
     const double lower = back_.lower_bound(there_.lower_bound(least));
     DistanceBounds bounds = there_.narrow({lower, lower}, limits);
     const DistanceBounds second = back_.narrow(bounds, limits);
     return {std::max(bounds.value, second.value), second.lower};
   }
-  /// Of each bar of the first diagram the one of the second, or kNone. @param distance after bounds
+  /// For each bar of the first diagram: its partner in the second, or kNone. @param distance as
+  /// found by `bounds`
   std::vector<std::uint32_t> partners(double distance) {
     there_.match_at(distance);
     back_.match_at(distance);
@@ -48,7 +49,7 @@ class TwoSides {
   diagram::OneSidedMatching there_, back_;
 };
 
-// Trees count themselves, and so do those that are left of their points.
+// Trees count their own memory, and so do the sets of their remaining points.
 constexpr std::size_t kBytesABar = 160;
 
 }  // namespace

@@ -9,14 +9,16 @@
 
 namespace ph::diagram {
 
-/// Two matchings, one with all long bars of the first diagram, one with those of the second, made
-/// one that has all of both. Together they are paths and cycles, whose pairs come from one and the
-/// other in turn; of each path one of the two has all long bars (Mendelsohn and Dulmage).
+/// Merges two matchings, one with all long bars of the first diagram and one with all long bars of
+/// the second, into one with all long bars of both. Together they form paths and cycles, whose
+/// pairs alternate between the two matchings; on each path, one of the two has all long bars
+/// (Mendelsohn and Dulmage).
 class JoinedMatchings {
  public:
   using Mates = std::span<const std::uint32_t>;
 
-  /// @param first_of_a, first_of_b the first matching by bars of either diagram; kNone: no pair.
+  /// @param first_of_a, first_of_b the first matching, by bars of either diagram; kNone if there is
+  /// no pair.
   JoinedMatchings(Mates first_of_a, Mates first_of_b, Mates second_of_a, Mates second_of_b)
       : mates_{{first_of_a, first_of_b}, {second_of_a, second_of_b}},
         seen_(first_of_a.size() + first_of_b.size()) {}
@@ -24,7 +26,7 @@ class JoinedMatchings {
   /// @return the partner of each bar of the first diagram, or kNone.
   std::vector<std::uint32_t> join() {
     partners_.assign(mates_[0][0].size(), kNone);
-    // Paths from their ends, which have a pair in one matching only; what is left are cycles.
+    // Starts paths at their ends, which have a pair in only one matching; the rest are cycles.
     for (const bool ends : {true, false})
       for (std::size_t side : {0U, 1U})
         for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {
@@ -44,8 +46,8 @@ class JoinedMatchings {
     return seen_[side * mates_[0][0].size() + i];
   }
   /// Follows a path from one of its ends, or a cycle, and keeps the pairs of one matching: the one
-  /// with more of them; of as many, the one with the bar at the end that the first diagram has in
-  /// the first matching, or the second in the second.
+  /// with more pairs. If both have as many, it keeps the first matching if the bar at the end
+  /// belongs to the first diagram, otherwise the second.
   void take(std::size_t side, std::uint32_t start, std::size_t matching) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs[2];
     std::size_t at_side = side, at_matching = matching;
@@ -61,7 +63,7 @@ class JoinedMatchings {
       at = next;
       at_matching = 1 - at_matching;
     }
-    // A path of as many pairs of each ends where it began, on the same side.
+    // A path with equally many pairs of each matching ends on the side where it began.
     const std::size_t better =
         pairs[0].size() != pairs[1].size() ? (pairs[0].size() > pairs[1].size() ? 0U : 1U) : side;
     for (const auto& [a, b] : pairs[better]) partners_[a] = b;

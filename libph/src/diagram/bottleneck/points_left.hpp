@@ -9,18 +9,18 @@
 
 namespace ph::diagram {
 
-/// Those points of a tree that are left, in the maximum metric: a byte for each node. That of a
-/// leaf has a bit for each of its points; that of an inner node is zero if and only if nobody is
-/// left. Distances are those of `distance`, to the last digit.
+/// The remaining points of a tree, in the maximum metric: one byte per node. The byte of a leaf has
+/// one bit per point; the byte of an inner node is zero if and only if no point is left. Distances
+/// equal those of `distance`, to the last digit.
 class PointsLeft {
  public:
   using Position = PointTree::Position;
 
-  /// All are left. @param tree outlives this.
+  /// All points are left. @param tree must outlive this object.
   PointsLeft(const PointTree& tree, const RunContext& context);
 
   void restore_all() { left_ = all_; }
-  /// As restore_all and a `remove` of each point that `is_left` refuses, but O(n).
+  /// The same as restore_all and then `remove` for each point that `is_left` rejects, but in O(n).
   template <class IsLeft>
   void restore(IsLeft&& is_left) {
     for (Node node = tree_.node_count() - 1; node > 0; --node) {
@@ -40,12 +40,11 @@ class PointsLeft {
     return (left_[leaf] >> (q - tree_.begin(leaf)) & 1U) != 0;
   }
   void remove(Position q);
-  /// Removes a point at a distance of `radius` or less: which one is not said, but those near
-  /// `near` in the order of the tree are tried first. @return its position, or kNone if there is
-  /// none.
+  /// Removes some point at a distance of at most `radius`, trying points near `near` in the order
+  /// of the tree first. @return its position, or kNone if there is none.
   Position take(const Point& p, double radius, Position near);
 
-  /// Removes all points at a distance of `radius` or less, and calls `visit(position)` for each.
+  /// Removes all points at a distance of at most `radius`, and calls `visit(position)` for each.
   template <class Visit>
   void take_all(const Point& p, double radius, Visit&& visit) {
     if (left_[1] != 0 && tree_.distance_to_box(p, 1) <= radius) take_all_below(1, p, radius, visit);
@@ -55,7 +54,7 @@ class PointsLeft {
     double distance;
     Position position = kNone;
   };
-  /// The nearest point that is left; of what is `limit` away or more only `limit` is said.
+  /// The nearest remaining point; if there is none closer than `limit`, only `limit` is returned.
   Nearest nearest(const Point& p, double limit) const {
     Nearest best{limit};
     if (left_[1] != 0 && tree_.distance_to_box(p, 1) < limit) nearest(1, p, best);
@@ -65,7 +64,7 @@ class PointsLeft {
  private:
   using Node = PointTree::Node;
 
-  /// A node is zero once both of its children are; until then nothing changes above it.
+  /// A node becomes zero once both of its children are; until then nothing changes above it.
   void empty_above(Node node) {
     while (node > 1 && left_[node] == 0) {
       node /= 2;

@@ -11,7 +11,7 @@ Assignment::Side::Side(std::span<const Point> points, std::size_t others, const 
     : tree(points, context), prices(tree, cost, context), partner(points.size(), kNone) {
   for (Position q = 0; q < points.size(); ++q) {
     alone.push_back(std::min(cost.alone(tree.point(q)), most));
-    // Both trees are halved along the same axes or nearly so.
+    // Both trees are divided along the same, or nearly the same, axes.
     near.push_back(static_cast<Position>(std::uint64_t{q} * others / points.size()));
   }
 }

@@ -12,12 +12,12 @@
 
 namespace ph::diagram {
 
-/// A matching of two sets of points with one diagonal, and prices that prove how good it is.
+/// A matching of two sets of points with one diagonal, with prices that certify its quality.
 ///
-/// Prices u of the first and w of the second are feasible: u_a + w_b <= cost(a, b) for all pairs,
-/// u_a <= cost(a alone), w_b <= cost(b alone). So every matching costs at least their sum. It costs
-/// as much as that if its pairs have u_a + w_b = cost(a, b), and who is alone has the price of
-/// that.
+/// Prices u of the first set and w of the second are feasible: u_a + w_b <= cost(a, b) for all
+/// pairs, u_a <= cost(a alone), w_b <= cost(b alone). Every matching therefore costs at least their
+/// sum. The matching costs exactly that sum if its pairs have u_a + w_b = cost(a, b) and each point
+/// without a partner has its cost alone as price.
 class Assignment {
  public:
   using Position = PointTree::Position;
@@ -26,17 +26,18 @@ class Assignment {
   struct Side {
     PointTree tree;
     WeightedTree prices;
-    std::vector<double> alone;      // what each costs that is left over
+    std::vector<double> alone;      // cost of each point without a partner
     std::vector<Position> partner;  // in the other tree, or kNone
-    std::vector<Position> near;     // in the other tree: where a search begins
+    std::vector<Position> near;     // position in the other tree where a search begins
 
     Side(std::span<const Point> points, std::size_t others, const GroundCost& cost, double most,
          const RunContext& context);
   };
 
-  /// Nobody is paired, and prices are -infinity. Both sets have points, which outlive this.
-  /// @param most what it costs at most to leave over a point. If there is a matching that costs
-  /// less, an optimal one is the same, and prices are rounded to digits of its size.
+  /// Starts without pairs, with prices of -infinity. Both sets must have points and outlive this
+  /// object.
+  /// @param most an upper bound for the cost of a point without a partner. If a matching costs less
+  /// than that, the optimal matching does not change, and prices are rounded to digits of its size.
   Assignment(std::span<const Point> a, std::span<const Point> b, const GroundCost& cost,
              const RunContext& context, double most = std::numeric_limits<double>::infinity())
       : cost_(cost),
@@ -51,7 +52,7 @@ class Assignment {
   double pair_cost(std::size_t k, Position x, Position y) const {
     return cost_.pair(sides_[k].tree.point(x), sides_[1 - k].tree.point(y));
   }
-  /// The two that x of side k would take, at the prices of the other side.
+  /// The two best partners for x of side k, at the prices of the other side.
   WeightedTree::Best best_two(std::size_t k, Position x);
   void pair(std::size_t k, Position x, Position y) {
     sides_[k].partner[x] = y;
@@ -63,15 +64,16 @@ class Assignment {
     sides_[1 - k].partner[y] = kNone;
     y = kNone;
   }
-  /// Makes the price of x of side k as high as is feasible.
+  /// Raises the price of x of side k as high as is feasible.
   void raise_price(std::size_t k, Position x);
 
-  /// The matching costs `cost`, and none costs less than `lower`, rounding allowed for.
+  /// The matching costs `cost`, and no matching costs less than `lower`, with an allowance for
+  /// rounding.
   struct Costs {
     double cost, lower;
   };
   Costs costs() const;
-  /// By place among the points of the first set: place in the second, or kNone.
+  /// By place among the points of the first set: the place of the partner in the second, or kNone.
   std::vector<std::uint32_t> partners() const;
 
  private:

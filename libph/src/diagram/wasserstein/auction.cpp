@@ -7,20 +7,22 @@
 namespace ph::diagram {
 namespace {
 
-/// From an increment to the next.
+/// Ratio of one increment to the next.
 constexpr double kStep = 6;
 
-/// So many bids for each bar, and the first round takes larger steps.
+/// After this many bids per bar, the first round takes larger steps.
 constexpr std::uint64_t kBidsAStep = 3;
 
-/// More than differences of the two are rounded by: a bid that is lower by this is lower.
+/// An upper bound for the rounding error of the difference: a bid that is lower by this is really
+/// lower.
 double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(price)); }
 
 }  // namespace
 
 Auction::Auction(Assignment& assignment, const RunContext& context)
     : assignment_(assignment), ticker_(context, "Wasserstein distance") {
-  // Prices that are no larger than costs: with prices of zero, raised on one side after the other.
+  // The first prices do not exceed costs: they start at zero and are raised on one side after the
+  // other.
   Assignment::Side& mine = assignment_.side(0);
   for (Position x = 0; x < mine.tree.size(); ++x) mine.prices.set(x, 0);
   for (const std::size_t k : {1U, 0U})
@@ -39,14 +41,15 @@ bool Auction::run(const std::function<bool(const Assignment::Costs&)>& is_enough
       alone += cost;
       ++count;
     }
-  // What pairs cost is mostly of the size of the first prices; of equal diagrams these are zero.
+  // The cost of pairs is usually of the size of the first prices; for equal diagrams these are
+  // zero.
   increment_ = std::max(assignment_.costs().lower, 1e-3 * alone) / static_cast<double>(count);
-  // Where many bid for few, prices have far to go: the first round may take larger steps.
+  // If many points bid for few, prices must rise far: the first round may take larger steps.
   most_increment_ = std::max(increment_, alone / static_cast<double>(count));
   for (;;) {
     if (!round(most_bids)) return false;
     const Assignment::Costs costs = assignment_.costs();
-    // Pairs are dearer than their prices by the increment at most: what is left is rounding.
+    // Pairs exceed their prices by at most the increment: the rest is rounding.
     if (is_enough(costs) || increment_ * static_cast<double>(count) <= 1e-14 * costs.cost)
       return true;
     increment_ /= kStep;

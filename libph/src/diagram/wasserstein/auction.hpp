@@ -8,24 +8,24 @@
 namespace ph::diagram {
 
 /// Finds a matching and prices by auction (Bertsekas 1988; forward and reverse: Bertsekas, Castañon
-/// 1992), in rounds with ever smaller increments.
+/// 1992), in rounds with decreasing increments.
 class Auction {
  public:
-  /// @param assignment nobody paired; outlives this.
+  /// @param assignment without pairs; it must outlive this object.
   Auction(Assignment& assignment, const RunContext& context);
 
-  /// Rounds until the costs are near enough, or until prices cannot be told apart any more.
+  /// Runs rounds until the costs are close enough, or until prices cannot be told apart any more.
   /// @param is_enough asked after each round.
-  /// @param most_bids of a round; beyond that the auction is given up.
-  /// @return false if it was given up: then the assignment means nothing.
+  /// @param most_bids limit for the bids of a round; the auction is abandoned beyond it.
+  /// @return false if it was abandoned: the assignment is meaningless then.
   bool run(const std::function<bool(const Assignment::Costs&)>& is_enough, std::uint64_t most_bids);
 
  private:
   using Position = PointTree::Position;
 
-  /// Settles everybody at increment_, which may rise to most_increment_. @return as settle.
+  /// Settles all points at increment_, which may rise to most_increment_. @return as settle.
   bool round(std::uint64_t most_bids);
-  /// x bids for who is best for it, and so does everybody who is outbid.
+  /// x bids for its best partner, and so does every point that is outbid.
   /// @return false if there are too many bids.
   bool settle(std::size_t k, Position x);
 

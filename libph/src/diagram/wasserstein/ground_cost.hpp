@@ -7,20 +7,22 @@
 
 namespace ph::diagram {
 
-/// What a pair costs, and a bar that is left over: its distance in the ground norm to the power of
-/// the order.
+/// The cost of a pair and of a bar without a partner: the distance in the ground norm to the power
+/// of the order.
 class GroundCost {
  public:
   /// @param order at least 1, finite. @param ground at least 1, or infinity.
-  /// @param unit of distances, before they are raised to the power; not for orders 1 and 2.
+  /// @param unit the unit of distances before they are raised to the power; ignored for orders 1
+  /// and 2.
   GroundCost(double order, double ground, double unit = 1)
       : order_(order), ground_(ground), unit_(unit), to_diagonal_(to_diagonal(ground)) {}
 
-  /// How many times half of its length a bar is from the diagonal.
+  /// The distance of a bar from the diagonal, as a multiple of half its length.
   static double to_diagonal(double ground) {
     return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);
   }
-  /// The same before it is raised to the power, in any unit: squares neither overflow nor vanish.
+  /// The same before it is raised to the power, in any unit: squares neither overflow nor
+  /// underflow.
   double distance(const Point& p, const Point& q) const {
     const double x = std::abs(p[0] - q[0]), y = std::abs(p[1] - q[1]);
     return ground_ == 2 ? std::hypot(x, y) : norm(x, y);
@@ -33,9 +35,9 @@ class GroundCost {
   double pair(const Point& p, const Point& q) const {
     return power(norm(std::abs(p[0] - q[0]), std::abs(p[1] - q[1])));
   }
-  /// To the nearest point of the diagonal.
+  /// The cost of moving to the nearest point of the diagonal.
   double alone(const Point& p) const { return power(to_diagonal_ * ((p[1] - p[0]) / 2)); }
-  /// No point of the node costs less.
+  /// A lower bound for the cost of any point of the node.
   double pair_with_box(const Point& p, const double* box) const {
     return power(norm(std::max({0.0, box[0] - p[0], p[0] - box[1]}),
                       std::max({0.0, box[2] - p[1], p[1] - box[3]})));

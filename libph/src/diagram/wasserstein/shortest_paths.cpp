@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGone = -std::numeric_limits<double>::infinity();
 
-/// Trees of shortest paths in the costs that prices leave (Dijkstra), one after the other.
+/// Trees of shortest paths in the reduced costs (Dijkstra), one after the other.
 class ShortestPaths {
  public:
   using Position = PointTree::Position;
@@ -28,7 +28,7 @@ class ShortestPaths {
     for (Position y = 0; y < other_.tree.size(); ++y) other_.prices.set(y, other_.alone[y]);
   }
 
-  /// Pairs x, or leaves it or another one alone.
+  /// Pairs x, or leaves x or another point alone.
   void add(Position x) {
     assignment_.raise_price(0, x);
     nodes_.clear();
@@ -39,7 +39,7 @@ class ShortestPaths {
       step = steps_.top();
       steps_.pop();
       if (step.to == kNone) break;
-      // Somebody else was there before.
+      // Another path reached it first.
       if (other_.prices.weight(step.to) == kGone) {
         add_step(step.node);
         continue;
@@ -58,13 +58,13 @@ class ShortestPaths {
   }
 
  private:
-  /// A point x that was reached through its partner y; none for the first.
+  /// A point x that was reached through its partner y; the first point has no y.
   struct Node {
     Position x, y;
-    double length;  // of the path
-    double price;   // of y, before
+    double length;  // length of the path
+    double price;   // former price of y
   };
-  /// From a node to a point of the other side, or kNone: x stays alone.
+  /// A step from a node to a point of the other side, or kNone if x stays alone.
   struct Step {
     double length;
     std::size_t node;
@@ -89,7 +89,7 @@ class ShortestPaths {
     const Position x = nodes_[node].x;
     const WeightedTree::Best best = assignment_.best_two(0, x);
     if (best.position == kNone) return;
-    // Rounding may make a cost less than nothing.
+    // Rounding may make a cost negative.
     const double cost = std::max(0.0, best.first - mine_.prices.weight(x));
     steps_.push({nodes_[node].length + cost, node, best.position});
   }
@@ -119,7 +119,7 @@ void assign_by_shortest_paths(Assignment& assignment, const RunContext& context)
   ShortestPaths paths(assignment, context);
   const std::size_t count = assignment.side(0).tree.size();
   for (PointTree::Position x = 0; x < count; ++x) paths.add(x);
-  // What rounding has added up to is in no price that is found anew.
+  // Prices are computed again, which removes accumulated rounding errors.
   for (PointTree::Position x = 0; x < count; ++x) assignment.raise_price(0, x);
 }
 

@@ -21,19 +21,19 @@ using diagram::Assignment;
 using diagram::DiagramParts;
 using diagram::Point;
 
-// Near enough to the optimum to say that it is: this is what sums of many costs are rounded to.
+// Close enough to the optimum to be called optimal: sums of many costs have this rounding error.
 constexpr double kRounding = 1e-13;
 
-// A matching may cost so much more than an optimal one, of what it costs; else it is sought again.
+// A matching may exceed the optimum by this fraction of its cost; otherwise the search is repeated.
 constexpr double kUnsure = 1e-9;
 
-// To seek again pays in a unit whose power is smaller by this.
+// Repeating the search is worthwhile in a unit whose power is smaller by this factor.
 constexpr double kFiner = 16;
 
-// Bids of a round and bar. Auctions that are not at war about equal bars need some 2 to 20.
+// Bids per round and bar. Auctions without bidding wars over equal bars need about 2 to 20.
 constexpr std::uint64_t kMostBids = 400;
 
-// Trees and their weights count themselves.
+// Trees and their weights count their own memory.
 constexpr std::size_t kBytesAPricedBar = 200;
 
 void check(const WassersteinOptions& options, std::string_view function) {
@@ -48,11 +48,11 @@ void check(const WassersteinOptions& options, std::string_view function) {
   diagram::check(options.limits, function);
 }
 
-/// (Σ x^order)^(1/order), of any size.
+/// (Σ x^order)^(1/order), for numbers of any size.
 double norm_of(std::span<const double> lengths, double order) {
   const double largest = lengths.empty() ? 0 : std::ranges::max(lengths);
   if (largest == 0 || largest == kInfinity) return largest;
-  // Division by a power of two costs no digits; powers of high order are of numbers up to 1.
+  // Division by a power of two loses no digits; powers of high order are taken of numbers up to 1.
   const double unit = order <= 2 ? std::ldexp(1, std::ilogb(largest)) : largest;
   double sum = 0;
   for (const double length : lengths)
@@ -60,8 +60,8 @@ double norm_of(std::span<const double> lengths, double order) {
   return unit * (order == 1 ? sum : std::pow(sum, 1 / order));
 }
 
-/// A unit of length, in which powers of lengths up to `largest` overflow nowhere. Numbers are
-/// scaled by a power of two. Powers of order 1 and 2 are exact where they can be; others are of
+/// A unit of length in which powers of lengths up to `largest` never overflow. Numbers are scaled
+/// by a power of two. Powers of order 1 and 2 are exact where possible; other powers are taken of
 /// numbers up to 1.
 struct Unit {
   double largest;
@@ -105,7 +105,7 @@ class Comparison {
     const auto bounds = [&](const Assignment::Costs& costs) {
       return DistanceBounds{unit.root(rays + costs.cost), unit.root(rays + costs.lower)};
     };
-    if (first_.finite.empty() || second_.finite.empty()) {  // all to the diagonal
+    if (first_.finite.empty() || second_.finite.empty()) {  // all bars go to the diagonal
       Assignment::Costs costs{0, 0};
       for (const DiagramParts* parts : {&first_, &second_})
         for (const Point& p : unit.in_unit(*parts)) costs.cost += unit.cost.alone(p);
@@ -143,7 +143,7 @@ class Comparison {
   }
 
  private:
-  /// Powers may have vanished beside that of the dearest bar.
+  /// Powers may have vanished beside the power of the most expensive bar.
   static bool has_digits(const Assignment::Costs& costs) {
     return costs.cost >= std::numeric_limits<double>::min();
   }
@@ -152,7 +152,7 @@ class Comparison {
   }
 
   /// Fills partners_.
-  /// @param bounds those of the distance by the costs.
+  /// @param bounds bounds of the distance from the costs.
   template <class Bounds>
   Assignment::Costs match(const Unit& unit, double most, Bounds&& bounds) {
     const std::vector<Point> a = unit.in_unit(first_), b = unit.in_unit(second_);
@@ -167,8 +167,9 @@ class Comparison {
     return assignment.costs();
   }
 
-  /// Prices have the digits of the dearest bar. If a matching costs far less than that, it may be
-  /// by chance: it is sought again among those that cost no more, in a unit of their size.
+  /// Prices have the digits of the most expensive bar. If a matching costs far less than that bar,
+  /// it may be optimal only by chance: the search is repeated among matchings that cost no more, in
+  /// a unit of their size.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {
@@ -181,7 +182,7 @@ class Comparison {
       const Unit unit(std::max(length, smallest_unit()), options_);
       unit_length = unit.largest;
       std::vector<std::uint32_t> before = partners_;
-      const double most = 2 * unit.cost.power(unit.in_unit(length));  // twice what was found
+      const double most = 2 * unit.cost.power(unit.in_unit(length));  // twice the cost found
       const Assignment::Costs costs = match(unit, most, [&](const Assignment::Costs& c) {
         return DistanceBounds{with_rays(unit.root(c.cost)), with_rays(unit.root(c.lower))};
       });
@@ -199,7 +200,7 @@ class Comparison {
     return found;
   }
 
-  /// What the pairs are apart, and those alone from the diagonal.
+  /// The distances of the pairs, and of single bars from the diagonal.
   double length_of_matching() const {
     const diagram::GroundCost cost(1, options_.ground);
     std::vector<double> lengths;
@@ -215,7 +216,7 @@ class Comparison {
     return norm_of(lengths, options_.order);
   }
 
-  /// In smaller ones coordinates would overflow.
+  /// In smaller units, coordinates would overflow.
   double smallest_unit() const {
     double most = 0;
     for (const DiagramParts* parts : {&first_, &second_})
@@ -223,7 +224,7 @@ class Comparison {
     return std::ldexp(most, -1000);
   }
 
-  /// What the dearest bar is apart from where it may go.
+  /// The largest distance from a bar to a possible place.
   double largest() const {
     double largest = 0;
     for (const DiagramParts* parts : {&first_, &second_})
@@ -238,7 +239,7 @@ class Comparison {
   const RunContext& context_;
   const MemoryClaim claim_;
   const DiagramParts first_, second_;
-  std::vector<double> rays_;             // how far apart the ends of infinite bars are
+  std::vector<double> rays_;             // distances between the ends of infinite bars
   std::vector<std::uint32_t> partners_;  // by place in first_.finite
 };
 

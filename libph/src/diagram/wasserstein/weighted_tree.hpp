@@ -8,24 +8,25 @@
 
 namespace ph::diagram {
 
-/// Points of a tree with weights that change: who costs least, the weight deducted. Each node keeps
-/// the largest weight of its points.
+/// Points of a tree with changing weights: finds the point with the least cost minus weight. Each
+/// node stores the largest weight of its points.
 class WeightedTree {
  public:
   using Position = PointTree::Position;
 
-  /// Weights are -infinity: those points do not exist. @param tree, cost outlive this.
+  /// Weights are -infinity at first: such points do not exist. @param tree, cost must outlive this
+  /// object.
   WeightedTree(const PointTree& tree, const GroundCost& cost, const RunContext& context);
 
   double weight(Position q) const { return weights_[q]; }
   void set(Position q, double weight);
 
-  /// The two least values of cost minus weight, infinity where there is no such point.
+  /// The two smallest values of cost minus weight; infinity if there is no such point.
   struct Best {
     double first, second;
-    Position position = kNone;  // of the first
+    Position position = kNone;  // position of the first
   };
-  /// @param near a position where to begin: any will do, one that is near is fast.
+  /// @param near a position where to start: any will do, but one nearby is fast.
   Best best_two(const Point& p, Position near) const;
 
  private:
