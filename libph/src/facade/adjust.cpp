@@ -17,7 +17,7 @@ using RenameCell = std::function<void(Numbers&)>;
 
 Numbers numbers_of(const InputCell& cell) { return {cell.numbers.begin(), cell.numbers.end()}; }
 
-/// Gives the bar added last the representative of bar i of another barcode.
+/// Gives the last bar added the representative of bar i of another barcode.
 void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const KeepCell& keep,
                          const RenameCell& rename) {
   if (from.representatives() == Representatives::none) return;
@@ -47,7 +47,7 @@ std::set<Numbers> cells_beyond(const ExplicitComplex& complex, double threshold)
   return beyond;
 }
 
-/// Coordinates of a grid and rows of a matrix are the numbers of no points.
+/// Grid coordinates and matrix rows are not numbers of points.
 void require_vertices(CellKind kind) {
   if (kind != CellKind::vertices)
     throw Error(ErrorKind::usage,
@@ -102,7 +102,7 @@ MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t
 
 Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,
                double min_persistence) {
-  // A cycle has no cell after its birth; a cocycle has all kinds.
+  // A cycle has no cell after its birth; a cocycle has cells of any age.
   std::set<Numbers> beyond;
   if (barcode.representatives() == Representatives::cocycles)
     beyond = cells_beyond(complex, threshold);

@@ -9,15 +9,15 @@
 
 namespace ph {
 
-/// The barcode with vertices named as in an input of which some points were left out: vertex v
-/// becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
-/// @throws Error (usage) if the cells have no vertices, or others than the ids name.
+/// The barcode with vertices renamed to those of an input from which some points were left out:
+/// vertex v becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
+/// @throws Error (usage) if the cells have no vertices, or vertices without an id.
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
 /// The same for loops of vertices. @throws Error (usage) on a vertex without an id.
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
-/// A tree whose vertex v is ids[v] of `size` vertices of the input. The others never enter.
-/// Precondition: an id for each vertex, below `size`.
+/// A tree whose vertex v becomes ids[v] among `size` vertices of the input. The other vertices
+/// never enter. Precondition: there is one id per vertex, below `size`.
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
 /// The barcode of the subcomplex of all cells up to a value: a bar born later is left out, and a

@@ -10,7 +10,7 @@
 
 namespace ph::detail {
 
-/// Every engine of libph. A new one is its file and its place in this list.
+/// All engines of libph. To add an engine, write its file and put it into this list.
 using AllEngines = decltype(std::tuple_cat(
     GenericEngines{}, std::tuple<EdgeLinkEngine, BetaSkeletonEngine, GradientEngine>{}));
 

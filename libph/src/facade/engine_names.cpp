@@ -9,7 +9,7 @@
 namespace ph {
 namespace {
 
-/// Names that engines had before.
+/// Earlier names of engines.
 constexpr std::pair<std::string_view, Engine> kEarlierNames[] = {
     {"lens", Engine::edge_links},
     {"arrows", Engine::gradient},

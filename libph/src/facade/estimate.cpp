@@ -16,7 +16,8 @@
 namespace ph {
 namespace {
 
-// An estimate may collapse that many edges: beyond, the collapse takes more than a second or so.
+// An estimate may collapse up to this many edges: with more, the collapse takes longer than about a
+// second.
 constexpr std::size_t kFewEdges = 300'000;
 
 template <Filtration F>
@@ -31,7 +32,7 @@ std::vector<double> cells_of(const F& filtration, int top, const RunContext& con
   return cells;
 }
 
-/// What the complex holds when the engine is at work.
+/// Bytes that the complex holds while the engine works.
 double stored_bytes(const Cubical& cubical, bool lists_cells) {
   const auto voxels = static_cast<double>(cubical.cubical_image().size());
   const auto held = static_cast<double>(cubical.voxel_bytes());
@@ -49,7 +50,7 @@ double stored_bytes(const ExplicitComplex& complex, bool) {
 }
 
 double stored_bytes(const Alpha& alpha, bool lists_cells) {
-  // A cell of the triangulation, and what generic engines take instead of it.
+  // Bytes per cell of the triangulation, and per cell listed for generic engines instead.
   constexpr double bytes_of_top_cell = 90, bytes_of_listed_cell = 160;
   const std::vector<std::size_t> counts = alpha.simplex_counts();
   double all = 0;
@@ -70,7 +71,7 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   const bool is_short = forecast.high - held > left || context.slab_layers > 0;
   if (!is_short || with_representatives) return forecast;
   forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
-  constexpr double bytes_of_bars = 8;  // a voxel, of noise
+  constexpr double bytes_of_bars = 8;  // per voxel of noise
   if (cubical::can_pair_by_layers(grid, wanted))
     forecast.high = std::max(std::min(forecast.high, held + left),
                              forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
@@ -101,7 +102,7 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   return e;
 }
 
-/// Of a filtration whose form is there or can be made.
+/// For a filtration whose form exists or can be made.
 Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = planned;
@@ -135,18 +136,18 @@ Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunConte
       count_cliques(complex, detail::listed_rips_dim(settled.engine, max_dim), context);
   e.cells = cliques.counts;
   e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
-  if (collapsed)  // no cells, no homology
+  if (collapsed)  // without cells, no homology
     max_dim = std::min(max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
   e.options.max_dim = max_dim;
   const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);
-  // The edges before a collapse stay until the end.
+  // The edges before a collapse are kept until the end.
   const double before = collapsed ? edges : 0;
   e.bytes_low = e.cells_at_most ? collapse : std::max(collapse, low + before);
   e.bytes_high = std::max(collapse, before + high);
   return e;
 }
 
-/// Of a filtration whose edges do not fit the memory: as many as a sample of pairs says.
+/// For a filtration whose edges do not fit the memory: a sample of pairs estimates their number.
 Estimate estimate_sampled(const Rips& rips, const Options& options, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = detail::plan_without_edges(rips, options);
@@ -159,16 +160,16 @@ Estimate estimate_sampled(const Rips& rips, const Options& options, const RunCon
   return e;
 }
 
-/// True unless the edges would take long to make, and a sample says that they do not fit.
+/// False if making the edges would take long and a sample says that they do not fit.
 bool can_be_tried(const Rips& rips, const RunContext& context) {
   constexpr double bytes_of_edge = 16;
-  constexpr Index few_points = 60'000;  // whose distances take seconds
+  constexpr Index few_points = 60'000;  // their distances take seconds
   return rips.size() <= few_points || !rips.has_input() || rips.options().approximation ||
          bytes_of_edge * rips.sample(context).edges < static_cast<double>(context.memory.left());
 }
 
 Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
-  // Without a limit the machine's memory is one: an estimate does not fill it.
+  // Without a limit, the machine's memory is the limit: an estimate must not fill it.
   RunContext within(context.memory);
   within.memory.set_limit(std::min(context.memory.left(), machine_memory()));
   within.stop = context.stop;

@@ -14,27 +14,28 @@
 namespace ph::detail {
 namespace {
 
-// A bar while bars are sorted; its cells, vertex and edge or edge and triangle, come on top.
+// Bytes of a bar while bars are sorted; its cells (vertex and edge, or edge and triangle) are
+// extra.
 constexpr double kBytesPerBar = 24 + 24, kBytesPerCells = 32 + 5 * 8 + 48;
 double bytes_per_bar(const Options& options) {
   return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
 }
 
-// What small containers, the allocator and the pages of the program's own code come to.
+// Small containers, the allocator and the pages of the program's own code.
 constexpr double kAlways = 4 << 20;
-// Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
-// few enough for a fraction of the time of the whole, and for seconds.
+// Cells that the engine lists in the larger of the parts that it computes: enough to show how
+// memory grows, and few enough to take seconds and a fraction of the total time.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
 constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
-// Measured: memory grows in leaps, and faster on the whole than from part to part, unless the
-// whole is many such parts side by side.
+// Measured: memory grows in leaps, and faster overall than from part to part, unless the complex is
+// many such parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
 
 double sum(std::span<const double> counts) {
   return std::accumulate(counts.begin(), counts.end(), 0.0);
 }
 
-/// What does not depend on how the homology turns out, but for the edges: bit rows, adjacency.
+/// Memory that does not depend on the homology, except for the edges: bit rows, adjacency.
 double structure(std::size_t size, std::size_t edge_count, Engine engine) {
   if (const auto bytes_of_engine = facts_of(engine).rips_bytes)
     return bytes_of_engine(size, edge_count);
@@ -47,7 +48,7 @@ double structure(const RipsGraph& graph, Engine engine) {
   return structure(static_cast<std::size_t>(graph.size()), graph.edge_count(), engine);
 }
 
-/// A part of a complex: the vertices chosen, all edges between them.
+/// A part of a complex: the chosen vertices with all edges between them.
 RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertices,
                   const RunContext& context) {
   constexpr std::uint32_t none = UINT32_MAX;
@@ -66,13 +67,14 @@ RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertice
   std::vector<double> births;
   if (!graph.births().empty())
     for (const std::uint32_t v : vertices) births.push_back(graph.birth(v));
-  // The values of the edges know the births already.
+  // The values of the edges already account for the births.
   const VertexWeights weights(births, WeightExponent::infinity);
   return RipsGraph::of_edges(static_cast<Index>(vertices.size()), edges, std::nullopt, context,
                              weights);
 }
 
-/// What the engine took in a part beyond `structure` and the bars of H0, and how much it listed.
+/// The memory that the engine took in a part beyond `structure` and the bars of H0, and the number
+/// of cells that it listed.
 struct Pilot {
   double listed = 0, extra = 0;
 };
@@ -100,8 +102,8 @@ double listed_of(const RipsGraph& part, const Options& options, const RunContext
       count_cliques(part, listed_rips_dim(options.engine, *options.max_dim), context).counts);
 }
 
-/// Orders the vertices so that each beginning of the order is a part like the whole: at random
-/// where most pairs are edges, else around a vertex, breadth first.
+/// Orders the vertices so that each prefix of the order is a part similar to the entire graph: at
+/// random if most pairs are edges, otherwise breadth first around a vertex.
 std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);
@@ -126,7 +128,8 @@ std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) 
   return ball;
 }
 
-/// A beginning of the order in which the engine lists about `wanted` cells, `listed` in all.
+/// The length of a prefix of the order in which the engine lists about `wanted` cells, out of
+/// `listed`.
 std::size_t pilot_size(const RipsGraph& graph, std::span<const std::uint32_t> order, double listed,
                        double wanted, const Options& options, const RunContext& context) {
   std::size_t size = order.size();
@@ -153,7 +156,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   const double edges = 16 * static_cast<double>(graph.edge_count());
   const double known = edges + structure(graph, options.engine);
   const double most = known + bytes_per_bar(options) * static_cast<double>(graph.size()) + kAlways;
-  // The link sweep stops where nothing happens any more; lists are not full by then.
+  // The link sweep stops once nothing more happens; its lists are not full by then.
   const double least = options.engine == Engine::edge_links ? edges : known;
   if (graph.is_forest() || graph.size() < 2) return {least, most};
   const bool lists_edges_only = listed_rips_dim(options.engine, *options.max_dim) < 2;
@@ -168,7 +171,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   };
   const Pilot large = pilot(1, wanted);
   if (large.listed >= listed) return {least, most + 1.25 * large.extra};
-  // extra = listed^power, as smaller parts say; two of them, since storage grows in leaps.
+  // extra = listed^power, fitted to smaller parts; there are two of them, because memory grows in
+  // leaps.
   Pilot small;
   for (const std::uint64_t seed : {1, 2}) {
     const Pilot one = pilot(seed, wanted / 4);
@@ -184,7 +188,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
 }
 
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {
-  // A sample says how many edges there are, not what becomes of them.
+  // A sample estimates the number of edges, but not what the engine makes of them.
   constexpr double fewer = 0.9, margin = 3;
   const double held = 16 * edges;
   const double known = held + structure(static_cast<std::size_t>(vertices),
@@ -214,7 +218,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
     const Barcode barcode = persistence(Rips(std::move(sample), rips_options, own), options, own);
     return static_cast<double>(own.memory.peak());
   };
-  const double least = 2.5 * held;  // the tree has a copy, and boxes
+  const double least = 2.5 * held;  // the tree has a copy of the points, and boxes
   if (points.rows() == 0) return {held, held + kAlways};
   const Index large = std::min(kLarge, points.rows()), small = std::min(kSmall, points.rows());
   const double of_large = peak_of(large);
@@ -223,7 +227,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
   if (small < large)
     power = std::log(of_large / of_small) /
             std::log(static_cast<double>(large) / static_cast<double>(small));
-  // Measured: pairs of nodes that wait across holes add to what grows with the points.
+  // Measured: pairs of nodes that wait across holes are added to the part that grows with the
+  // points.
   power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
   const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
   return {least, held + 2 * of_large * std::pow(factor, power) +
@@ -232,7 +237,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
-  // Measured: critical cells with their columns, and bars, of noise; these with long chains.
+  // Measured on noise: critical cells with their columns, and bars; representatives have long
+  // chains.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;
   return {stored,
@@ -240,14 +246,14 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
 }
 
 MemoryForecast forecast_intervals(double stored, bool with_representatives) {
-  // Measured: critical simplices with their columns, next to none of a surface, many of noise; and
-  // cycles.
+  // Measured: critical simplices with their columns (almost none for a surface, many for noise),
+  // and cycles.
   return {stored, (with_representatives ? 5.5 : 2.0) * stored + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
   // A column with its place in the table of pivots and in the list to reduce, or the pair of a
-  // cell; fill-in comes on top.
+  // cell; fill-in is extra.
   constexpr double bytes_per_column = 128;
   return {stored, stored + bytes_per_column * sum(cells) + kAlways};
 }

@@ -57,10 +57,11 @@ std::vector<Index> MergeTree::components(double value) const {
   for (std::size_t v = 0; v < births.size(); ++v)
     parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
   for (const Merge& m : merges) {
-    if (!(m.value <= value)) break;  // of NaN all
+    if (!(m.value <= value)) break;  // stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A parent was born before its child: follow to the root, halving the path for those to come.
+  // A parent was born before its child: follow parents to the root, halving the path for later
+  // vertices.
   for (std::size_t v = 0; v < parent.size(); ++v) {
     for (Index root = parent[v]; root >= 0;) {
       Index& up = parent[static_cast<std::size_t>(root)];
@@ -99,7 +100,7 @@ std::vector<MergeTree::Class> MergeTree::classes() const {
   for (std::size_t v = 0; v < births.size(); ++v)
     if (!dead[v] && births[v] < kInfinity)
       classes.push_back({births[v], kInfinity, static_cast<Index>(v), -1});
-  // The merges are in the order of deaths, which the sort by birth keeps.
+  // The merges are in the order of deaths, which the sort by birth preserves.
   radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
   for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
     end = std::find_if(begin, classes.end(), [&](const Class& c) {

@@ -62,7 +62,8 @@ std::string first_difference(const Barcode& a, const Barcode& b) {
   const auto before = [](const Bar& x, const Bar& y) {
     return std::tie(x.dim, x.birth, x.death) < std::tie(y.dim, y.birth, y.death);
   };
-  const auto sorted = [&](const Barcode& barcode) {  // one to which bars were added may not be
+  // A barcode to which bars were added may be unsorted.
+  const auto sorted = [&](const Barcode& barcode) {
     std::vector<Bar> bars(barcode.begin(), barcode.end());
     std::ranges::sort(bars, before);
     return bars;

@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-/// The form of a Rips filtration. @throws Error (usage) on the plan of another complex.
+/// The form of a Rips filtration. @throws Error (usage) on a plan of another complex.
 const RipsGraph& graph_of(const Rips& rips, const RunPlan& plan, const RunContext& context) {
   if (!plan.form)
     throw Error(ErrorKind::usage, "run: found the plan of another complex than a Rips filtration");
@@ -55,7 +55,7 @@ void detail::build_rips(const Rips& rips, const RunPlan& plan, const RunContext&
 
 Barcode detail::run_rips(const Rips& rips, const RunPlan& plan, const RunContext& context) {
   Options options = plan.options;
-  options.collapse = Collapse::off;  // done here or not at all
+  options.collapse = Collapse::off;  // edges are collapsed here or not at all
   const auto compute_graph = [&](const RipsGraph& graph) {
     return with_rips_filtration(graph, *options.max_dim, [&](const auto& filtration) {
       return compute(filtration, options, context);

@@ -12,18 +12,18 @@
 namespace ph::detail {
 namespace {
 
-// Engines are told apart by the kind of a filtration only, not by the size of its cells.
+// Engines depend only on the kind of a filtration, not on the size of its cells.
 using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 
-// Measured, H2 to H7: the more edges are dominated, the more is gained, up to some hundred times;
-// at two thirds it is still half of the time and of the memory. Below, on spheres of higher
-// dimension and on distances that are no metric, nearly all edges are kept and what the collapse
-// takes is lost.
+// Measured for H2 to H7: the more edges are dominated, the larger the gain, up to a factor of some
+// hundred; at two thirds it still saves half of the time and of the memory. Below that share, on
+// spheres of higher dimension and on distances that are not a metric, nearly all edges are kept and
+// the time of the collapse is lost.
 constexpr double kWorthwhileShare = 0.6;
-// Up to this dimension the top dimension of the complex, which takes long to find, has no say.
+// Up to this dimension, the top dimension of the complex, which takes long to find, is ignored.
 constexpr int kHighestByEdges = 3;
 
-/// Why a collapse would spoil what is asked for; empty if it would not.
+/// The reason why a collapse would spoil the result; empty if it would not.
 std::string_view obstacle_to_collapse(const Options& options) {
   if (options.min_persistence < 0) return "bars of length zero are asked for";
   if (options.representatives == Representatives::cocycles)
@@ -35,8 +35,8 @@ struct CollapseChoice {
   bool collapses;
   std::string reason;
 };
-/// @param dominated tells which share of the edges is dominated; called where that decides.
-/// @throws Error (usage) if a collapse is asked for that would spoil the result.
+/// @param dominated returns the share of dominated edges; called if that decides.
+/// @throws Error (usage) if a collapse was asked for and would spoil the result.
 template <class Dominated>
 CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
                                Dominated&& dominated) {
@@ -55,14 +55,14 @@ CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options
           fmt::format("{:.0f} % of a sample of the edges are dominated", 100 * share)};
 }
 
-/// True where a spanning forest is all that can be had.
+/// True if only a spanning forest is available.
 bool is_forest_alone(const Rips& rips) {
   return rips.has_form(RipsForm::forest) && !rips.has_form(RipsForm::edges) &&
          !rips.has_form(RipsForm::distinct_edges);
 }
 
 /// The highest dimension to compute. @throws Error (usage) as check, on a lowest dimension above
-/// it, or above 0 where a forest was given.
+/// it, or on a lowest dimension above 0 if a forest was given.
 int max_dim_of(const Rips& rips, const Options& options) {
   const bool is_forest = is_forest_alone(rips);
   check(options);
@@ -82,21 +82,21 @@ int max_dim_of(const Rips& rips, const Options& options) {
   return max_dim;
 }
 
-/// At most so many points become vertices.
+/// An upper bound for the number of vertices.
 Index most_vertices(const Rips& rips) {
   const RipsOptions& options = rips.options();
   if (options.subsample) return std::min(rips.size(), options.subsample->points);
   return options.vertices.empty() ? rips.size() : static_cast<Index>(options.vertices.size());
 }
 
-/// An engine, the form of which it takes, and why it was chosen.
+/// An engine, the form that it takes, and the reason for choosing it.
 struct FormChoice {
   const EngineFacts* engine = nullptr;
   RipsForm form = RipsForm::edges;
   std::string_view reason;
 };
 
-/// @param options with the highest dimension.
+/// @param options including the highest dimension.
 RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice&& collapse) {
   RunPlan plan = run_plan(options, *options.max_dim, choice.engine->id, choice.reason);
   plan.form = choice.form;
@@ -106,7 +106,7 @@ RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice
   return plan;
 }
 
-/// The form of edges that a task wants.
+/// The form of edges for a task.
 RipsForm edges_for(const Rips& rips, const Options& options) {
   if (is_forest_alone(rips)) return RipsForm::forest;
   const RipsOptions& asked = rips.options();
@@ -117,7 +117,7 @@ RipsForm edges_for(const Rips& rips, const Options& options) {
              : RipsForm::edges;
 }
 
-/// The first form that an engine takes and the input can give; nothing if there is none.
+/// The first form that the engine takes and the input can give, or nothing.
 std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
                                  const Options& options) {
   if (engine.rips_forms.empty()) return edges_for(rips, options);
@@ -126,14 +126,14 @@ std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
   return std::nullopt;
 }
 
-/// What an engine would need of the input; empty: nothing more.
+/// The condition that an engine lacks in the input; empty if it lacks none.
 std::string_view obstacle_to(const EngineFacts& engine, const RipsInput& input, const Task& task) {
   return engine.rips_obstacle ? engine.rips_obstacle(input, task) : std::string_view();
 }
 
-/// The engine asked for, or the one that suits best, as far as that can be known without an edge.
-/// @param vertices that they are asked about. @return no engine if none can do the task.
-/// @throws Error (usage) if the engine asked for says what it would need.
+/// The engine asked for, or the engine that suits best, as far as this can be known without edges.
+/// @param vertices number of vertices of the task. @return no engine if none can do the task.
+/// @throws Error (usage) if the engine asked for reports that it lacks something.
 FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, Index vertices) {
   const RipsInput input{vertices, rips.points(), rips.options()};
   const Task task = task_of(options, max_dim);
@@ -161,7 +161,7 @@ FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, In
   return choice;
 }
 
-/// The plan where the edges have a say.
+/// The plan if it depends on the edges.
 RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
                       const RunContext& context) {
   const int max_dim = *options.max_dim;
@@ -169,7 +169,7 @@ RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
   const auto choice = choose_engine(Sparse(graph), options.engine, task_of(options, max_dim));
   CollapseChoice collapse =
       choose_collapse(*choice.engine, options, [&] { return dominated_share(graph, context); });
-  // The top dimension is not known before the collapse.
+  // The top dimension is unknown before the collapse.
   if (collapse.collapses)
     return planned(options, {choice.engine, form, choice.reason}, std::move(collapse));
   Options settled = options;
@@ -181,7 +181,7 @@ RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
   });
 }
 
-/// What is decided before an edge is made.
+/// The decisions that are made before any edge.
 struct Settled {
   Settled(const Rips& rips, Options asked) : options(std::move(asked)) {
     const int max_dim = max_dim_of(rips, options);
@@ -189,7 +189,7 @@ struct Settled {
     choice = choose_form(rips, options, max_dim, most_vertices(rips));
     if (!choice.engine && options.engine == Engine::automatic &&
         !choose_form(rips, options, max_dim, 1).engine)
-      refuse(options.engine, task_of(options, max_dim));  // whatever the edges
+      refuse(options.engine, task_of(options, max_dim));  // whatever the edges are
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
@@ -198,9 +198,9 @@ struct Settled {
                   "more than components; max_dim 0 asks for them alone, without an approximation "
                   "or an engine by name");
   }
-  Options options;             // with the highest dimension
-  FormChoice choice;           // no engine: none can do the task of so many vertices
-  bool goes_by_edges = false;  // all is decided
+  Options options;             // including the highest dimension
+  FormChoice choice;           // without an engine if none can do the task for so many vertices
+  bool goes_by_edges = false;  // everything is decided
 };
 
 }  // namespace

@@ -17,16 +17,16 @@ namespace ph {
 namespace {
 
 constexpr std::size_t kMostFits = 3;
-// An estimate counts the pages of the code and small containers; the limit does not.
+// An estimate counts pages of the code and small containers; the memory limit does not.
 constexpr double kBesideLimit = 4 << 20;
-// CPU time after which no trial begins, and after twice of which none goes on: the user is waiting
-// for an error message.
-constexpr double kPatience = 3;  // s
-// The share of what is left of the memory limit that a trial gets, because the heap is in pieces.
+// CPU seconds after which no trial begins; trials are stopped after twice that time. The user is
+// waiting for an error message.
+constexpr double kPatience = 3;  // seconds
+// The share of the remaining memory limit that a trial gets, because the heap is fragmented.
 constexpr double kTrialShare = 0.75;
 constexpr double kBytesPerEdge = 16;
-constexpr double kFewestPairs = 100;  // of a sample, within the threshold
-// A sample of fewer points says little; one for which more distances are evaluated takes too long.
+constexpr double kFewestPairs = 100;  // pairs of a sample within the threshold
+// A sample of fewer points says little; a sample that needs more distances takes too long.
 constexpr Index kFewestPoints = 20;
 constexpr double kMostDistances = 2e8;
 
@@ -49,7 +49,7 @@ class Search {
       try_task(changed, {{Setting::engine, "auto"}});
     }
     if (options_.representatives != Representatives::none) drop_representatives();
-    // What is quick to try comes first, because patience ends.
+    // Changes that are quick to try come first, because time is limited.
     lower_dimension(options_, {});
     if (rips_ && rips_->has_form(RipsForm::edges)) {
       sample_ = rips_->sample(context_);
@@ -70,12 +70,12 @@ class Search {
   }
   bool is_enough() const { return found_.size() == kMostFits || seconds_since(start_) > kPatience; }
 
-  /// Keeps changes if the run fits with them. @param make gives the complex, built in the context
+  /// Keeps changes if the run fits with them. @param make returns the complex, built in the context
   /// of the trial. @return true if it fits.
   template <class Make>
   bool try_out(const Options& options, std::vector<Remedy> changes, Make&& make) {
     if (is_enough()) return false;
-    // A trial ends when patience does.
+    // A trial is stopped when time is up.
     std::stop_source stop;
     const std::stop_callback stop_with_all(context_.stop, [&] { stop.request_stop(); });
     RunContext trial;
@@ -92,14 +92,16 @@ class Search {
       const AnyComplex complex = make(trial);
       const Estimate e = estimate(complex, options, trial);
       const auto limit = static_cast<double>(context_.memory.limit());
-      // Images in slabs fit themselves to the limit: beside a small one that would be all.
+      // Images in slabs adapt themselves to the limit: for a small limit, this would hide
+      // everything else.
       const bool is_image = std::holds_alternative<Cubical>(complex);
       const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
       if (e.bytes_high > limit + beside) return false;
       found_.push_back({std::move(changes), e.bytes_low, e.bytes_high});
       return true;
     } catch (const Error& error) {
-      if (error.kind() == ErrorKind::cancelled) context_.poll();  // the caller may have asked
+      // The caller may have asked to stop.
+      if (error.kind() == ErrorKind::cancelled) context_.poll();
       return false;
     } catch (const std::bad_alloc&) {
       return false;
@@ -107,7 +109,7 @@ class Search {
   }
   bool try_task(const Options& options, std::vector<Remedy> changes) {
     return try_out(options, std::move(changes), [&](const RunContext& trial) {
-      // What the trial makes does not stay.
+      // Results of the trial are not kept.
       return rips_ && rips_->has_form(RipsForm::edges)
                  ? AnyComplex(rips_->with(rips_->options(), trial))
                  : complex_;
@@ -119,7 +121,7 @@ class Search {
     });
   }
 
-  /// If that is not enough, in lower dimensions.
+  /// Drops representatives and, if that is not enough, dimensions as well.
   void drop_representatives() {
     Options changed = options_;
     changed.representatives = Representatives::none;
@@ -127,7 +129,7 @@ class Search {
     if (!try_task(changed, changes)) lower_dimension(changed, changes);
   }
 
-  /// The highest of the lower dimensions. @param others what else is changed.
+  /// Tries the highest of the lower dimensions. @param others the other changes.
   void lower_dimension(Options changed, const std::vector<Remedy>& others) {
     if (is_enough()) return;
     const int highest =
@@ -140,7 +142,7 @@ class Search {
     }
   }
 
-  /// Keeps a threshold that fits, written with few digits. @return true if it does.
+  /// Keeps a threshold that fits, written with few digits. @return true if there is one.
   bool try_threshold(double threshold) {
     RipsOptions changed = rips_->options();
     const std::string text = fmt::format("{:.3g}", threshold);
@@ -151,8 +153,8 @@ class Search {
     return try_question(std::move(changed), {{Setting::threshold, text}});
   }
 
-  /// The largest of a few thresholds: they leave a half of the edges, a fifth, … or, where so few
-  /// pairs are edges that the sample does not say how many, three quarters of the threshold, a
+  /// Tries a few thresholds, largest first: they leave a half of the edges, a fifth, … If so few
+  /// pairs are edges that the sample cannot count them, it tries three quarters of the threshold, a
   /// half, …
   void lower_threshold() {
     const std::optional<double> given = rips_->options().threshold;
@@ -167,7 +169,7 @@ class Search {
     }
     for (const double share : {0.5, 0.2, 0.05, 0.01, 0.002, 0.0005}) {
       const auto place = static_cast<std::size_t>(share * within);
-      if (place < 4) return;  // the sample is too small to say
+      if (place < 4) return;  // the sample is too small
       const double edges =
           sample_.pairs * static_cast<double>(place) / static_cast<double>(distances.size());
       if (kBytesPerEdge * edges > static_cast<double>(context_.memory.limit())) continue;
@@ -175,7 +177,7 @@ class Search {
     }
   }
 
-  /// The largest of a few samples of the points.
+  /// Tries a few samples of the points, largest first.
   void subsample() {
     RipsOptions changed = rips_->options();
     const bool has_all_distances = sample_.pairs == pairs_of(sample_.vertices);

@@ -6,11 +6,11 @@
 
 namespace ph {
 
-/// Bars with their cells, in their order.
+/// Writes bars with their cells, in their order.
 void put_bars(ByteWriter& to, const Barcode& bars);
-/// Adds them to others. @throws Error (bad_data).
+/// Reads bars and adds them to others. @throws Error (bad_data).
 void get_bars(ByteReader& from, Barcode& bars);
-/// Adds the bars of another barcode, cells included.
+/// Adds the bars of another barcode, including cells.
 void add_bars(Barcode& to, const Barcode& bars);
 
 }  // namespace ph

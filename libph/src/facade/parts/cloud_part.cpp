@@ -18,9 +18,10 @@
 namespace ph {
 namespace {
 
-/// How many points to draw, unless the user says so. More cost time in each part, fewer make more
-/// points be near a block: of a cloud that fills three dimensions a share of (blocks / sample)^1/3.
-/// Rounded the same everywhere, so that all parts draw the same.
+/// The number of points to draw, unless the user chooses it. More points cost time in each part;
+/// with fewer, more points lie near a block: for a cloud that fills three dimensions, a share of
+/// (blocks / sample)^1/3. Rounding is the same everywhere, which makes all parts draw the same
+/// points.
 Index points_to_draw(Index points, double blocks) {
   constexpr double least_a_block = 64, most = 1 << 28;
   const double n = static_cast<double>(points);
@@ -92,14 +93,14 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // Measured of 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. Of a
-  // small block, and where clusters end, more is near than in it.
+  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. For a
+  // small block, and at the end of clusters, more points are near the block than in it.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;
   forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};
   forecast.file = {16 * of_part, 1024 + 50 * of_part};
   forecast.join = {24 * n, small + 64 * n};
-  // Joined along a tree, half of the parts are on their way at each of its steps.
+  // If parts are joined along a tree, half of them are sent at each step.
   forecast.sent = {16 * (n - of_part), 25 * n * std::ceil(std::log2(parts)) + 1024.0 * (parts - 1)};
   return forecast;
 }
@@ -167,7 +168,7 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-// Each part left edges out because of hops that the whole forest has to have, too.
+// Each part left out edges because of hops that the entire forest must contain.
 void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||
@@ -178,7 +179,7 @@ void CloudPart::State::check_joined() const {
                 "expected parts of one cloud that did not change meanwhile");
 }
 
-// Each edge of the forest kills one of the components, which are all born at 0.
+// Each edge of the forest kills one component; all components are born at 0.
 Barcode CloudPart::barcode(const RunContext& context) const {
   state_->check_joined();
   const FlagEdges& edges = state_->forest.edges;

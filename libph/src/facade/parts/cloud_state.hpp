@@ -8,11 +8,11 @@
 
 namespace ph {
 
-/// What all parts of a cloud have in common.
+/// Data that all parts of a cloud share.
 struct WholeCloud {
   Index points, axes, sample;
   int parts, blocks;  // blocks of each part
-  double limit;       // infinite: none
+  double limit;       // infinite if there is none
   std::uint64_t fingerprint;
 
   friend bool operator==(const WholeCloud&, const WholeCloud&) = default;
@@ -21,13 +21,13 @@ struct WholeCloud {
 struct CloudPart::State {
   State(const WholeCloud& whole_cloud, const RunContext& run_context)
       : whole(whole_cloud), context(run_context), forest(run_context) {}
-  /// @throws Error (bad_data) unless this is the forest of the whole cloud.
+  /// @throws Error (bad_data) unless this is the forest of the entire cloud.
   void check_joined() const;
 
   WholeCloud whole;
   const RunContext& context;
   std::vector<int> present;  // ascending
-  Index size = 0;            // points of the parts that are present
+  Index size = 0;            // number of points of the parts that are present
   NumberedForest forest;
 };
 

@@ -42,7 +42,7 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           options.first_layers};
 }
 
-/// @throws Error (usage) if it has too many axes.
+/// @throws Error (usage) if there are too many axes.
 GridShape shape_of(const WholeImage& whole) {
   if (const int axes = GridShape::count_axes(whole.image()); axes > GridShape::kMostAxes)
     throw Error(ErrorKind::usage,
@@ -59,13 +59,14 @@ std::uint64_t layers_of(const GridShape& shape) {
   return shape.axis(shape.layer_axis()).extent;
 }
 
-/// The lowest min_dim that asks for the graph of top cells alone: a periodic axis of one voxel has
-/// copies of all bars, one dimension up.
+/// The lowest min_dim that needs only the graph of top cells: a periodic axis with one voxel copies
+/// all bars one dimension up.
 int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
 
-/// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
+/// The voxels of layers and of one layer on either side, copied only where a periodic axis begins
+/// again.
 Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
                  const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);
@@ -168,7 +169,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   if (state_->whole.loops) {
-    // They need the stars of all layers at once: so these are found once, for all bars.
+    // Loops need the stars of all layers at once: the stars are found once, for all bars.
     auto& own = state_->own.emplace(cubical, layout, part, context);
     state_->pairs.add(own.stars, layout.first_voxel(part), pairs, &own.free);
   } else {
@@ -221,7 +222,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} behind part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  // The T-construction is seen from the other end.
+  // The T-construction counts from the other end.
   const bool come_before = state_->shape.is_t_construction();
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);

@@ -12,7 +12,7 @@
 
 namespace ph {
 
-/// What ranks can join: ImagePart, CloudPart.
+/// Parts that ranks can join: ImagePart, CloudPart.
 template <class P>
 concept JoinablePart = std::movable<P> &&
     requires(P part, std::span<const std::byte> bytes, const RunContext& run) {
@@ -22,16 +22,16 @@ concept JoinablePart = std::movable<P> &&
   part.join(std::move(part), run);
 };
 
-/// Joins the parts of all ranks along a binary tree, in log2 steps. Each rank calls it.
-/// @param own part `rank` of the whole, or nothing where there are more ranks than parts; those
-///        have the highest numbers.
+/// Joins the parts of all ranks along a binary tree, in log2 steps. Every rank must call it.
+/// @param own part `rank` of the whole, or nothing if there are more ranks than parts; the ranks
+///        without a part have the highest numbers.
 /// @return the whole on rank 0, nothing on the others.
 /// @throws Error as the part's join and Post::receive.
 template <JoinablePart Part>
 std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunContext& context) {
   if (!own) return std::nullopt;
   const int rank = post.rank(), parts = own->parts();
-  // Before a step of that width a rank has the parts from its own on, so many.
+  // Before a step of this width, a rank has that many parts, starting with its own.
   for (int width = 1; width < parts; width *= 2) {
     if (rank % (2 * width) == width) {
       post.send(rank - width, own->bytes());

@@ -11,15 +11,15 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// What a rank says to another one in a round: whether it has sent anything to anybody, and a
-/// message, if it has one for that rank.
+/// The message from one rank to another in a round: true if the sender has sent anything to
+/// anybody, followed by the message for that rank, if there is one.
 Bytes letter(bool is_busy, const Bytes& message) {
   Bytes bytes{std::byte{is_busy}};
   bytes.insert(bytes.end(), message.begin(), message.end());
   return bytes;
 }
 
-/// One round. @return whether any rank has sent something.
+/// Does one round. @return true if any rank has sent something.
 bool exchange(ImageLoops& loops, int parts, Post& post) {
   const int rank = post.rank();
   std::vector<Bytes> messages(static_cast<std::size_t>(parts));
@@ -38,8 +38,8 @@ bool exchange(ImageLoops& loops, int parts, Post& post) {
     is_any_busy = is_any_busy || bytes[0] != std::byte{0};
     if (bytes.size() > 1) loops.receive(std::span(bytes).subspan(1));
   };
-  // A rank may have to wait until another one takes what it sends: so of two the first one sends
-  // first, and each goes through the others in their order.
+  // A rank may have to wait until another one receives its message: of two ranks the lower one
+  // therefore sends first, and each goes through the others in ascending order.
   for (int other = 0; other < parts; ++other) {
     if (other == rank) continue;
     if (rank < other) send(other);

@@ -7,11 +7,11 @@
 
 namespace ph {
 
-/// The loops of all ranks, in rounds: each works until it has nothing to do, then all exchange what
-/// they have for each other, until nobody has anything. Each rank calls it.
-/// @param own of part `rank`, or nothing where there are more ranks than parts. @param parts of the
-///        image. @param whole what join_ranks gave rank 0; null on the others.
-/// @return the bars of all of them on rank 0, in no order; none on the others.
+/// Computes the loops of all ranks in rounds: each rank works until it has nothing to do, then all
+/// exchange messages, until no rank has any. Every rank must call it.
+/// @param own part `rank`, or nothing if there are more ranks than parts. @param parts of the
+///        image. @param whole the result of join_ranks on rank 0; null on the others.
+/// @return the bars of all ranks on rank 0, in no particular order; none on the others.
 /// @throws Error as ImageLoops and Post::receive.
 Barcode loops_of_ranks(std::optional<ImageLoops> own, int parts, const ImagePart* whole, Post& post,
                        const RunContext& context);

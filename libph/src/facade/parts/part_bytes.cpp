@@ -75,7 +75,7 @@ WholeImage get_whole(ByteReader& from) {
   return whole;
 }
 
-/// In order, so that bytes do not depend on who was joined first.
+/// Sorts the cells, which makes the bytes independent of the order of joins.
 void put_cells(ByteWriter& to, std::pmr::vector<GridCell> cells) {
   std::ranges::sort(cells);
   to.put_list(cells, [&](const GridCell& cell) {
@@ -109,7 +109,7 @@ void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   });
 }
 
-/// What is read as a name of a cell.
+/// The name of a cell as it is read.
 struct CellName {
   std::uint64_t voxel;
   std::uint32_t number;
@@ -146,7 +146,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
-    // Others have no cell: zeros stand there.
+    // Other roots have no cell: zeros are stored there.
     root.cell = checked(from, name, top_dim, root.kind == SeamRoot::Kind::critical ? root_dim : 0);
   }
   if (!forest.is_in_order()) from.refuse("order of roots");

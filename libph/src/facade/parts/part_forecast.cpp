@@ -16,8 +16,8 @@ using cubical::checked_whole;
 using cubical::GridShape;
 using cubical::WholeImage;
 
-/// Which share of the voxels of each layer come before all that are beside them: minima. Looks at
-/// some rows of some layers.
+/// The share of voxels in each layer that come before all their neighbours, that is, minima. It
+/// reads some rows of some layers.
 template <class T>
 class LayerSample {
  public:
@@ -29,7 +29,7 @@ class LayerSample {
         width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
-    constexpr std::uint64_t few = 64;  // of the layers between two that are looked at there are
+    constexpr std::uint64_t few = 64;  // of this many layers, one is read
     const std::uint64_t step = std::clamp<std::uint64_t>(layers_ / few, 1, 16);
     std::vector<double> shares(layers_);
     for (std::uint64_t z = 0; z < layers_; z += step) {
@@ -46,7 +46,7 @@ class LayerSample {
     const std::uint64_t rows = layer_size_ / width_;
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
-    // A layer of few rows has one at least.
+    // Reads at least one row of a layer with few rows.
     for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
         if (is_minimum(layer, y, x)) ++found;
@@ -70,22 +70,21 @@ class LayerSample {
   std::uint64_t layers_, layer_size_, width_;
 };
 
-/// How long a voxel takes, in units of one that is no minimum and not near any: measured of noise,
-/// of which one voxel in seven is a minimum of three axes.
+/// The time per voxel, in units of a voxel that is not near a minimum: measured on noise with three
+/// axes, where one voxel in seven is a minimum.
 double cost(double minima, bool loops) {
   constexpr double of_components = 20, of_loops = 300;
   return 1 + (loops ? of_loops : of_components) * minima;
 }
 
-/// What the columns of loops that cross a border send for each minimum beside it: at most that of
-/// noise, whose columns grow with the volume and come back often. Measured of 256³ and 512³.
+/// Bytes that loop columns crossing a border send per adjacent minimum: at most the amount for
+/// noise, whose columns grow with the volume and come back often. Measured on 256³ and 512³ voxels.
 double bytes_across(double layer_size) {
   constexpr double of_small = 20000, small = 256, power = 3.5;
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
 }
 
-/// Where a list of costs has to be cut so that each of `parts` pieces, of one or more, costs about
-/// as much.
+/// Cuts a list of costs into `parts` pieces, none of them empty, of about equal cost.
 std::vector<Index> cut(const std::vector<double>& costs, int parts) {
   const double all = std::reduce(costs.begin(), costs.end());
   const auto size = static_cast<Index>(costs.size());
@@ -95,7 +94,8 @@ std::vector<Index> cut(const std::vector<double>& costs, int parts) {
     before += costs[static_cast<std::size_t>(i)];
     const auto next = static_cast<int>(begins.size());
     const bool is_enough = before >= all * next / parts;
-    const bool must = size - (i + 1) == static_cast<Index>(parts - next);  // one each is left
+    // Only one item per piece is left.
+    const bool must = size - (i + 1) == static_cast<Index>(parts - next);
     if (is_enough || must) begins.push_back(i + 1);
   }
   return begins;
@@ -122,15 +122,15 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const bool vertices = whole.loops || cubical::wants_vertices(shape, whole.wanted());
   const bool tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted());
   const auto layer_size = static_cast<double>(layout.layer_size());
-  // Bytes, measured of noise, waves and blurred noise of 128³ to 512³. A seam: values, roots, and
-  // what may still be joined there. A minimum has a bar, and so many others in the other graph and
-  // of loops.
+  // Bytes, measured on noise, waves and blurred noise of 128³ to 512³ voxels. A seam has values,
+  // roots, and components that may still be joined there. A minimum has a bar, and a number of
+  // other bars in the other graph and among loops.
   const double seam = layer_size * ((vertices ? 48 : 0) + (tops ? 25 : 0));
   const double bar = whole.cells ? 72 : 24;
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),
                loops = whole.loops ? bar * 1.3 : 0;
   const double of_minimum = whole.loops ? 500 : 250;
-  constexpr double of_process = 2 << 20;  // code, stacks, and what allocators keep
+  constexpr double of_process = 2 << 20;  // code, stacks, and memory kept by allocators
 
   ImagePartForecast forecast;
   forecast.first_layers = cut(costs, parts);
@@ -156,8 +156,8 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   }
   const double bars_of_all = (bars + loops) * minima_of_all;
   forecast.join = {seams_of_all / 2, 2 * seams_of_all + 4 * bars_of_all + (4 << 20)};
-  // Bars go to the first rank, most of them in one step; seams once, but for those of the first
-  // part.
+  // Bars go to the first rank, most of them in one step; each seam is sent once, except for the
+  // seams of the first part.
   const double share_of_others = minima_of_all > 0 ? 1 - minima_of_first / minima_of_all : 0;
   const double borders = seam > 0 ? seams_of_all / (2 * seam) : 0;
   const double across = whole.loops ? borders * bytes_across(layer_size) * minima_of_all /

@@ -22,7 +22,7 @@ namespace ph {
 
 namespace cubical {
 
-/// What all parts of an image have in common.
+/// Data that all parts of an image share.
 struct WholeImage {
   std::vector<Index> extents;
   std::vector<bool> periodic;
@@ -31,11 +31,11 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
-  bool loops;                            ///< whether bars are wanted that come from neither graph
-  std::vector<Index> first_layers = {};  ///< of the parts; none: parts of equal size
+  bool loops;                            ///< true if bars are wanted that come from neither graph
+  std::vector<Index> first_layers = {};  ///< of the parts; empty for parts of equal size
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
-  /// Without voxels.
+  /// The image without its voxels.
   CubicalImage image() const {
     CubicalImage image;
     image.extents = extents;
@@ -61,7 +61,7 @@ struct WholeImage {
     if (limit < std::numeric_limits<double>::max()) options.cubical.threshold = limit;
     return options;
   }
-  /// Puts bars of the dimensions wanted into a barcode.
+  /// A sink that puts bars of the wanted dimensions into a barcode.
   BarSink sink(Barcode& into) const {
     const auto wants = [this](const Bar& bar) {
       return min_dim <= bar.dim && bar.dim <= max_dim && bar.birth < kInfinity;
@@ -76,7 +76,7 @@ struct WholeImage {
         },
         [](std::size_t) {}};
   }
-  /// Whether each part has layers of its own, all together all of them.
+  /// True if each part has layers of its own and the parts together have all layers.
   bool has_layers(const GridShape& shape) const {
     if (first_layers.empty()) return true;
     return static_cast<std::uint64_t>(parts) == first_layers.size() && first_layers.front() == 0 &&
@@ -84,14 +84,14 @@ struct WholeImage {
            static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;
   }
   PartLayout layout(const GridShape& shape) const { return {shape, parts, first_layers}; }
-  /// Tells images and options apart, most likely.
+  /// Distinguishes images and options with high probability.
   std::uint64_t hash() const;
 };
 
-/// @throws Error (usage) if it is cut into no such parts, (bad_data) if voxels are missing.
+/// @throws Error (usage) if it cannot be cut into such parts, (bad_data) if voxels are missing.
 WholeImage checked_whole(const Image& image, int parts, const ImagePartOptions& options);
 
-/// What the loops of a part begin with.
+/// The data with which the loops of a part begin.
 struct OwnLayers {
   OwnLayers(const Cubical& cubical, const PartLayout& layout, int part, const RunContext& context)
       : voxels(cubical),
@@ -99,10 +99,10 @@ struct OwnLayers {
         stars(voxels.cubical_image(), layout, part, context),
         free(&context.memory) {}
 
-  Cubical voxels;  ///< of the part with its ghosts
+  Cubical voxels;  ///< voxels of the part with its ghosts
   std::unique_ptr<VoxelsInUse> in_use;
   PartStars stars;
-  FreeCells free;  ///< as far as the part alone tells
+  FreeCells free;  ///< as far as the part alone determines them
 };
 
 }  // namespace cubical
@@ -130,9 +130,9 @@ struct ImagePart::State {
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
   cubical::FreeCells
-      freed;  // what joins found, of all parts; what parts found themselves is theirs
-  std::optional<cubical::OwnLayers> own;  // of one part, until its loops take it
-  Barcode bars;                           // in no order yet
+      freed;  // cells found by joins, for all parts; cells found by a part stay with it
+  std::optional<cubical::OwnLayers> own;  // for a single part, until its loops take it
+  Barcode bars;                           // not sorted yet
   MemoryClaim claim;
 };
 

@@ -9,8 +9,8 @@
 
 namespace ph {
 
-/// Messages between ranks with a number and a checksum: one that is lost, comes twice, in another
-/// order, or changed on its way is an error, and no wrong answer.
+/// Messages between ranks with a number and a checksum: if one is lost, repeated, out of order or
+/// damaged, the result is an error instead of a wrong answer.
 class Post {
  public:
   explicit Post(Transport& transport) : transport_(transport), sent_(ranks()), received_(ranks()) {}
@@ -18,16 +18,16 @@ class Post {
   int rank() const { return transport_.rank(); }
   int size() const { return transport_.size(); }
   void send(int to, std::span<const std::byte> message);
-  /// @throws Error (io) that says which message was expected and which one came.
+  /// @throws Error (io) naming the message that was expected and the message that came.
   std::vector<std::byte> receive(int from);
-  /// All that this rank has sent, in bytes.
+  /// Number of bytes that this rank has sent.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
  private:
   std::size_t ranks() const { return static_cast<std::size_t>(transport_.size()); }
 
   Transport& transport_;
-  std::vector<std::uint64_t> sent_, received_;  // how many, by rank
+  std::vector<std::uint64_t> sent_, received_;  // number of messages, by rank
   std::uint64_t bytes_sent_ = 0;
 };
 

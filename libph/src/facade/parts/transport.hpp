@@ -6,8 +6,8 @@
 
 namespace ph {
 
-/// How the ranks of one computation talk: processes under MPI, or threads in a test. A rank uses it
-/// from one thread at a time.
+/// The communication between the ranks of one computation: processes under MPI, or threads in a
+/// test. Only one thread of a rank may use it at a time.
 class Transport {
  public:
   Transport() = default;
@@ -15,11 +15,11 @@ class Transport {
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 
-  virtual int rank() const = 0;  ///< from 0 on
-  virtual int size() const = 0;  ///< how many ranks there are
-  /// May return before the other one has the message.
+  virtual int rank() const = 0;  ///< counted from 0
+  virtual int size() const = 0;  ///< number of ranks
+  /// May return before the receiver has the message.
   virtual void send(int to, std::span<const std::byte> message) = 0;
-  /// The next message from that rank; waits for it.
+  /// Waits for the next message from that rank.
   virtual std::vector<std::byte> receive(int from) = 0;
 };
 
