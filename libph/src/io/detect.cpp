@@ -9,7 +9,7 @@
 namespace ph {
 namespace {
 
-// Formats with a magic number, and formats known by nothing but their name.
+// Formats with a magic number, and formats that only their name identifies.
 std::optional<Format> by_magic(const Input& input) {
   if (detail::is_npy(input)) return Format::npy;
   if (detail::is_png(input)) return Format::png;
@@ -34,7 +34,7 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".pts" && detail::is_counted(input)) return Format::pts;
   if (extension == ".npz") return Format::npz;
   if (extension == ".nii" || extension == ".hdr") return Format::nifti;
-  // Damaged at the start: let their own readers say what is wrong.
+  // Damaged at the start: the reader of that format will report the problem.
   if (extension == ".pcd") return Format::pcd;
   if (extension == ".ply") return Format::ply;
   if (extension == ".off") return Format::off;
@@ -59,8 +59,8 @@ std::optional<Format> format_by_content(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
   if (const auto format = by_extension(input)) return *format;
   if (is_text(input.text())) return std::nullopt;
-  // Bytes without a magic number: Ripser's binary has none. Anything else is told why by the
-  // reader of text.
+  // Bytes without a magic number may be Ripser's binary format. For anything else, the reader of
+  // text reports the problem.
   return input.extension() == ".bin" ? Format::binary : Format::points;
 }
 

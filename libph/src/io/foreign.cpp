@@ -53,10 +53,11 @@ constexpr std::array kMagics{
 };
 
 constexpr std::size_t kProbe = 4096;
-// So many letters may begin a text of anything; longer magic numbers do not.
+// Any text may begin with a few letters; longer magic numbers are safe.
 constexpr std::size_t kFewLetters = 4;
 
-// Letters and a line with two sizes, behind comments: a column may have these letters for a name.
+// Such a picture has letters and a line with two sizes, after comments, because a column may also
+// have these letters as its name.
 bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters) {
   if (bytes.size() < 3 || bytes[2] != '\n' || std::ranges::count(letters, bytes.substr(0, 2)) == 0)
     return false;
@@ -72,7 +73,7 @@ bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters)
          is_size(line.substr(blank + 1));
 }
 
-// An OBJ mesh has lines "v 1 2 3", behind others that begin with a word that it knows.
+// An OBJ mesh has lines "v 1 2 3", after lines that begin with a keyword of OBJ.
 bool is_obj(std::string_view bytes) {
   constexpr std::array<std::string_view, 6> kWords{"v ", "vn ", "vt ", "o ", "g ", "mtllib "};
   for (bool is_first = true; !bytes.empty();) {
@@ -118,7 +119,7 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
   if (is_picture(bytes, {"P1", "P4"})) return ForeignKind{"a PBM picture", kToPng};
   if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};
   if (is_stl(bytes, size)) return ForeignKind{"an STL mesh", kToMesh};
-  // A bitmap has its own length behind its two letters.
+  // A bitmap has its own length after its two letters.
   if (bytes.starts_with("BM") && bytes.size() > 14 && bytes.substr(6, 4) == "\0\0\0\0"sv)
     return ForeignKind{"a BMP picture", kToPng};
   return std::nullopt;

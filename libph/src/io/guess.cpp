@@ -16,10 +16,10 @@
 namespace ph::detail {
 namespace {
 
-constexpr Index kMostCoordinates = 16;  // of points in an array that may be an image
-constexpr Index kSlender = 4;           // so many times more rows than columns it has then
+constexpr Index kMostCoordinates = 16;  // coordinates per point in an array that may be an image
+constexpr Index kSlender = 4;           // it then has this many times more rows than columns
 
-// Lengths of the first rows: they tell a triangle of a matrix from what cannot be ragged.
+// Decides by the lengths of the first rows: only a triangle of a matrix may be ragged.
 std::optional<Format> triangle_of(const Input& input) {
   TextLines lines(input);
   std::vector<std::size_t> lengths;
@@ -62,7 +62,7 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   guess.columns = n;
   guess.table = shape_of(input, layout);
   const SquareKind square = guess.table.square;
-  // Two rows say too little: two points of the plane may well be symmetric.
+  // Two rows are not enough: two points of the plane may happen to be symmetric.
   if (n > 2 && (square == SquareKind::distances || square == SquareKind::zeros))
     guess.format = Format::distance;
   return guess;
@@ -123,11 +123,11 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                           is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
-    // Pictures may be black, maps of labels empty; points and distances are not.
+    // Pictures may be black and label maps empty; points and distances are not.
     const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
                                      (kind == SquareKind::distances || npy.kind == 'f'));
     if (has_zeros && is_sure) {
-      // What is not symmetric, or below 0, the reader of distances refuses.
+      // The reader of distances refuses matrices that are asymmetric or have negative entries.
       return {ArrayMeaning::distances,
               fmt::format("{}{} with a zero diagonal: read as distances; {}", shape,
                           kind == SquareKind::distances ? ", symmetric" : "", instead)};
@@ -154,7 +154,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   }
   if (is_rips) return otherwise;
   const bool is_slender = columns <= kMostCoordinates && rows >= kSlender * columns;
-  // Pictures and maps of labels have small integers, coordinates hardly ever.
+  // Pictures and label maps have small integers; coordinates hardly ever do.
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
   if (!is_slender) {
     if (is_of_pixels || rows < 2 || columns < 2) return otherwise;

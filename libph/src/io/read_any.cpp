@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-// Whether it is an image that need not be in memory as a whole.
+// True if it is an image that need not be entirely in memory.
 bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
   switch (format) {
     case Format::nifti:
@@ -26,11 +26,10 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   }
 }
 
-// The format of a text of numbers, by what the options say and, where they leave it open, by its
-// rows.
+// The format of a text of numbers, by the options and, if they do not decide, by its rows.
 Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::image) {
-    // Two to four numbers a row are coordinates as a rule, hardly ever a picture.
+    // Rows of two to four numbers are usually coordinates, hardly ever a picture.
     const std::size_t width = detail::table_layout(input, options).columns.size();
     if (width >= 2 && width <= 4) return Format::points;
     if (width > 4)
@@ -43,8 +42,8 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (!is_table) return guess.format;
   if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
-    // Points have no diagonal. One of any numbers asks for nothing, and births are refused with
-    // the points.
+    // Points have no diagonal. A diagonal of any numbers asks for nothing, and births are refused
+    // with points.
     const bool has_diagonal = !options.from_correlation && options.diagonal != Diagonal::zero;
     const bool is_by_diagonal =
         options.diagonal == Diagonal::births || options.symmetrise == Symmetrise::none;
@@ -97,7 +96,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
-// What an option says of an input that knows nothing of it.
+// Checks options that the format of an input does not support.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
   const auto refuse = [&](Setting setting, std::string_view meant_for) {
     throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}",

@@ -11,39 +11,41 @@ namespace ph::detail {
 
 struct TableLayout;
 
-/// Rows of numbers of one length, as text has them.
+/// Rows of numbers of equal length, from a text.
 struct TextTable {
   Points rows;
   std::vector<std::string> header;  ///< the cells of a first line without numbers, or empty
 };
 
-/// Reads a whole table. @param allow what cells may hold besides finite numbers.
-/// @param counted the first line is the number of rows. @param layout which columns are read;
-/// null: all, behind a first line of names, if there is one.
+/// Reads an entire table. @param allow the cells that may occur besides finite numbers.
+/// @param counted true if the first line is the number of rows. @param layout the columns to read;
+/// if null, all columns, after a first line of names if there is one.
 TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
                           bool counted = false, const TableLayout* layout = nullptr);
-/// A table as an image: a row of pixels a line. One row or one column is an image of one axis.
+/// Reads a table as an image: one row of pixels per line. One row or one column is an image of one
+/// axis.
 Image read_grid(const Input& input, const ReadOptions& options);
 
-/// Takes the rows with a NaN out, or throws, as options.nan says; reports what it drops.
-/// @param holes rows with a NaN are holes of a point cloud: they are left out in any case.
+/// Removes the rows with a NaN, or throws, depending on options.nan; reports the rows that it
+/// removes.
+/// @param holes true if rows with a NaN are holes of a point cloud: they are always left out.
 Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes);
 
 /// A square array as distances; see read_distances.
 DistanceMatrix square_to_distances(const Image& array, const Input& input,
                                    const ReadOptions& options);
 
-/// A pair of points with where it was found: a line, or a byte.
+/// A pair of points with the line or byte where it was found.
 struct LocatedEdge {
   WeightedEdge edge;
   std::size_t place = 0;
 };
-/// The pairs u < v, each once, sorted, without infinite ones. A pair listed again with another
-/// distance is reported to `fail(place, fault)`, which throws.
+/// The pairs u < v, each once, sorted, without infinite distances. A pair that is listed again with
+/// another distance is reported to `fail(place, fault)`, which throws.
 std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
                                        const std::function<void(std::size_t, const Fault&)>& fail);
 
-/// The magic numbers.
+/// Recognises the magic numbers.
 bool is_npy(const Input& input);
 bool is_pcd(const Input& input);
 bool is_ply(const Input& input);
@@ -54,26 +56,26 @@ bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
-/// Whether bytes begin like text, without those below the tab: eight bytes of a count below 2^40
-/// have several.
+/// True if bytes begin like text, without bytes below the tab: the eight bytes of a count below
+/// 2^40 contain several of those.
 bool is_text(std::string_view bytes);
 
-/// A set of points whose first line is their number, as PTS has it.
+/// True if the first line of a set of points is their number, as in PTS.
 bool is_counted(const Input& input);
 
-/// NPY as it is, or the array of an NPZ: NaN and all.
+/// An NPY unchanged, including NaN, or the array of an NPZ.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
-/// Whether an NPY has floats; precondition: it is one.
+/// True if an NPY has floats. Precondition: it is an NPY.
 bool is_npy_of_floats(const Input& input);
-/// The one array of an NPZ, or the one that input.member() names, unpacked.
+/// The only array of an NPZ, or the array that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
-/// One number a pixel of a PNG; takes options.channel.
+/// One number per pixel of a PNG, chosen by options.channel.
 Image image_of(Raster raster, const Input& input, const ReadOptions& options);
 Image read_png_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
 
-/// What a DIPHA file holds: the number that follows its magic number.
+/// The content of a DIPHA file: the number after its magic number.
 enum class DiphaType : std::int64_t {
   boundary_matrix = 0,
   image = 1,
@@ -91,20 +93,20 @@ DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& optio
 SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);
 BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options);
 
-/// Takes NaN as the mark of absent voxels or throws, as options.nan says; an image without voxels
-/// is an error unless options.allow_empty.
+/// Marks NaN as absent voxels or throws, depending on options.nan; an image without voxels is an
+/// error unless options.allow_empty.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
-/// Brings the little-endian numbers of a record to this machine's byte order.
+/// Converts the little-endian numbers of a record to this machine's byte order.
 void to_native(Cloud& cloud);
 
-/// Asks the budget before a vector that is full is about to grow.
+/// Checks the budget before a full vector grows.
 template <class T>
 void require_growth(const Input& input, const std::vector<T>& vector) {
   if (vector.size() == vector.capacity()) input.require_memory(2 * vector.size() * sizeof(T));
 }
 
-/// Says something to options.note, if it is there.
+/// Passes a message to options.note, if it is set.
 inline void note(const ReadOptions& options, Message text) {
   if (options.note) options.note(std::move(text));
 }

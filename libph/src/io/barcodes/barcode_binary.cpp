@@ -37,7 +37,7 @@ void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
   put(file, static_cast<std::int64_t>(barcode.size()));
   for (const Bar& bar : barcode) {
     put(file, std::int64_t{bar.is_infinite() ? -bar.dim - 1 : bar.dim});
-    put(file, bar.birth + 0.0);  // -0 is 0
+    put(file, bar.birth + 0.0);  // turns -0 into 0
     put(file, bar.is_infinite() ? largest : bar.death);
   }
 }

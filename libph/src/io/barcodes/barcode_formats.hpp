@@ -4,11 +4,11 @@
 
 namespace ph {
 
-/// What JSON says of the values of a filtration, as the members of an object: weights, samples,
-/// squares, superlevel sets. Empty: nothing.
+/// The JSON members that describe the values of a filtration: weights, samples, squares, superlevel
+/// sets. Empty if there is nothing to say.
 std::string filtration_members(const BarcodeInfo& info, std::string_view between = ", ");
 
-// One function a format; see BarcodeFormat.
+// One function per format; see BarcodeFormat.
 void write_barcode_csv(OutputFile& file, const Barcode& barcode, std::span<const double> p_values);
 void write_barcode_pers(OutputFile& file, const Barcode& barcode);
 void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim);

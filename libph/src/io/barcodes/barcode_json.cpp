@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// What dies never has a death of null, so minus infinity is a string.
+/// A finite bar never has a death of null, because minus infinity is a string.
 std::string json_value(double value) {
   return value == -kInfinity ? "\"-inf\"" : json::number(value);
 }
@@ -33,7 +33,7 @@ std::string json_cell_member(const InputCell& cell) {
   return "";
 }
 
-/// null for a cell that is not known.
+/// null for an unknown cell.
 std::string json_cell(const std::optional<InputCell>& cell) {
   if (!cell || cell->numbers.empty()) return "null";
   return fmt::format("{{{}}}", json_cell_member(*cell));
@@ -53,7 +53,7 @@ std::string_view representatives_name(Representatives kind) {
   return "";
 }
 
-/// A chain can be as long as the input: written term by term.
+/// A chain can be as long as the input, and is therefore written term by term.
 void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("[");
   for (std::size_t i = 0; i < chain.size(); ++i)
@@ -74,7 +74,7 @@ std::string_view tightness_name(Tightness tightness) {
   return "";
 }
 
-/// Before anything is written.
+/// Called before anything is written.
 void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   if (loops.empty()) return;
   const auto fail = [](const std::string& found, const std::string& expected) {
@@ -97,7 +97,7 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   }
 }
 
-/// A member of a bar. @param edge of its chain.
+/// Writes a member of a bar. @param edge of its chain.
 void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge) {
   const bool is_grid = edge.kind == CellKind::grid;
   const std::size_t arity = is_grid ? edge.numbers.size() : 1;
@@ -118,7 +118,7 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
   file.write("]");
 }
 
-/// The voxels of a bar, and a cycle where there are none.
+/// Writes the voxels of a bar, or a cycle if it has no voxels.
 void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
   file.write(fmt::format(", \"birth_voxel\": [{}]", fmt::join(barcode.birth_voxel(i), ", ")));
   const auto death = barcode.death_voxel(i);
@@ -184,9 +184,9 @@ std::string filtration_members(const BarcodeInfo& info, std::string_view between
 
 namespace {
 
-/// What the file says before the bars: the members of an object.
+/// The part of the file before the bars: the members of an object.
 std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
-  // Left out where there is nothing.
+  // Left out if it is empty.
   const auto text = [](std::string_view value) { return value.empty() ? "" : json::string(value); };
   const bool has_complex = !info.complex.empty();
   const bool has_chains = barcode.representatives() != Representatives::none;

@@ -24,7 +24,7 @@ Barcode read_dipha(const Input& input) {
   Barcode barcode;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = cursor.offset();
-    // An essential class of dimension k is stored as -k-1; its death is only a drawing's.
+    // An essential class of dimension k is stored as -k-1; its death serves only for drawing.
     const auto dim = cursor.read<std::int64_t>("bar");
     Bar bar;
     bar.birth = cursor.read<double>("bar") + 0.0;
@@ -45,8 +45,8 @@ Barcode read_dipha(const Input& input) {
   return barcode;
 }
 
-/// Rows of dim, birth, death. CubicalRipser's have two places of three or four coordinates behind
-/// them, and the largest double in the place of infinity.
+/// Rows of dim, birth, death. CubicalRipser appends two places of three or four coordinates, and
+/// writes the largest double for infinity.
 StoredBarcode read_npy(const Input& input) {
   const Image array = detail::read_npy_array(input);
   const std::size_t width = array.dim() == 2 ? array.extents[1] : 0;
@@ -81,7 +81,7 @@ StoredBarcode read_npy(const Input& input) {
   return stored;
 }
 
-// By content, then by extension; rows of numbers are what is left.
+// Decides by content, then by extension; the default is rows of numbers.
 BarcodeFormat format_of(const Input& input) {
   if (detail::is_npy(input) || detail::is_npz(input)) return BarcodeFormat::npy;
   if (detail::is_dipha(input)) return BarcodeFormat::dipha;
@@ -98,7 +98,7 @@ BarcodeFormat format_of(const Input& input) {
 
 bool is_barcode(const Input& input) {
   if (detail::is_dipha(input)) return detail::dipha_type(input) == detail::DiphaType::diagram;
-  // Bytes without a magic number may begin like any text, and names say what other text is.
+  // Bytes without a magic number may begin like any text; for other text, the name decides.
   if (detail::format_by_content(input)) return false;
   switch (format_of(input)) {
     case BarcodeFormat::json:

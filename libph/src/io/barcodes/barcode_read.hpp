@@ -10,18 +10,18 @@ namespace ph {
 /// The highest dimension that a barcode file may name.
 inline constexpr std::int64_t kMostBarDimension = 1 << 20;
 
-/// What is wrong with a bar; `what` is empty if nothing is.
+/// The problem with a bar; `what` is empty if there is none.
 Fault fault_of_bar(const Bar& bar);
 
-/// The line before the intervals of each dimension, as Ripser prints it.
+/// The line before the intervals of each dimension, in Ripser's output.
 inline constexpr std::string_view kRipserHeading = "persistence intervals in dim ";
 
 StoredBarcode read_barcode_json(const Input& input);
 Barcode read_barcode_ripser(const Input& input);
-/// A table of bars: csv, pers, and what other programs write alike.
-/// @param may_be_empty whether nothing is an empty barcode.
+/// A table of bars: csv, pers, and similar output of other programs.
+/// @param may_be_empty true if an empty file is an empty barcode.
 StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty);
-/// Whether the first line names the columns of a table of bars.
+/// True if the first line names the columns of a table of bars.
 bool has_barcode_header(const Input& input);
 
 }  // namespace ph

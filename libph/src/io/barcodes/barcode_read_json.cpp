@@ -11,7 +11,7 @@ namespace {
 
 using detail::JsonCursor;
 
-/// Calls `take` with each member of the object that comes next.
+/// Calls `take` with each member of the next object.
 template <class Take>
 void for_each_member(JsonCursor& json, Take&& take) {
   std::string name;
@@ -19,7 +19,7 @@ void for_each_member(JsonCursor& json, Take&& take) {
   for (bool first = true; json.next_member(first, name);) take(name);
 }
 
-// null is a death that never comes.
+// A death of null means that the class never dies.
 double value_of(JsonCursor& json) {
   if (json.accept_null()) return kInfinity;
   if (json.peek() != '"') return json.number();
@@ -29,12 +29,12 @@ double value_of(JsonCursor& json) {
   return -kInfinity;
 }
 
-/// The members that say where a barcode came from.
+/// Reads the members that describe the origin of a barcode.
 class InfoReader {
  public:
   InfoReader(JsonCursor& json, BarcodeInfo& info) : json_(json), info_(info) {}
 
-  /// Reads the member, if it is one of them.
+  /// Reads the member, if it is one of these.
   bool read(const std::string& name) {
     if (name == "program") {
       info_.program = text();
@@ -96,7 +96,7 @@ class InfoReader {
  private:
   static constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
-  // null says that it is not known.
+  // null means unknown.
   std::string text() { return json_.accept_null() ? std::string() : json_.string(); }
   std::optional<double> number() {
     return json_.accept_null() ? std::nullopt : std::optional(value_of(json_));
@@ -161,7 +161,7 @@ class InfoReader {
   BarcodeInfo& info_;
 };
 
-/// Reads the JSON that write_barcode_json writes; members that it does not know are skipped.
+/// Reads the JSON that write_barcode_json writes; unknown members are skipped.
 class Reader {
  public:
   explicit Reader(const Input& input) : input_(input), json_(input) {}
@@ -205,7 +205,7 @@ class Reader {
 
  private:
   void skip(const std::string& name) {
-    constexpr std::size_t most = 20;  // names: enough to say what is lost
+    constexpr std::size_t most = 20;  // names: enough to tell the user what is lost
     if (skipped_.size() < most) skipped_.insert(printable(name, 40));
     json_.skip_value();
   }
@@ -215,7 +215,7 @@ class Reader {
     const std::string value = json_.string();
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
-    // Sets of voxels are for programs that segment: a few numbers may stand for all of an image.
+    // Sets of voxels are for segmentation programs: a few numbers may stand for an entire image.
     if (value != "none" && value != "voxels") {
       json_.fail(place,
                  {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
@@ -278,7 +278,7 @@ class Reader {
     }
     if (const Fault fault = fault_of_bar(bar); !fault.what.empty()) json_.fail(place, fault);
     input_.require_memory((birth_.size() + death_.size() + chain_.size()) * sizeof(Index));
-    if (barcode_.empty()) {  // the first bar says whether cells are known, and of which kind
+    if (barcode_.empty()) {  // the first bar shows if cells are known, and of which kind
       barcode_ = Barcode(kind_);
       with_cells_ = !birth_.empty();
     }
@@ -321,7 +321,7 @@ class Reader {
     }
   }
 
-  // The numbers of a cell, if the member is one; they become those from `begin` on.
+  // Reads the numbers of a cell, if the member is one; they are stored from `begin` on.
   bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t begin,
                     std::size_t place) {
     constexpr Index kMost = std::numeric_limits<Index>::max();
@@ -360,7 +360,7 @@ class Reader {
         }
       }
       coefficients_.push_back(coefficient);
-      // All cells of a chain have as many numbers.
+      // All cells of a chain have the same number of numbers.
       const std::size_t numbers = chain_.size() - before;
       if (numbers == 0 || chain_.size() != numbers * coefficients_.size() || coefficient == 0) {
         json_.fail(place, {"representative",

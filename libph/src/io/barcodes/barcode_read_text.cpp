@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// What a column of a table of bars holds.
+/// The content of a column in a table of bars.
 enum class Column { dim, birth, death, p, characteristic, other };
 
 constexpr std::array<std::pair<std::string_view, Column>, 7> kNames{{
@@ -24,15 +24,16 @@ constexpr std::array<std::pair<std::string_view, Column>, 7> kNames{{
     {"birth", Column::birth},
     {"death", Column::death},
     {"p", Column::p},
-    {"persistence", Column::other},  // what follows from the others
+    {"persistence", Column::other},  // computed from the others
     {"lifetime", Column::other},
 }};
 
-/// What a table holds, by its header or by its first row.
+/// The columns of a table, by its header or by its first row.
 struct Columns {
   std::vector<Column> roles;
-  std::string expected = "dim birth death, or p dim birth death";  ///< in a row
-  std::vector<std::string> left_out;                               ///< names that a Bar has not
+  std::string expected = "dim birth death, or p dim birth death";  ///< columns of a row
+  /// Names of columns that a Bar cannot hold.
+  std::vector<std::string> left_out;
 
   bool has(Column role) const { return std::ranges::find(roles, role) != roles.end(); }
 };
@@ -51,15 +52,15 @@ const Column* column_of(const std::string& name) {
   return found == kNames.end() ? nullptr : &found->second;
 }
 
-/// Whether the current line is one of names, some of which may be missing.
+/// True if the current line consists of names, some of which may be missing.
 bool is_line_of_names(const TextLines& lines) {
   return !header_names(lines.line()).empty() ||
          std::ranges::any_of(detail::header_cells(lines.line(), false), column_of);
 }
 
-/// Columns by the names of the current line, in any order; nothing unless it has dimensions, births
-/// and deaths, each once, and else only what a bar can do without. A first column without a name is
-/// an index, as pandas and R write it.
+/// Finds columns by the names in the current line, in any order; nothing unless it has dimensions,
+/// births and deaths, each once, and otherwise only columns that a bar does not need. A first
+/// column without a name is an index, as pandas and R write it.
 std::optional<Columns> columns_by_name(const TextLines& lines) {
   const std::vector<std::string> names = detail::header_cells(lines.line(), false);
   Columns columns;
@@ -78,13 +79,13 @@ std::optional<Columns> columns_by_name(const TextLines& lines) {
   return columns;
 }
 
-// R's write.table names no column for its index, whose cells are quoted.
+// R's write.table gives no name to its index column, whose cells are quoted.
 void find_index(const TextLines& lines, Columns& columns) {
   if (lines.line().starts_with('"') && detail::count_cells(lines) == columns.roles.size() + 1)
     columns.roles.insert(columns.roles.begin(), Column::other);
 }
 
-/// Columns of a table without a header, by its first row: `dim birth death`, or GUDHI's
+/// Finds the columns of a table without a header, by its first row: `dim birth death`, or GUDHI's
 /// `p dim birth death`.
 Columns columns_by_count(const TextLines& lines) {
   Cells counter(lines);
@@ -99,7 +100,7 @@ Columns columns_by_count(const TextLines& lines) {
   return columns;
 }
 
-/// A dimension, which programs that have floats only write as 1.0 or 1.000e+00.
+/// Reads a dimension; programs with floats only write it as 1.0 or 1.000e+00.
 int read_dimension(Cells& cells) {
   Cells ahead = cells;
   const std::string_view word = cells.more() ? ahead.word() : std::string_view();
@@ -131,7 +132,7 @@ void require_cell(const TextLines& lines, const Cells& cells, Column role,
               {}});
 }
 
-// The bar in the current line.
+// Reads the bar in the current line.
 Bar read_row(const TextLines& lines, const Columns& columns) {
   Cells cells(lines);
   cells.start();
@@ -197,14 +198,15 @@ StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty) {
 }
 
 bool has_barcode_header(const Input& input) {
-  constexpr std::size_t kProbe = 64;  // what is no text is not looked at as lines
+  // Bytes checked before the input is read as lines, because it may not be text.
+  constexpr std::size_t kProbe = 64;
   if (lower_case(input.text().substr(0, kProbe)).find("dim") == std::string::npos) return false;
   TextLines lines(input);
   return lines.next() && columns_by_name(lines).has_value();
 }
 
-// What Ripser prints: a heading for each dimension and lines ` [birth,death)`; whatever comes
-// before the first heading says what was read.
+// Reads Ripser's output: a heading for each dimension and lines ` [birth,death)`; text before the
+// first heading describes the input.
 Barcode read_barcode_ripser(const Input& input) {
   Barcode barcode;
   TextLines lines(input);
@@ -232,7 +234,7 @@ Barcode read_barcode_ripser(const Input& input) {
     bar.birth = cells.number(Allow::infinite);
     cells.expect_end("one number");
     cells.start_in(line.substr(comma + 1, line.size() - comma - 2));
-    if (cells.more()) {  // else it never dies
+    if (cells.more()) {  // without a death it never dies
       bar.death = cells.number(Allow::infinite);
       cells.expect_end("one number");
     }

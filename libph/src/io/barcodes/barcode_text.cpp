@@ -9,12 +9,12 @@
 namespace ph {
 
 std::string shortest(double value) {
-  return fmt::format("{}", value == 0 ? 0.0 : value);  // -0.0 is 0
+  return fmt::format("{}", value == 0 ? 0.0 : value);  // turns -0.0 into 0
 }
 
 namespace {
 
-/// As Ripser prints: six significant digits; -0 is 0.
+/// As in Ripser's output: six significant digits; -0 becomes 0.
 std::string six_digits(double value) { return fmt::format("{:g}", value == 0 ? 0.0 : value); }
 
 }  // namespace
@@ -40,7 +40,7 @@ void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim)
   for (const Bar& bar : barcode) max_dim = std::max(max_dim, bar.dim);
   for (int dim = 0; dim <= max_dim; ++dim) {
     file.write(fmt::format("persistence intervals in dim {}:\n", dim));
-    // Ripser prints the infinite ones last.
+    // Ripser prints infinite bars last.
     for (const Bar& bar : barcode.bars(dim))
       if (!bar.is_infinite())
         file.write(fmt::format(" [{},{})\n", six_digits(bar.birth), six_digits(bar.death)));

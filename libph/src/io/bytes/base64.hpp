@@ -10,14 +10,14 @@ namespace ph::detail {
 /// Bytes as text, piece by piece: RFC 4648, padded, without line breaks.
 class Base64 {
  public:
-  /// Appends to `text` what these bytes complete; up to two of them wait for more.
+  /// Appends the text that these bytes complete; up to two bytes wait for more.
   void append(std::span<const std::byte> bytes, std::string& text);
-  /// Appends the rest and its padding. What comes next is a text of its own.
+  /// Appends the rest and its padding. Bytes after that begin a new text.
   void finish(std::string& text);
 
  private:
   std::uint32_t waiting_ = 0;  // bits
-  int count_ = 0;              // bytes of them
+  int count_ = 0;              // number of waiting bytes
 };
 
 }  // namespace ph::detail

@@ -19,12 +19,13 @@
 namespace ph {
 namespace {
 
-// Files up to this size are copied: cheaper than page faults, and safe against a file that shrinks.
+// Files up to this size are copied: this is cheaper than page faults, and safe against a file that
+// shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
-constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: so many NULs are no data
+constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: this many NULs are not data
 
-// Closes what it opened, not standard input.
+// Closes a file that it opened, but not standard input.
 class Descriptor {
  public:
   Descriptor(int number, bool owned) : number_(number), owned_(owned) {}
@@ -49,13 +50,15 @@ std::size_t half_of_memory() {
   return all == 0 ? std::numeric_limits<std::size_t>::max() : static_cast<std::size_t>(all / 2);
 }
 
-// Length of the UTF-8 sequence at the start of `s`; 0 if it is none, or may not stand in a message.
+// Length of the UTF-8 sequence at the start of `s`; 0 if it is invalid, or not allowed in a
+// message.
 std::size_t printable_length(std::string_view s) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
   const std::size_t length = utf8_length(s);
   if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) return 0;
   if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
-  // Line separators and marks that reorder text would let a name rewrite the message around it.
+  // Line separators and marks that reorder text would allow a name to rewrite the message around
+  // it.
   if (length == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE)
     return 0;
   return length;
@@ -108,7 +111,7 @@ std::string printable(std::string_view bytes, std::size_t max_bytes) {
   return result;
 }
 
-// The bytes behind an Input: a buffer of the run's memory resource, a mapped file, a vector or a
+// The bytes of an Input: a buffer of the run's memory resource, a mapped file, a vector or a
 // temporary file.
 struct Input::Storage {
   explicit Storage(std::pmr::memory_resource* resource) : memory(resource) {}
@@ -143,7 +146,7 @@ struct Input::Storage {
   std::size_t used = 0;
   bool mapped = false;
   std::optional<MemoryClaim> claim;  // if mapped
-  bool exceeds = false;              // the budget: stays in a file, not counted
+  bool exceeds = false;              // exceeds the budget: stays in a file and is not counted
 };
 
 Input::Input() = default;
@@ -210,7 +213,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const bool exceeds = file_size > kFirstChunk && is_too_large(file_size);
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
-    // Its pages are taken from memory while they are read.
+    // Its pages occupy memory while they are read.
     if (context != nullptr && !exceeds) storage->claim.emplace(context->memory, file_size);
     if (char* const mapped = files::map_to_read(file.get(), file_size)) {
       storage->data = mapped;
@@ -232,7 +235,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
     if (storage->used == storage->capacity) {
       if (sized && storage->used == file_size) break;
       const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
-      if (more > limit - std::min(limit, storage->capacity)) {  // both are there while it grows
+      if (more > limit - std::min(limit, storage->capacity)) {  // both buffers exist while it grows
         throw Error(
             ErrorKind::resource,
             fmt::format("{}: longer than the memory limit allows: {} were read",

@@ -11,7 +11,7 @@
 namespace ph::detail {
 namespace {
 
-constexpr int kMostDepth = 64;  // of nested values that are skipped
+constexpr int kMostDepth = 64;  // depth of nested values that are skipped
 
 void append_utf8(std::string& text, std::uint32_t code) {
   const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
@@ -32,14 +32,14 @@ void append_utf8(std::string& text, std::uint32_t code) {
   }
 }
 
-/// Takes the digits that come next. @return whether there is one.
+/// Takes the next digits. @return true if there are any.
 bool take_digits(std::string_view& word) {
   const std::size_t end = std::min(word.find_first_not_of("0123456789"), word.size());
   word.remove_prefix(end);
   return end > 0;
 }
 
-/// As RFC 8259 has it: no zero before other digits, digits on both sides of a point.
+/// Follows RFC 8259: no zero before other digits, and digits on both sides of a point.
 bool is_json_number(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return false;

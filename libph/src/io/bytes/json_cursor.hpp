@@ -8,33 +8,34 @@
 
 namespace ph::detail {
 
-/// Walks through a JSON text once, value by value, without building anything. Every function throws
-/// Error (bad_data) "name:line:column: …" on what is not JSON or not what it was asked for.
+/// Walks through a JSON text once, value by value, without building a tree. Every function throws
+/// Error (bad_data) "name:line:column: …" if the text is not JSON or not what was asked for.
 class JsonCursor {
  public:
   explicit JsonCursor(const Input& input) : text_(input.text()), input_(input) {}
 
-  /// The first byte of the next value or mark, not taken; NUL at the end.
+  /// The first byte of the next value or punctuation mark, without taking it; NUL at the end.
   char peek();
-  /// Takes the mark, if it comes next.
+  /// Takes the punctuation mark if it comes next. @return true if it did.
   bool accept(char mark);
   void expect(char mark);
-  /// Takes the word null, if it comes next.
+  /// Takes the word null if it comes next. @return true if it did.
   bool accept_null();
-  /// The next member of an object whose '{' was taken: its name, with the colon; false at its '}'.
-  /// @param first whether it is the first one; the cursor sets it to false.
+  /// The next member of an object whose '{' was taken: takes its name and the colon; false at its
+  /// '}'.
+  /// @param first true for the first member; the cursor sets it to false.
   bool next_member(bool& first, std::string& name);
   /// The same for the elements of an array whose '[' was taken.
   bool next_element(bool& first);
 
   bool boolean();
-  /// A string without its escapes; \u becomes UTF-8.
+  /// A string with its escapes decoded; \u becomes UTF-8.
   std::string string();
   double number();
   std::int64_t integer(std::int64_t least, std::int64_t most, const char* what);
-  /// Takes a value whatever it is.
+  /// Takes a value of any kind.
   void skip_value(int depth = 0);
-  /// Expects nothing but blanks up to the end.
+  /// Requires that only blanks follow up to the end.
   void expect_end();
 
   std::size_t place() const { return at_; }
@@ -45,7 +46,8 @@ class JsonCursor {
   std::string found();
   std::string_view number_word();
   std::uint32_t hex4();
-  std::uint32_t escaped_code();  // of a \u that was taken; half of a pair is U+FFFD
+  // The code after a \u that was taken; half of a pair becomes U+FFFD.
+  std::uint32_t escaped_code();
 
   std::string_view text_;
   const Input& input_;

@@ -8,12 +8,12 @@
 
 namespace ph::json {
 
-// A value is its JSON text. No tree of values is built: the usual ones allocate in their
-// destructors.
+// A value is represented by its JSON text. No tree of values is built, because the usual tree
+// classes allocate in their destructors.
 
-/// With its quotes. Bytes that are not UTF-8 become U+FFFD.
+/// A string with its quotes. Bytes that are not UTF-8 become U+FFFD.
 std::string string(std::string_view text);
-/// The shortest text that reads back to the same double; null if it is not finite.
+/// The shortest text that reads back to the same double, or null if it is not finite.
 std::string number(double value);
 template <std::integral T>
 std::string integer(T value) {
@@ -24,15 +24,15 @@ inline std::string boolean(bool value) { return value ? "true" : "false"; }
 /// A name and a value. A member without a value is left out.
 using Members = std::initializer_list<std::pair<std::string_view, std::string>>;
 
-/// Appends to the members of an object, which are there without the braces around them.
-/// @param between stands between members: ", " for one line.
+/// Appends to the members of an object, given without the braces around them.
+/// @param between separates members: ", " for one line.
 void add_members(std::string& text, Members members, std::string_view between = ", ");
 /// On one line.
 std::string object(Members members);
-/// A whole file: an object with a member a line.
+/// An entire file: an object with one member per line.
 std::string document(Members members);
 
-/// An array of what `write` makes of each value, on one line.
+/// An array of the texts that `write` makes from the values, on one line.
 template <class Values, class Write>
 std::string array(const Values& values, Write&& write) {
   std::string text;
@@ -46,7 +46,7 @@ template <class Values>
 std::string numbers(const Values& values) {
   return array(values, number);
 }
-/// An array with an element a line, as a member of a document.
+/// An array with one element per line, as a member of a document.
 template <class Values, class Write>
 std::string lines(const Values& values, Write&& write) {
   std::string text;

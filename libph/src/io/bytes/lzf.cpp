@@ -10,17 +10,17 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kSlack = 32;                    // bytes that a copy may write beyond its end
-constexpr std::size_t kPiece = std::size_t{1} << 16;  // bytes sent at once, about
-constexpr std::size_t kMaxLiterals = 32;              // of one run
+constexpr std::size_t kPiece = std::size_t{1} << 16;  // approximate number of bytes sent at once
+constexpr std::size_t kMaxLiterals = 32;              // literals of one run
 constexpr std::size_t kMaxDistance = 1 << 13;
 constexpr std::size_t kMaxMatch = 264;
 constexpr unsigned kHashBits = 14;
 
 // Copies `length` bytes that start `distance` before `to`. The two ranges may overlap, which
-// repeats the bytes between them: then the repeated piece doubles with every step.
+// repeats the bytes between them: the repeated piece then doubles with every step.
 void copy_match(std::byte* to, std::size_t distance, std::size_t length) {
   const std::byte* from = to - distance;
-  if (distance >= 16) {  // there is room behind: whole blocks are faster than exact lengths
+  if (distance >= 16) {  // there is room after it: entire blocks are faster than exact lengths
     for (std::size_t k = 0; k < length; k += 16) std::memcpy(to + k, from + k, 16);
     return;
   }
@@ -52,14 +52,13 @@ void put_literals(std::vector<std::byte>& out, std::span<const std::byte> bytes)
 }  // namespace
 
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink) {
-  // What was written lately stays in front of what is written next; both fit the second-level
-  // cache.
+  // Recent output stays in front of the next output; both fit the second-level cache.
   std::vector<std::byte> window(kMaxDistance + kPiece + kMaxMatch + kSlack);
   std::byte* const out = window.data();
   const std::size_t full = kMaxDistance + kPiece;
   std::size_t i = 0;     // next byte of `in`
   std::size_t o = 0;     // next byte of the window
-  std::size_t sent = 0;  // bytes of the window that the sink has got
+  std::size_t sent = 0;  // bytes of the window that the sink has received
   std::size_t left = size;
   const auto fault = [&](const char* reason) { return LzfFault{reason, i}; };
   while (i < in.size()) {
@@ -100,7 +99,7 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in) {
   std::vector<std::byte> out;
   out.reserve(in.size() / 2 + 64);
-  std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);  // by hash: newest place
+  std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);  // by hash: newest position
   std::size_t i = 0, literals = 0;  // literals: start of the bytes not written yet
   while (i + 3 <= in.size()) {
     std::size_t& slot = last[hash_of(in.data() + i)];

@@ -7,25 +7,25 @@
 
 namespace ph::detail {
 
-// LZF, the compression inside PCD files: runs of literals (a byte n < 32, then n + 1 bytes) and
-// matches (three bits of length, thirteen of distance) that repeat what was written before.
+// LZF is the compression inside PCD files: runs of literals (a byte n < 32, then n + 1 bytes) and
+// matches (three bits of length, thirteen bits of distance) that repeat earlier output.
 
-/// Where and why decompression failed; `reason` is null if it did not.
+/// The place and the reason of a failed decompression; `reason` is null if it succeeded.
 struct LzfFault {
   const char* reason = nullptr;
   std::size_t offset = 0;  ///< into the compressed bytes
 };
 
-/// No compressed byte stands for more bytes than this.
+/// A compressed byte never stands for more bytes than this.
 constexpr std::size_t kLzfMaxExpansion = 88;
 
 /// Takes the next decompressed bytes, piece after piece in order.
 using LzfSink = std::function<void(std::span<const std::byte>)>;
 
-/// Decompresses exactly `size` bytes through a small window, or says what is wrong.
+/// Decompresses exactly `size` bytes through a small window. @return the fault, if there is one.
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink);
 
-/// Compresses; in the worst case the result is a thirty-second longer.
+/// Compresses; in the worst case the result is longer by a thirty-second.
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in);
 
 }  // namespace ph::detail

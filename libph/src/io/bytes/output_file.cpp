@@ -24,7 +24,7 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
               fmt::format("{}: cannot create the output: {}", printable(path), why));
 }
 
-/// Said before anything is computed where it is known by then.
+/// Called before anything is computed if the problem is known by then.
 [[noreturn]] void fail_replacing(const std::string& path, int error) {
   std::string why = files::reason(error);
   if (error == EBUSY || error == EPERM)
@@ -36,8 +36,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// What to write to where a name stands for a descriptor, or for a file that the standard outputs
-/// go to: what was written there would be lost if it were opened anew, or replaced.
+/// The descriptor to write to if a name stands for a descriptor, or for a file that a standard
+/// output goes to: opening that file again or replacing it would lose its content.
 std::optional<int> descriptor_of(const std::string& path) {
   if (path == "-") return files::kStandardOutput;
   if (const auto named = files::descriptor_named(files::path_of(path))) return named;
@@ -127,7 +127,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 
 void OutputFile::discard() noexcept {
   if (owned_ && descriptor_ >= 0) files::close(descriptor_);
-  // Open files cannot be removed everywhere.
+  // Some systems cannot remove open files.
   if (!temporary_.empty()) files::remove(temporary_);
   temporary_.clear();
   descriptor_ = -1;
@@ -165,16 +165,17 @@ void OutputFile::commit() {
   }
   const auto folder = folder_of(target_);
   if (temporary_.empty()) {
-    // A link cannot replace a file, so it takes two steps: a temporary name, then the rename.
+    // A link cannot replace a file; two steps are therefore needed: a temporary name, then the
+    // rename.
     temporary_ = files::name_in(descriptor_, folder);
     if (temporary_.empty()) fail_creating(path_, files::reason(errno));
   }
-  // Open files cannot be renamed everywhere. What they hold is on the disk already.
+  // Some systems cannot rename open files. The content is already on the disk.
   static_cast<void>(files::close(std::exchange(descriptor_, -1)));
   if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();
   discard();
-  // The new name is safe once the folder is; a failure here leaves a complete file all the same.
+  // The new name is safe once the folder is; after a failure here, the file is still complete.
   files::sync_folder(folder);
 }
 

@@ -16,8 +16,8 @@ namespace ph {
 namespace {
 
 constexpr png_uint_32 kMaxSide = 65535;
-constexpr std::size_t kMaxChunk = std::size_t{8} << 20;  // bytes of an ancillary chunk
-// Deflate cannot expand more than this; it bounds what a small file may claim.
+constexpr std::size_t kMaxChunk = std::size_t{8} << 20;  // size of an ancillary chunk in bytes
+// Deflate cannot expand by more than this, which limits the claims of a small file.
 constexpr std::size_t kMaxExpansion = 1032;
 
 struct Source {
@@ -25,7 +25,7 @@ struct Source {
   std::size_t offset = 0;
 };
 
-// libpng is C: it may be left by longjmp only, so an error first becomes a message here.
+// libpng is C code: only longjmp may leave it, and an error is therefore stored here first.
 struct Report {
   std::string message;
   bool out_of_memory = false;
@@ -43,7 +43,7 @@ extern "C" {
   png_longjmp(png, 1);
 }
 
-// libpng tells of memory that ran out by the same messages as of damage.
+// libpng reports lack of memory with the same messages as damage.
 static void* png_allocate(png_structp png, std::size_t size) {
   void* const memory = std::malloc(size);
   if (memory == nullptr) static_cast<Report*>(png_get_mem_ptr(png))->out_of_memory = true;
@@ -65,7 +65,7 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
   auto* out = static_cast<std::ostream*>(png_get_io_ptr(png));
   try {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
-  } catch (const std::bad_alloc&) {  // a stream that throws must not throw through C
+  } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C
     static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
   } catch (...) {  // its bad bit is set
   }
@@ -88,7 +88,7 @@ struct Writer {
   ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
-// libpng believes the length of a chunk, and allocates before it reads.
+// libpng trusts the length of a chunk, and allocates before it reads.
 void require_chunks(const Input& input) {
   constexpr std::size_t kSignature = 8, kChecksum = 4;
   BinaryCursor cursor(input, std::endian::big, kSignature);
@@ -101,8 +101,8 @@ void require_chunks(const Input& input) {
   }
 }
 
-// Each of the steps below calls libpng between setjmp and longjmp and owns nothing that would need
-// a destructor; false: it failed.
+// Each of the steps below calls libpng between setjmp and longjmp and owns nothing that needs a
+// destructor; false means failure.
 
 bool read_header(Reader& reader) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
@@ -183,7 +183,7 @@ Raster read_png(const Input& input) {
   raster.bits = png_get_bit_depth(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
   const auto height = static_cast<std::size_t>(raster.height);
-  // Expansion makes at most 32 bits of one.
+  // Expansion makes at most 32 bits from one.
   if (height * row_bytes / 32 / kMaxExpansion > input.size()) {
     input.fail_at_byte(16, {"truncated: the size of the image does not fit the file",
                             fmt::format("{} x {} pixels", raster.width, raster.height),
@@ -193,7 +193,7 @@ Raster read_png(const Input& input) {
   const std::size_t count = height * static_cast<std::size_t>(raster.width * raster.channels);
   input.require_memory(height * (row_bytes + sizeof(png_bytep)) + count * sizeof(std::uint16_t));
   raster.samples.resize(count);
-  // 8-bit rows are read into the upper half of the samples, then widened from the front.
+  // 8-bit rows are read into the upper half of the samples and then widened from the front.
   auto* bytes = reinterpret_cast<png_bytep>(raster.samples.data());
   if (raster.bits == 8) bytes += count;
   std::vector<png_bytep> rows(height);

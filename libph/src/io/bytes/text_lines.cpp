@@ -14,9 +14,9 @@
 namespace ph {
 namespace {
 
-constexpr std::size_t kShown = 40;           // bytes of a cell that a message shows
-constexpr std::size_t kProbe = 4096;         // bytes looked at to tell text from binary
-constexpr std::size_t kPollBytes = 1 << 18;  // between two looks at the stop token
+constexpr std::size_t kShown = 40;           // bytes of a cell shown in a message
+constexpr std::size_t kProbe = 4096;         // bytes that decide between text and binary
+constexpr std::size_t kPollBytes = 1 << 18;  // bytes between two polls of the stop token
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool ends_cell(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
@@ -35,11 +35,11 @@ bool starts_with_word(std::string_view cell, std::string_view word) {
                     [](char a, char b) { return a == to_lower(b); });
 }
 
-// Whether a decimal number that double cannot hold is too small (it rounds to zero) and not too
-// large: the sign of its decimal exponent tells.
+// True if a decimal number that double cannot hold is too small (it rounds to zero), false if it is
+// too large: the sign of its decimal exponent decides.
 bool rounds_to_zero(std::string_view cell) {
   std::size_t i = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
-  std::int64_t leading = 0;  // decimal exponent of the first digit that is not zero
+  std::int64_t leading = 0;  // decimal exponent of the first non-zero digit
   bool point = false, found = false;
   for (; i < cell.size() && (is_digit(cell[i]) || cell[i] == '.'); ++i) {
     if (cell[i] == '.') {
@@ -62,7 +62,7 @@ bool rounds_to_zero(std::string_view cell) {
   std::int64_t exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
-  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than a line has digits
+  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than a line can have digits
   return (negative ? leading - exponent : leading + exponent) < 0;
 }
 
@@ -79,18 +79,18 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
-// The end of what stands between quotes, which are written twice within.
+// The end of a quoted text; quotes inside it are doubled.
 const char* end_of_quotes(const char* begin, const char* end) {
   for (const char* close = begin;;) {
     close = std::find(close + 1, end, '"');
-    if (close == end) return begin;  // no quotes
+    if (close == end) return begin;  // not quoted
     if (close + 1 == end || close[1] != '"') return close + 1;
     ++close;
   }
 }
 
-// Whether a '#' is part of the cell that begins before it: of a word, or of 1.#INF, which was
-// written for infinity.
+// True if a '#' belongs to the cell that begins before it: to a word, or to 1.#INF, an old way to
+// write infinity.
 bool is_in_cell(const char* cell, const char* hash) {
   if (cell == hash) return false;
   if (*cell == '-' || *cell == '+') ++cell;
@@ -98,12 +98,12 @@ bool is_in_cell(const char* cell, const char* hash) {
   return !is_number || hash[-1] == '.';
 }
 
-// Where the comment of a line begins; its end if there is none.
+// The start of a line's comment, or the end of the line if there is none.
 const char* start_of_comment(const char* begin, const char* end) {
   constexpr std::array<std::string_view, 7> kSpreadsheetErrors{
       "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"};
   bool in_quotes = false;
-  const char* cell = begin;  // the one that `hash` is in, or behind
+  const char* cell = begin;  // the cell that contains `hash` or ends before it
   for (const char* p = begin;; ++p) {
     const auto* const hash =
         static_cast<const char*>(std::memchr(p, '#', static_cast<std::size_t>(end - p)));
@@ -128,7 +128,7 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
   const std::string_view probe = input.text().substr(0, kProbe);
   const std::string_view mark = probe.substr(0, 2);
   const std::size_t nul = probe.find('\0');
-  // Which formats there are the caller knows: programs that read clouds alone have no --format.
+  // The caller knows which formats there are: programs that only read clouds have no --format.
   const std::string hint = "save it as UTF-8";
   if (const auto foreign = detail::foreign_kind(input.text())) {
     input.fail_at_byte(
@@ -179,7 +179,7 @@ bool TextLines::next() {
       const char* const comment = start_of_comment(begin, stop);
       if (comment != stop) {
         stop = comment;
-        // A tab before a comment leads to it, even where tabs separate cells.
+        // A tab before a comment belongs to the comment, even if tabs separate cells.
         while (begin != stop && (stop[-1] == ' ' || stop[-1] == '\t')) --stop;
       } else if (stop[-1] == '\r') {
         --stop;
@@ -213,7 +213,7 @@ T Cells::floating(Allow allow) {
   const char* digits = begin;
   const bool in_quotes = begin != end_ && *begin == '"';
   if (in_quotes) ++digits;
-  // from_chars takes no plus sign
+  // from_chars accepts no plus sign
   if (digits != end_ && *digits == '+' && end_ - digits > 1 && digits[1] != '-') ++digits;
   T value = 0;
   const auto [last, error] = floating_from_chars(digits, end_, value);
@@ -247,7 +247,7 @@ T Cells::floating(Allow allow) {
     }
   }
   after_cell(stop);
-  return value + T{0};  // -0.0 becomes +0.0
+  return value + T{0};  // turns -0.0 into +0.0
 }
 
 template float Cells::floating<float>(Allow);

@@ -12,12 +12,12 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes unpacked between two looks around
+constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes unpacked between two checks
 
-// zlib's state with the bytes of an input that it reads.
+// zlib's state, with the bytes of an input that it reads.
 class Inflater {
  public:
-  /// @param window_bits as inflateInit2 takes them: 31 for gzip, -15 for raw deflate.
+  /// @param window_bits as for inflateInit2: 31 for gzip, -15 for raw deflate.
   Inflater(std::string_view packed, int window_bits) : packed_(packed) {
     if (inflateInit2(&stream_, window_bits) != Z_OK) throw std::bad_alloc();
   }
@@ -25,7 +25,8 @@ class Inflater {
   Inflater& operator=(const Inflater&) = delete;
   ~Inflater() { inflateEnd(&stream_); }
 
-  /// Unpacks at most `size` bytes; how many it were. Fewer: see `ended`, `damage`, or truncated.
+  /// Unpacks up to `size` bytes. @return their number. If there are fewer, see `ended` and
+  /// `damage`; otherwise the data are truncated.
   std::size_t unpack(char* to, std::size_t size) {
     std::size_t done = 0;
     while (done < size && !ended_ && damage_.empty()) {
@@ -47,12 +48,12 @@ class Inflater {
       } else if (code != Z_OK && code != Z_BUF_ERROR) {
         damage_ = stream_.msg != nullptr ? stream_.msg : "not deflate data";
       } else if (taken == 0 && given == 0) {
-        break;  // it wants bytes that are not there
+        break;  // it needs bytes that are missing
       }
     }
     return done;
   }
-  /// Goes on with the next member of a gzip file.
+  /// Continues with the next member of a gzip file.
   void restart() {
     inflateReset(&stream_);
     ended_ = false;
@@ -70,7 +71,7 @@ class Inflater {
   z_stream stream_{};
 };
 
-// A buffer that is a temporary file; pages that were written leave the memory.
+// A buffer in a temporary file; written pages leave the memory.
 class FileBuffer {
  public:
   explicit FileBuffer(std::size_t bytes) : file_(bytes) {}
@@ -122,7 +123,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    // What has grown so much and says that it goes on is not unpacked to see whether that is true.
+    // Data that have grown this much and claim to continue are not unpacked to check the claim.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
       input.fail_at_byte(inflater.used(),
@@ -164,7 +165,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   }
 }
 
-// What to begin with: a lie costs at most what deflate could give.
+// The initial size: a false claim costs at most as much as deflate could produce.
 std::size_t likely_size(std::string_view packed) {
   return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
 }
@@ -188,7 +189,7 @@ std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::
                                    std::size_t size) {
   Inflater inflater(input.text().substr(offset, packed_size), -15);
   std::pmr::vector<char> bytes(memory_of(input));
-  // One byte more than promised, to see whether there are more. It grows with what is there.
+  // Unpacks one byte more than promised, to see if there are more. The buffer grows with the data.
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();

@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Without the comment at its end: a # that begins a word outside quotes.
+/// The line without the comment at its end: a # that begins a word outside quotes.
 std::string_view without_comment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -54,7 +54,7 @@ YamlWords::YamlWords(const Input& input) : input_(input) {
     ++number_;
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.starts_with("---") || line.starts_with("...")) {
-      if (!values_.empty()) break;  // another document
+      if (!values_.empty()) break;  // start of another document
       continue;
     }
     if (!line.starts_with('%')) take_line(line);
@@ -82,7 +82,7 @@ void YamlWords::take_line(std::string_view line) {
   if (content[indent] == '\t')
     fail(indent + 1, {"a tab before a key", {}, "blanks", "YAML is indented with blanks"});
   const std::string_view rest = content.substr(indent);
-  if (rest == "-" || rest.starts_with("- ")) {  // of the last key that is not deeper
+  if (rest == "-" || rest.starts_with("- ")) {  // belongs to the last key that is not deeper
     while (!open_.empty() && open_.back().indent > indent) open_.pop_back();
     if (open_.empty()) fail(indent + 1, {"list", quoted(rest), "a key before it", {}});
     const std::size_t first = std::min(rest.find_first_not_of(' ', 1), rest.size());
@@ -123,13 +123,13 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
     column += first;
   };
   skip_blanks();
-  if (rest.starts_with('!')) {  // what type it is
+  if (rest.starts_with('!')) {  // the type of a value
     const std::size_t length = std::min(rest.find_first_of(kBlank), rest.size());
     rest.remove_prefix(length);
     column += length;
     skip_blanks();
   }
-  if (rest.empty()) return;  // what belongs to it comes in the next lines
+  if (rest.empty()) return;  // the value is in the next lines
   if (rest.front() == '[') return take_list(value, rest.substr(1), column + 1);
   if (rest.front() == '|' || rest.front() == '>') {
     in_block_ = true;
@@ -146,14 +146,14 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
   value.words.push_back({unquoted(trimmed(rest)), number_, column});
 }
 
-/// The words of a list up to its end, or to that of the line.
+/// Takes the words of a list up to the end of the list or of the line.
 void YamlWords::take_list(Value& value, std::string_view rest, std::size_t column) {
   list_ = &value;
   while (true) {
     const std::size_t first = std::min(rest.find_first_not_of(kBlank), rest.size());
     rest.remove_prefix(first);
     column += first;
-    if (rest.empty()) return;  // it goes on
+    if (rest.empty()) return;  // the list continues
     const std::size_t length = std::min(rest.find_first_of(",]"), rest.size());
     const std::string_view word = trimmed(rest.substr(0, length));
     const bool ends = length < rest.size() && rest[length] == ']';

@@ -9,10 +9,10 @@
 
 namespace ph::detail {
 
-/// The first document of a YAML file in the part of YAML that programs write calibrations in:
-/// mappings by indentation, plain and quoted words, lists as `[a, b]` or as `- a` a line, comments,
-/// tags (not looked at). What has another form is an error, or left out where it stands for one
-/// value.
+/// The first document of a YAML file, in the part of YAML that programs use for calibrations:
+/// mappings by indentation, plain and quoted words, lists as `[a, b]` or as one `- a` per line,
+/// comments, and tags (which are ignored). Any other form is an error, or is left out if it stands
+/// for a single value.
 class YamlWords {
  public:
   struct Word {
@@ -20,14 +20,14 @@ class YamlWords {
     std::size_t line = 0, column = 0;
   };
   struct Value {
-    std::size_t line = 0, column = 0;  ///< of its key
-    std::vector<Word> words;           ///< one, or those of a list
+    std::size_t line = 0, column = 0;  ///< place of its key
+    std::vector<Word> words;           ///< one word, or the words of a list
   };
 
   /// @throws Error (bad_data) "name:line:column: …".
   explicit YamlWords(const Input& input);
 
-  /// By path in lower case, the keys with dots between them; null if it is not there.
+  /// Finds a value by its path in lower case, with dots between keys; null if it does not exist.
   const Value* find(std::string_view path) const;
   const Input& input() const { return input_; }
 
@@ -44,10 +44,11 @@ class YamlWords {
 
   const Input& input_;
   std::map<std::string, Value, std::less<>> values_;
-  std::vector<Open> open_;        // keys whose lines may go on, each deeper than the last
-  std::size_t number_ = 0;        // of the line at hand, from 1
-  Value* list_ = nullptr;         // whose ']' is yet to come
-  std::size_t block_indent_ = 0;  // of the key of a text of several lines
+  // Keys whose content may continue, each deeper than the one before.
+  std::vector<Open> open_;
+  std::size_t number_ = 0;        // of the current line, from 1
+  Value* list_ = nullptr;         // a list whose ']' is still to come
+  std::size_t block_indent_ = 0;  // indentation of the key of a text with several lines
   bool in_block_ = false;
 };
 

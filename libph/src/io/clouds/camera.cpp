@@ -13,14 +13,15 @@
 namespace ph {
 namespace {
 
-/// Where a ray meets the image, and how that changes with the ray: d(u, v) / d(x, y).
+/// The point where a ray meets the image, and its derivative with respect to the ray: d(u, v) /
+/// d(x, y).
 struct Bent {
   double u, v, ux, uy, vx, vy;
 };
 
 Bent bent_polynomial(const std::array<double, 8>& c, double x, double y) {
   const auto [k1, k2, p1, p2, k3, k4, k5, k6] = c;
-  const double r = x * x + y * y;  // the square of the radius
+  const double r = x * x + y * y;  // the squared radius
   const double above = 1 + r * (k1 + r * (k2 + r * k3)), below = 1 + r * (k4 + r * (k5 + r * k6));
   const double radial = above / below;
   // d radial / d r
@@ -41,7 +42,7 @@ std::array<double, 2> shown_angle(const std::array<double, 8>& k, double angle) 
           1 + s * (3 * k[0] + s * (5 * k[1] + s * (7 * k[2] + s * 9 * k[3])))};
 }
 
-constexpr int kSteps = 50;  // Newton's method takes about five
+constexpr int kSteps = 50;  // Newton's method needs about five
 constexpr double kExact = 1e-12;
 
 }  // namespace
@@ -60,7 +61,7 @@ std::array<double, 2> Lens::bent(double x, double y) const {
 
 double Lens::reach() const {
   if (model != Model::polynomial) return kInfinity;
-  Lens axial = *this;  // what is not a function of the radius moves the fold by little
+  Lens axial = *this;  // terms that depend on more than the radius hardly move the fold
   axial.coefficients[2] = axial.coefficients[3] = 0;
   constexpr int angles = 4096;
   double fold = kInfinity;
@@ -68,7 +69,7 @@ double Lens::reach() const {
     const double radius = std::tan(std::numbers::pi / 2 * i / angles);
     const bool rises = bent_polynomial(axial.coefficients, radius, 0).ux > 0;
     if (!rises && fold == kInfinity) fold = radius;
-    // Between the two folds there is no ray.
+    // Between the two folds there are no rays.
     if (rises && fold != kInfinity) return (fold + radius) / 2;
   }
   return kInfinity;
@@ -96,7 +97,7 @@ std::optional<std::array<double, 2>> Lens::straightened(double u, double v, doub
   for (int i = 0; i < kSteps; ++i) {
     const Bent b = bent_polynomial(coefficients, x, y);
     const double determinant = b.ux * b.vy - b.uy * b.vx;
-    if (!(determinant > 0)) return std::nullopt;  // the picture folds over
+    if (!(determinant > 0)) return std::nullopt;  // the image folds over
     const double du = b.u - u, dv = b.v - v;
     const double dx = (b.vy * du - b.uy * dv) / determinant;
     const double dy = (b.ux * dv - b.vx * du) / determinant;
@@ -125,18 +126,18 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
   Intrinsics& k = result.intrinsics;
   k.fx *= factor;
   k.fy *= factor;
-  // Pixels have their centres at whole numbers, the image its edge half a pixel before.
+  // Centres of pixels are at integers; the edge of the image is half a pixel before the first one.
   k.cx = same_shape ? (k.cx + 0.5) * factor - 0.5 : static_cast<double>(new_width - 1) / 2;
   k.cy = (k.cy + 0.5) * factor - 0.5;
   return result;
 }
 
 std::span<const CameraPreset> camera_presets() {
-  // Depth registered to the colour camera, as OpenNI's drivers and many data sets have it.
+  // Depth registered to the colour camera, as in OpenNI's drivers and many data sets.
   static constexpr Camera primesense{{525, 525, 319.5, 239.5}, 640, 480};
-  // The depth camera of the second Kinect, libfreenect2's and Open3D's default.
+  // The depth camera of the second Kinect; the default of libfreenect2 and Open3D.
   static constexpr Camera kinect_v2{{365.456, 365.456, 254.878, 205.395}, 512, 424};
-  // Depth aligned to the colour camera, whose data sheet says 69 x 42 degrees at 16:9.
+  // Depth aligned to the colour camera, for which the data sheet gives 69 x 42 degrees at 16:9.
   static constexpr Camera realsense{{924, 924, 639.5, 359.5}, 1280, 720, {}, true};
   static constexpr std::string_view registered = "depth registered to the colour camera";
   static constexpr std::array<CameraPreset, 5> presets{

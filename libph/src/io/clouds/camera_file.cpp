@@ -22,7 +22,7 @@ constexpr Index kMostPixels = 1 << 20;  // along one axis
 constexpr std::string_view kWhatItIs =
     "a camera_info YAML of ROS has image_width, image_height and camera_matrix";
 
-/// A calibration while it is read.
+/// A calibration that is being read.
 class CameraYaml {
  public:
   explicit CameraYaml(const Input& input) : yaml_(input) {}
@@ -50,7 +50,7 @@ class CameraYaml {
     yaml_.input().fail_at(value.line, value.column, fault);
   }
 
-  /// The first of these that is there; null if none is.
+  /// The first of these values that exists, or null.
   const YamlWords::Value* find(Names names) const {
     for (const std::string_view name : names)
       if (const YamlWords::Value* value = yaml_.find(name);
@@ -125,7 +125,7 @@ class CameraYaml {
     return std::ranges::find(kKnown, model) != kKnown.end();
   }
 
-  /// Coefficients under a name that no program documented here gives them; zeros need no lens.
+  /// Refuses coefficients under a name that no known program uses; zeros need no lens.
   void refuse_other_names() const {
     for (const std::string_view name :
          {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
@@ -149,7 +149,7 @@ class CameraYaml {
     std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
     const YamlWords::Value* named = find({"distortion_model"});
     const YamlWords::Value* fisheye = find({"fisheye_model"});
-    // A file of OpenCV has no name; a switch or the number of coefficients tells.
+    // Files of OpenCV do not name the model; a flag or the number of coefficients decides.
     const std::string_view name = named != nullptr ? named->words.front().text
                                   : fisheye != nullptr && number(fisheye->words[0]) != 0 ? "fisheye"
                                   : d.size() >= 8                  ? "rational_polynomial"
@@ -177,7 +177,8 @@ class CameraYaml {
             "plumb_bob, rational_polynomial or equidistant",
             "rectify the image, and take a camera without distortion"});
     }
-    // OpenCV writes up to 14, of thin prisms and tilted sensors, which most lenses have not.
+    // OpenCV writes up to 14 coefficients, for thin prisms and tilted sensors, which most lenses do
+    // not have.
     while (d.size() > most && d.back() == 0) d.pop_back();
     if (d.size() < least || d.size() > most) {
       fail(*value, {fmt::format("coefficients of {}", name),
@@ -189,7 +190,7 @@ class CameraYaml {
     return lens;
   }
 
-  /// The image may be a part of what the calibration is of, with some pixels as one.
+  /// The image may be a part of the calibrated image, with several pixels merged into one.
   void take_part(Camera& camera) const {
     const Index left = whole_or("roi.x_offset", 0, camera.width);
     const Index top = whole_or("roi.y_offset", 0, camera.height);
@@ -209,7 +210,7 @@ class CameraYaml {
   YamlWords yaml_;
 };
 
-/// The members of an object of Open3D whose '{' was taken.
+/// Reads the members of an object of Open3D whose '{' was taken.
 void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bool inside = false) {
   bool first = true;
   for (std::string name; json.next_member(first, name);) {
@@ -231,10 +232,11 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
       }
       camera.intrinsics = {k[0], k[4], k[6], k[7]};
       has_matrix = true;
-    } else if (name == "depth_scale" && json.peek() != 'n') {  // null is none
+    } else if (name == "depth_scale" && json.peek() != 'n') {  // null means none
       const std::size_t place = json.place();
       const double found = json.number();
-      // Below 1 it is metres a unit, as librealsense has it: no unit is longer than a metre.
+      // A number below 1 is metres per unit, as in librealsense, because no unit is longer than a
+      // metre.
       camera.depth_scale = found < 1 ? 1 / found : found;
       if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
         json.fail(place, {"depth_scale",

@@ -5,13 +5,13 @@
 
 namespace ph::detail {
 
-/// Where the rows of a cloud come from.
+/// The source of a cloud's rows.
 enum class RowSource { text, pts, array };
 
-/// One point a row. Columns are named by the header, or in the order of read_xyz and read_pts.
+/// One point per row. Columns are named by the header, or in the order of read_xyz and read_pts.
 /// Colours of an array may be numbers of 0…1.
-/// @throws Error (bad_data) on fewer than three columns, a header without x, y and z, infinite
-///         coordinates, and on no rows unless options.allow_empty.
+/// @throws Error (bad_data) on fewer than three columns, on a header without x, y and z, on
+///         infinite coordinates, and on an input without rows unless options.allow_empty.
 Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOptions& options,
                     RowSource source);
 

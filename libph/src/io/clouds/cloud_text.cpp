@@ -57,7 +57,7 @@ std::vector<std::string> column_names(PointsView rows, const std::vector<std::st
     input.fail({"too few columns", fmt::format("{}", columns), "x y z at least", {}});
   }
   names = {"x", "y", "z"};
-  // PTS has an intensity before the colours, or alone.
+  // PTS has an intensity before the colours, or only an intensity.
   const bool intensity = source == detail::RowSource::pts && (columns == 4 || columns == 7);
   if (intensity) names.emplace_back("intensity");
   const std::size_t first = names.size();
@@ -99,7 +99,7 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
   const auto is_colour = [](std::string_view name) {
     return name == "red" || name == "green" || name == "blue";
   };
-  // Colours of an array may be shares of full brightness; black and white are then 0 and 1.
+  // Colours of an array may be shares of full brightness; black and white are 0 and 1 then.
   bool shares = source == RowSource::array;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (is_colour(names[k])) shares = shares && all_in_column(table.rows, k, is_share);

@@ -31,7 +31,7 @@ void put(std::ostream& out, std::span<const std::byte> bytes) {
             static_cast<std::streamsize>(bytes.size()));
 }
 
-// All numbers of all points, a point a line.
+// Writes all numbers of all points, one point per line.
 void put_text(std::ostream& out, const Cloud& cloud) {
   std::string text;
   const auto points = static_cast<std::size_t>(cloud.size());
@@ -44,7 +44,7 @@ void put_text(std::ostream& out, const Cloud& cloud) {
           if (text.size() != start) text += ' ';
           const T value = load<T>(from + k * sizeof(T), std::endian::native);
           if constexpr (std::is_floating_point_v<T>) {
-            if (std::isnan(value)) {  // never "-nan"
+            if (std::isnan(value)) {  // avoids "-nan"
               text += "nan";
               continue;
             }
@@ -61,7 +61,7 @@ void put_text(std::ostream& out, const Cloud& cloud) {
   }
 }
 
-// The records with nothing between their fields, in the order of the fields.
+// The records without gaps between fields, in the order of the fields.
 std::vector<std::byte> packed_records(const Cloud& cloud) {
   std::vector<std::byte> result;
   result.reserve(cloud.data.size());
@@ -134,8 +134,8 @@ char pcd_type(FieldType type) {
   return is_signed ? 'I' : 'U';
 }
 
-// The names of the fields, each of them one word in a header and none twice.
-// @param padding "_" may be there more than once, as PCD has it.
+// The names of the fields, changed so that each is one word in a header and all differ.
+// @param padding true if "_" may occur more than once, as in PCD.
 std::vector<std::string> header_words(const Cloud& cloud, bool padding) {
   std::vector<std::string> words;
   std::set<std::string> taken;
@@ -179,7 +179,7 @@ std::string_view ply_type(FieldType type) {
   throw Error(ErrorKind::bad_data, "cloud: PLY has no 64-bit integers; write PCD");
 }
 
-// The cloud as PLY can say it: single numbers, colours apart.
+// The cloud as PLY can express it: single numbers, and separate colours.
 Cloud ply_cloud(const Cloud& cloud) {
   Cloud result = cloud;
   result.fields.clear();

@@ -14,13 +14,13 @@ namespace ph {
 DepthImage read_depth(const Input& input, const ReadOptions& options) {
   ReadOptions holes = options;
   holes.nan = NanPolicy::drop;
-  holes.note = {};  // a hole is nothing to speak of
+  holes.note = {};  // holes need no note
   const bool is_npy = detail::is_npy(input);
   if (!is_npy && !detail::is_png(input) && !detail::is_pgm(input)) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
                 "numpy.save writes arrays of any other"});
   }
-  // Readers of pictures take colours where an option says which; a depth image has none.
+  // Readers of pictures accept colours if an option says which; a depth image has no such option.
   const auto read_grey = [&] {
     Raster raster = read_png(input);
     if (raster.channels > 1)

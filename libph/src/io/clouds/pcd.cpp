@@ -17,7 +17,7 @@ namespace {
 
 using detail::PcdHeader;
 
-// PCL maps the files that it writes, and leaves zeros up to a whole page behind the data.
+// PCL maps the files that it writes, and leaves zeros after the data up to a page boundary.
 void expect_padding(BinaryCursor& cursor) {
   constexpr std::size_t kLargestPage = std::size_t{1} << 16;
   if (cursor.remaining() >= kLargestPage) cursor.expect_end();
@@ -45,7 +45,7 @@ void read_binary(const Input& input, PcdHeader& header) {
   header.cloud.data.assign(data.begin(), data.end());
 }
 
-// Takes the data of a compressed file, field after field, and puts them record after record.
+// Takes the data of a compressed file field by field, and stores them record by record.
 class Interleaver {
  public:
   /// @param points at least 1.
@@ -67,7 +67,7 @@ class Interleaver {
     position_ = 0;
   }
 
-  // Bytes of the current field only; a piece may begin and end inside a point.
+  // Takes bytes of the current field; a piece may begin and end inside a point.
   void put(std::span<const std::byte> bytes) {
     std::byte* record =
         cloud_.data.data() + position_ / width_ * cloud_.stride + cloud_.fields[field_].offset;
@@ -80,7 +80,7 @@ class Interleaver {
       record += cloud_.stride;
     }
     const std::size_t stride = cloud_.stride;
-    if (width_ == 4) {  // nearly always; a constant length is a single move
+    if (width_ == 4) {  // the usual case; a constant length is a single move
       for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
     } else {
       const auto width = static_cast<std::ptrdiff_t>(width_);
@@ -93,7 +93,7 @@ class Interleaver {
   Cloud& cloud_;
   std::size_t points_;
   std::size_t field_ = 0;
-  std::size_t width_ = 0;     // bytes of the field in a point
+  std::size_t width_ = 0;     // bytes of the field per point
   std::size_t position_ = 0;  // bytes of the field taken so far
 };
 
@@ -154,7 +154,7 @@ void read_ascii(const Input& input, PcdHeader& header) {
   std::size_t cells_a_point = 0;
   for (const CloudField& field : cloud.fields) cells_a_point += field.count;
   const auto cells_in_all = checked_product(header.points, cells_a_point);
-  // A cell takes two bytes; the last line may have no line end.
+  // A cell takes at least two bytes; the last line may lack a line end.
   if (!cells_in_all || *cells_in_all > (input.size() - header.offset + 1) / 2) {
     input.fail({"truncated",
                 fmt::format("{} bytes of data", input.size() - header.offset),

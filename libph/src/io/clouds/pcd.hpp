@@ -4,17 +4,17 @@
 
 namespace ph::detail {
 
-/// What stands before the data of a PCD file.
+/// The part of a PCD file before the data.
 struct PcdHeader {
-  Cloud cloud;  ///< all but the data
+  Cloud cloud;  ///< everything except the data
   std::size_t points = 0;
   std::size_t bytes = 0;   ///< points * stride
-  std::size_t offset = 0;  ///< of the data in the file
-  std::size_t lines = 0;   ///< before the data
+  std::size_t offset = 0;  ///< start of the data in the file
+  std::size_t lines = 0;   ///< lines before the data
   PcdData data = PcdData::ascii;
 };
 
-/// @throws Error (bad_data), also if the points that it promises do not fit the file.
+/// @throws Error (bad_data), also if the promised points do not fit the file.
 PcdHeader read_pcd_header(const Input& input);
 
 }  // namespace ph::detail

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::int64_t kMostInteger = std::numeric_limits<std::int64_t>::max();
 
-// Bytes that an element takes at least, by which its count is checked before anything is allocated.
+// The least number of bytes that an element takes; it checks the count before anything is
+// allocated.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t bytes = 0;
   for (const PlyProperty& property : element.properties) {
@@ -235,7 +236,7 @@ void read_faces(const Input& input, const PlyElement& element, Index vertices, P
   }
 }
 
-// Reads all elements in the order of the file; the faces only if a mesh is wanted.
+// Reads all elements in the order of the file, but faces only if a mesh is wanted.
 Cloud read_elements(const Input& input, const ReadOptions& options, Mesh* mesh) {
   const PlyHeader header = detail::read_ply_header(input);
   PlyBody body(input, header);

@@ -15,7 +15,7 @@ namespace ph::detail {
 struct PlyProperty {
   std::string name;
   FieldType type = FieldType::float32;
-  std::optional<FieldType> length_type;  ///< of a list; a scalar has none
+  std::optional<FieldType> length_type;  ///< for a list; a scalar has none
 };
 
 struct PlyElement {
@@ -28,24 +28,25 @@ struct PlyHeader {
   bool ascii = false;
   std::endian order = std::endian::little;
   std::vector<PlyElement> elements;
-  std::size_t offset = 0;  ///< of the data in the file
-  std::size_t lines = 0;   ///< before the data
+  std::size_t offset = 0;  ///< start of the data in the file
+  std::size_t lines = 0;   ///< lines before the data
 };
 
 /// @throws Error (bad_data).
 PlyHeader read_ply_header(const Input& input);
 
-/// The values after a header, one after the other, as text or binary.
+/// Reads the values after a header, one after the other, as text or binary.
 class PlyBody {
  public:
-  /// Keeps references to both.
+  /// It keeps references to both.
   PlyBody(const Input& input, const PlyHeader& header);
 
-  /// Checks the element's count against the bytes that follow. Elements come in the file's order.
+  /// Checks the element's count against the bytes that follow. Elements must be read in the file's
+  /// order.
   void start_element(const PlyElement& element);
   void start_row(std::size_t row);
   void end_row();
-  /// One value, stored at `to` in this machine's byte order.
+  /// Reads one value and stores it at `to` in this machine's byte order.
   void scalar(FieldType type, std::byte* to);
   double number(FieldType type);
   std::size_t list_length(const PlyProperty& property);

@@ -24,7 +24,7 @@ std::optional<FieldType> ply_type(std::string_view name) {
   return std::nullopt;
 }
 
-// Walks over the lines of a header.
+// Reads the lines of a header.
 class PlyHeaderParser {
  public:
   explicit PlyHeaderParser(const Input& input)
@@ -137,7 +137,8 @@ class PlyHeaderParser {
   TextLines lines_;
   Cells cells_;
   PlyHeader header_;
-  std::set<std::string> elements_, properties_;  // the names so far, these of the last element
+  // The names found before; properties_ has those of the last element.
+  std::set<std::string> elements_, properties_;
 };
 
 }  // namespace

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::int64_t kMost = std::int64_t{1} << 40;
 
-/// First words. Behind the coordinates of a vertex may be texture coordinates (ST), colours (C)
-/// and a normal (N), which are not read.
+/// Keywords in the first line. The coordinates of a vertex may be followed by texture coordinates
+/// (ST), colours (C) and a normal (N), which are ignored.
 constexpr std::array<std::string_view, 9> kWords{"OFF",   "COFF",   "NOFF",   "CNOFF",  "NCOFF",
                                                  "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
 constexpr std::size_t kLongest = 7;
 
-// Goes to the next line of data, which must be there.
+// Goes to the next line of data, which must exist.
 void need_line(TextLines& lines, const char* what, std::size_t have, std::size_t all) {
   if (!lines.next()) {
     lines.input().fail({fmt::format("truncated: too few {}", what),
@@ -79,7 +79,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
       need_cell(lines, cells, "x y z");
       mesh.vertices(static_cast<Index>(i), k) = cells.number();
     }
-    while (cells.more()) cells.number();  // colours and the like
+    while (cells.more()) cells.number();  // colours and similar columns
   }
   for (std::size_t i = 0; i < faces; ++i) {
     need_line(lines, "faces", i, faces);

@@ -15,7 +15,8 @@
 namespace ph {
 namespace {
 
-constexpr Index kMostNumber = std::numeric_limits<std::uint32_t>::max();  // of a point, in PLY
+// Number of a point in PLY.
+constexpr Index kMostNumber = std::numeric_limits<std::uint32_t>::max();
 
 /// The points of the triangles, ascending.
 std::vector<Index> points_of(const SurfaceMesh& mesh) {
@@ -35,7 +36,7 @@ std::array<double, 3> coordinates_of(PointsView points, Index point) {
   return at;
 }
 
-/// Collects bytes, and writes them when there are many.
+/// Collects bytes and writes them in large pieces.
 class Buffer {
  public:
   explicit Buffer(OutputFile& file) : file_(file) {}

@@ -37,7 +37,7 @@ const char* name_of(DiphaType type) {
   return "";
 }
 
-// A cursor behind the header of a file that must be of this type.
+// A cursor after the header of a file that must have this type.
 BinaryCursor body_of(const Input& input, DiphaType expected) {
   const DiphaType type = dipha_type(input);
   if (type != expected) {
@@ -46,7 +46,7 @@ BinaryCursor body_of(const Input& input, DiphaType expected) {
   return BinaryCursor(input, std::endian::little, kHeader);
 }
 
-// An integer of `least` to `most`; the message says where it stands.
+// Reads an integer from `least` to `most`; the message names its place.
 std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t most,
                       const char* what) {
   const std::size_t at = cursor.offset();
@@ -62,7 +62,8 @@ std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t mos
 
 std::size_t to_size(std::int64_t value) { return static_cast<std::size_t>(value); }
 
-// A count that `bytes_each` times it must be there for, and that may be zero only if allowed.
+// Reads a count; `bytes_each` times the count must be available, and zero is an error unless
+// allowed.
 std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) {
   const std::size_t count = cursor.read_count("number of points", kWord);
   if (count == 0 && !options.allow_empty) {
@@ -72,7 +73,7 @@ std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) 
   return count;
 }
 
-// The facets of all cells: their offsets come first, then their number, then they.
+// Reads the facets of all cells: their offsets come first, then their number, then the facets.
 void read_facets(BinaryCursor& cursor, std::size_t cells, BoundaryMatrix& matrix) {
   const Input& input = cursor.input();
   const std::size_t offsets_at = cursor.offset();
@@ -100,7 +101,7 @@ void read_facets(BinaryCursor& cursor, std::size_t cells, BoundaryMatrix& matrix
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const auto first = matrix.rows.begin() + static_cast<std::ptrdiff_t>(matrix.offsets[cell]);
     const auto last = matrix.rows.begin() + static_cast<std::ptrdiff_t>(matrix.offsets[cell + 1]);
-    std::sort(first, last);  // the format does not say that they are
+    std::sort(first, last);  // the format does not promise that they are sorted
     if (const auto twice = std::adjacent_find(first, last); twice != last) {
       input.fail_at_byte(entries_at + matrix.offsets[cell] * kWord,
                          {fmt::format("facet of cell {} listed twice", cell),

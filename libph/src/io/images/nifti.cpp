@@ -17,13 +17,13 @@ constexpr std::size_t kHeaderSize = 348;
 constexpr std::size_t kFirstVoxel = 352;  // after the header and the mark of extensions
 constexpr std::int32_t kNifti2Size = 540;
 
-// Where the fields of the header are.
+// Offsets of the fields in the header.
 constexpr std::size_t kDim = 40, kDatatype = 70, kBitpix = 72, kOffset = 108, kSlope = 112,
                       kIntercept = 116, kMagic = 344;
 
 struct Datatype {
   std::int16_t code;
-  const char* kind;  // as detail::element_type takes it
+  const char* kind;  // as for detail::element_type
 };
 constexpr Datatype kDatatypes[] = {{2, "u1"},    {4, "i2"},   {8, "i4"},   {16, "f4"},
                                    {64, "f8"},   {256, "i1"}, {512, "u2"}, {768, "u4"},
@@ -129,8 +129,8 @@ class Header {
   std::endian order_ = std::endian::little;
 };
 
-// Stored numbers become slope * number + intercept. A slope of 0 says that they do not; some
-// programs write NaN for it.
+// Stored numbers become slope * number + intercept. A slope of 0 means unscaled numbers; some
+// programs write NaN instead.
 void scale(Image& image, const Header& header, const Input& input, const ReadOptions& options) {
   const double slope = double{header.field<float>(kSlope)};
   const double intercept = double{header.field<float>(kIntercept)};
@@ -143,7 +143,7 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
   Voxels stored = std::move(image.values);
   const std::size_t count = stored.size();
   const bool in_file = detail::stays_in_file(input, count * sizeof(double));
-  constexpr std::size_t block = 1 << 20;  // numbers between two looks at the stop token
+  constexpr std::size_t block = 1 << 20;  // numbers between two polls of the stop token
   const auto scale_into = [&](const auto* from, double* to) {
     for (std::size_t k = 0; k < count;) {
       input.poll(input.size());
@@ -166,7 +166,7 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
       });
       return stored;
     }
-    // Both are there for a while, and no budget counts what is stored.
+    // Both arrays exist for a while, and stored numbers are not counted in any budget.
     input.require_memory(count * (sizeof(T) + sizeof(double)));
     std::vector<double> scaled(count);
     scale_into(from, scaled.data());

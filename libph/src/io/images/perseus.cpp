@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::int64_t kMostAxes = 16;
 constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
-// A list of cubes may ask for a grid this much larger than itself.
+// A list of cubes may ask for a grid larger than itself by at most this factor.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();  // see Image::masked
 
-// The cells of a text one after another, wherever its lines end.
+// Reads the cells of a text one after another, regardless of line ends.
 class CellStream {
  public:
   explicit CellStream(TextLines& lines) : lines_(lines), cells_(lines) {}
@@ -48,8 +48,9 @@ class CellStream {
               {}});
 }
 
-// What -1 says. Perseus takes positive integers, and -1 for a cube that is never there; in GUDHI,
-// which takes any number, it is a value like another. A file that Perseus could read is meant so.
+// Decides the meaning of -1. Perseus takes positive integers, and -1 for a cube that never enters;
+// GUDHI takes any number, and -1 is an ordinary value there. A file that Perseus could read is
+// understood as in Perseus.
 void take_missing_cubes(std::vector<double>& values, const ReadOptions& options) {
   std::ranges::replace(values, kInfinity, kAbsent);
   const auto count = std::count(values.begin(), values.end(), -1.0);
@@ -66,7 +67,7 @@ void take_missing_cubes(std::vector<double>& values, const ReadOptions& options)
                                               count));
 }
 
-// Sizes, then values, the first axis fastest.
+// Reads sizes, then values, with the first axis fastest.
 PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   const Input& input = lines.input();
   CellStream stream(lines);
@@ -104,10 +105,10 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   return result;
 }
 
-// Coordinates and value of a cube a line; the current line is the first one.
+// Reads one cube per line, coordinates and value; the current line is the first one.
 PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
   struct Cubes {
-    std::vector<Index> at;  // axes numbers a cube
+    std::vector<Index> at;  // one coordinate per axis and cube
     std::vector<double> values;
     std::vector<std::size_t> lines;
   } cubes;
@@ -178,7 +179,7 @@ PerseusImage read_perseus(const Input& input, const ReadOptions& options) {
   const auto axes = static_cast<std::size_t>(first.integer(1, kMostAxes, "dimension"));
   first.expect_end("the dimension alone on its line");
   PerseusImage result;
-  // A second look at the line that follows tells a list of cubes from a grid.
+  // Looking ahead at the next line distinguishes a list of cubes from a grid.
   TextLines ahead(input, lines.offset(), lines.number());
   std::size_t cells = 0;
   if (ahead.next()) {

@@ -8,16 +8,16 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kMostGrey = 65535;
-constexpr std::size_t kPollMask = 0xFFFFF;  // pixels between two looks at the stop token, less one
+constexpr std::size_t kPollMask = 0xFFFFF;  // pixels between two polls of the stop token, less one
 
-// The numbers of a PGM as text: digits between blanks and comments.
+// Reads the numbers of a PGM as text: digits between blanks and comments.
 class Numbers {
  public:
   Numbers(const Input& input, std::size_t offset) : input_(input), at_(offset) {}
 
   std::size_t offset() const { return at_; }
 
-  /// Skips blanks, and comments if the header still goes on.
+  /// Skips blanks, and comments if the header continues.
   void skip(bool comments) {
     const std::string_view text = input_.text();
     for (; at_ < text.size(); ++at_) {
@@ -91,7 +91,7 @@ Image read_pgm_image(const Input& input) {
   const std::size_t height = numbers.next("height", 1, kMostSide, true);
   const std::size_t most = numbers.next("largest grey value", 1, kMostGrey, true);
   const std::size_t bytes_each = most > 255 ? 2 : 1;
-  // One blank ends the header of P5. In P2 a pixel is a digit and a blank at least.
+  // One blank ends the header of P5. In P2 a pixel takes at least a digit and a blank.
   const std::size_t begin = std::min(numbers.offset() + 1, input.size());
   const std::size_t count = width * height;  // below 2^62
   const std::size_t there = input.size() - begin;

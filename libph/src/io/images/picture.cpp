@@ -19,7 +19,7 @@ std::uint16_t luma(const std::uint16_t* pixel) {
                                     1000U);
 }
 
-// Whether colours and opacity say nothing that grey does not.
+// True if colours and opacity add nothing to grey.
 bool is_grey(const Raster& raster) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_alpha = channels % 2 == 0;
@@ -32,7 +32,7 @@ bool is_grey(const Raster& raster) {
   return true;
 }
 
-// Place of a channel among the samples of a pixel; nothing: it is made of three.
+// Position of a channel among the samples of a pixel; nothing if it is computed from three.
 std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const Input& input) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_colours = channels >= 3, has_alpha = channels % 2 == 0;

@@ -2,30 +2,30 @@
 #pragma once
 #include "io/matrices/matrix_entry.hpp"
 
-// What square matrices and triangles of distances have in common.
+// Code shared by square matrices and triangles of distances.
 
 namespace ph::detail {
 
-/// n (n - 1) / 2: the pairs of n points, and the place of d(n, 0) among them.
+/// n (n - 1) / 2: the number of pairs of n points, and the position of d(n, 0) among them.
 constexpr std::size_t triangle(std::size_t n) {
   return n % 2 == 0 ? n / 2 * (n - 1) : (n - 1) / 2 * n;
 }
 
-/// A matrix of no points, or an error, as options.allow_empty says.
+/// A matrix without points, or an error, depending on options.allow_empty.
 DistanceMatrix no_points(const Input& input, const ReadOptions& options);
 
-/// Memory for all pairs of n points, once the bytes that are there were found to be enough for
-/// `cells` cells, of which empty ones take a byte. @param first cells of the first row.
+/// Allocates memory for all pairs of n points, after checking that the input has enough bytes for
+/// `cells` cells; empty cells take one byte. @param first number of cells in the first row.
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options);
 
-/// The option that asked for a square matrix, and what may have happened.
+/// The option that asked for a square matrix, and a possible cause of the problem.
 std::string why_square(const ReadOptions& options);
 
 [[noreturn]] void fail_row(const TextLines& lines, std::size_t row, std::size_t found,
                            std::size_t expected, std::string_view hint = {});
 
-/// Reads entries of a text matrix, each checked where it stands.
+/// Reads entries of a text matrix, checking each one at its place.
 class TextEntries {
  public:
   /// @param separator see Cells.
@@ -34,18 +34,18 @@ class TextEntries {
   void start() { cells_.start(); }
   bool more() const { return cells_.more(); }
   std::string_view skip() { return cells_.skip(); }
-  /// Where the next one stands.
+  /// The place of the next entry.
   EntryPlace place(std::size_t row, std::size_t column) const;
 
   double next(const EntryPlace& place);
-  /// One that is not on the diagonal.
+  /// Reads an entry that is not on the diagonal.
   double next() { return next(place(1, 0)); }
-  /// An empty last cell, where that means NaN.
+  /// Handles an empty last cell that means NaN.
   double missing(const EntryPlace& place);
   double merged(double upper, double lower, const EntryPlace& place) {
     return entries_.merged(upper, lower, place);
   }
-  /// After the last one; see MatrixEntries.
+  /// To be called after the last entry; see MatrixEntries.
   void finish() const;
 
  private:

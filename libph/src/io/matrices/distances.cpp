@@ -15,7 +15,7 @@ namespace {
 using detail::EntryPlace;
 using detail::triangle;
 
-// Rows of names in another order than columns make another matrix.
+// If rows have their names in a different order than columns, the matrix is a different one.
 class RowNames {
  public:
   explicit RowNames(const detail::TableLayout& layout) : header_(layout.header) {
@@ -27,7 +27,7 @@ class RowNames {
     const std::string& column = header_[row + 1];
     if (name == column) return;
     if (std::find(header_.begin() + 1, header_.end(), name) == header_.end()) {
-      is_known_ = false;  // rows are named or numbered in a way of their own
+      is_known_ = false;  // the names or numbers of rows are unrelated to columns
       return;
     }
     lines.fail(lines.line().data(), {"rows and columns in another order",

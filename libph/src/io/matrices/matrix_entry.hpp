@@ -8,37 +8,37 @@
 
 namespace ph::detail {
 
-/// Where a number of a matrix stands.
+/// The place of a number in a matrix.
 struct EntryPlace {
   std::size_t row = 0, column = 0;
-  std::size_t byte = 0;  ///< of the input; 0 where the numbers were unpacked first
+  std::size_t byte = 0;  ///< byte of the input; 0 if the numbers were unpacked first
 };
 
-/// Takes the numbers of a matrix for distances. What is small beside the largest of them is
-/// rounding: a diagonal, an entry below zero, the difference between the two entries of a pair.
-/// Which it is, is known only when all numbers were seen.
+/// Converts the numbers of a matrix to distances. Numbers that are small compared with the largest
+/// one count as rounding errors: on the diagonal, below zero, or between the two entries of a pair.
+/// This can be decided only when all numbers were seen.
 class MatrixEntries {
  public:
   explicit MatrixEntries(const ReadOptions& options) : options_(options) {}
 
-  /// The distance that a number means: 1 - r of a correlation; +infinity of NaN; 0 of what is below
-  /// 0, for now. Calls `fail(fault)`, which does not return, if it means none whatever the others
-  /// are.
+  /// The distance for a number: 1 - r for a correlation, +infinity for NaN, and for now 0 for
+  /// negative numbers. Calls `fail(fault)`, which does not return, if the number can never be
+  /// valid.
   template <class Fail>
   double distance(double raw, const EntryPlace& place, Fail&& fail) {
     const bool on_diagonal = place.row == place.column;
-    if (raw >= 0 && !options_.from_correlation && !on_diagonal) {  // as a rule
+    if (raw >= 0 && !options_.from_correlation && !on_diagonal) {  // the usual case
       look_at(raw);
       return raw;
     }
     if (Fault fault = fault_of(raw, on_diagonal); !fault.what.empty()) fail(std::move(fault));
     return distance_of(raw, place);
   }
-  /// One distance from the two of a pair. @param place of the lower one.
+  /// Combines the two entries of a pair into one distance. @param place of the lower entry.
   double merged(double upper, double lower, const EntryPlace& place);
 
-  /// After the last number: calls `fail(place, fault)`, which throws, if something was more than
-  /// rounding; else says what was taken as 0.
+  /// To be called after the last number: calls `fail(place, fault)`, which throws, if an error
+  /// exceeded rounding; otherwise notes the numbers that were taken as 0.
   void finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const;
 
  private:

@@ -14,7 +14,8 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
-// Every id up to the largest is a point: so many a pair are believed, or so many in all.
+// Every id up to the largest is a point: this many points are accepted per pair, or this many in
+// all.
 constexpr Index kMostPointsPerPair = 1024;
 constexpr Index kFreePoints = Index{1} << 20;
 

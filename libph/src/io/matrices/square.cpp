@@ -10,7 +10,7 @@
 namespace ph::detail {
 namespace {
 
-constexpr double kLittle = 0.01;  // between correlations that were meant to be equal
+constexpr double kLittle = 0.01;  // allowed difference between correlations that should be equal
 
 }  // namespace
 
@@ -21,7 +21,7 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
   const double rounding = kRounding * largest;
   bool positive = true, in_one = true;
   double most_apart = 0;   // the two entries of a pair
-  std::size_t uneven = 0;  // such places, two a pair
+  std::size_t uneven = 0;  // number of such places, two per pair
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {
       const double value = block[i * side + j], other = block[j * side + i];
@@ -51,7 +51,7 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
   if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
   const bool is_of_ones = known && ones && in_one;
   if (symmetric) return is_of_ones ? SquareKind::correlations : SquareKind::symmetric;
-  // Zeros are equal in any picture of a few things.
+  // Zeros are symmetric in any picture with few objects.
   if (is_mostly_zero(block, side)) return SquareKind::nothing;
   const bool is_nearly = 10 * uneven <= side * (side - 1);
   if (is_of_ones && (is_nearly || most_apart <= kLittle)) return SquareKind::nearly_correlations;

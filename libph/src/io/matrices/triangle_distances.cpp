@@ -25,7 +25,7 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   return std::nullopt;
 }
 
-// Skips a header; true if the input has data. A header here is a row of names only.
+// Skips a header. @return true if the input has data. Here a header is a row of names only.
 bool first_row(TextLines& lines, const ReadOptions& options) {
   if (!lines.next()) return false;
   if (header_names(lines.line()).empty()) return true;
@@ -33,7 +33,7 @@ bool first_row(TextLines& lines, const ReadOptions& options) {
   return lines.next();
 }
 
-// All pairs on one line, in the order of the rows of a triangle.
+// Reads all pairs from one line, in the order of the rows of a triangle.
 DistanceMatrix from_one_line(const TextLines& lines, std::size_t line, std::vector<double> values,
                              bool lower) {
   const auto points = points_of_pairs(values.size());
@@ -57,7 +57,7 @@ DistanceMatrix from_one_line(const TextLines& lines, std::size_t line, std::vect
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
-// The rows after the first one, which has one cell, of the lower triangle.
+// Reads the rows of the lower triangle after the first one, which has one cell.
 DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vector<double> values,
                                const ReadOptions& options) {
   std::size_t n = 2;
@@ -84,7 +84,8 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
-// The rows after the first one of the upper triangle: each goes into a column of the lower one.
+// Reads the rows of the upper triangle after the first one: each becomes a column of the lower
+// triangle.
 DistanceMatrix read_upper_rows(TextLines& lines, TextEntries& entries,
                                const std::vector<double>& first, const ReadOptions& options) {
   const std::size_t n = first.size() + 1;
@@ -118,7 +119,7 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   if (!first_row(lines, options)) return detail::no_points(input, options);
   TextEntries entries(lines, options);
   std::vector<double> first;
-  if (lower) {  // as many pairs as the lines say, but never more than the bytes allow
+  if (lower) {  // as many pairs as the lines suggest, but never more than the bytes allow
     const std::string_view text = input.text();
     const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 2;
     const std::size_t most = std::min(triangle(std::min(rows, text.size() + 2)), text.size() + 1);

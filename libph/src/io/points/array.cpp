@@ -14,7 +14,7 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kPollMask =
-    0xFFFFF;  // elements between two looks at the stop token, less one
+    0xFFFFF;  // elements between two polls of the stop token, less one
 
 double half_to_double(std::uint16_t bits) {
   const int exponent = (bits >> 10) & 0x1F;
@@ -32,11 +32,11 @@ double element(const std::byte* from, std::endian order, bool& exact) {
   const T value = load<T>(from, order);
   const auto result = static_cast<double>(value);
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-    // 2^63 and 2^64 round up out of the type: such values are never exact.
+    // 2^63 and 2^64 round up out of the type's range: such values are never exact.
     const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
     exact = in_range && static_cast<T>(result) == value;
   }
-  return result + 0.0;  // -0.0 becomes +0.0
+  return result + 0.0;  // turns -0.0 into +0.0
 }
 double half(const std::byte* from, std::endian order, bool&) {
   return half_to_double(load<std::uint16_t>(from, order)) + 0.0;
@@ -64,7 +64,7 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents) {
   std::optional<std::size_t> bytes = layout.type.size;
   for (const Index extent : extents) {
-    // An extent of 0 makes no bytes of any other one.
+    // An extent of 0 must not hide an overflow of the others.
     if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
   }
   const std::size_t there = input.size() - layout.offset;
@@ -82,16 +82,15 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 
 namespace {
 
-// Looks at the stop token now and then; where numbers are read from one file and written to
-// another, what of them has come into memory leaves it: in another order of axes it may lie
-// anywhere.
+// Polls the stop token now and then. If numbers are read from one file and written to another, it
+// also removes their pages from memory: with a different order of axes, these may lie anywhere.
 class Watch {
  public:
   Watch(const Input& input, std::span<const std::byte> to, bool in_file)
       : input_(input), to_(to), in_file_(in_file) {}
 
   void passed(std::size_t elements) {
-    constexpr std::size_t some = 0x7FFF;  // a page each may have come, and those around it
+    constexpr std::size_t some = 0x7FFF;  // each may have brought in a page and its surroundings
     if ((elements & (in_file_ ? some : kPollMask)) != 0) return;
     input_.poll();
     if (!in_file_) return;
@@ -105,7 +104,7 @@ class Watch {
   bool in_file_;
 };
 
-// Whether the numbers lie as the memory of an image does.
+// True if the numbers have the same layout as an image in memory.
 template <class T>
 bool is_as_in_memory(const ArrayLayout& layout, const std::vector<Index>& extents) {
   return layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1) &&
@@ -125,7 +124,7 @@ std::vector<T> copy_array(const Input& input, std::size_t offset, std::size_t co
     values.resize(k + size);
     std::memcpy(values.data() + k, bytes + k * sizeof(T), size * sizeof(T));
     if constexpr (std::is_floating_point_v<T>)
-      for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // -0.0 becomes +0.0
+      for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // turns -0.0 into +0.0
   }
   return values;
 }
@@ -160,8 +159,8 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     }
     return;
   }
-  // The first and the last axis change places in tiles that a few cache lines hold; the axes
-  // between them run in the file's order.
+  // The first and the last axis are swapped in tiles that a few cache lines hold; the axes between
+  // them keep the file's order.
   constexpr std::size_t tile = 8;
   const auto first = static_cast<std::size_t>(extents.front());
   const auto last = static_cast<std::size_t>(extents.back());

@@ -12,53 +12,54 @@
 
 namespace ph::detail {
 
-/// A kind of number that arrays are stored as.
+/// A type of number in which arrays are stored.
 struct ElementType {
-  std::size_t size = 0;  ///< bytes
-  /// The number at an address; sets its last argument to false if double cannot hold it.
+  std::size_t size = 0;  ///< size in bytes
+  /// Loads the number at an address; sets the last argument to false if double cannot hold it.
   double (*load)(const std::byte*, std::endian, bool&) = nullptr;
-  VoxelType stored = VoxelType::float64;  ///< the smallest type of voxels that holds them all
-  bool is_native = false;  ///< whether that is the type itself, but for the order of its bytes
+  VoxelType stored = VoxelType::float64;  ///< the smallest type of voxels that holds all its values
+  bool is_native = false;  ///< true if that is the type itself, apart from byte order
 };
 
-/// By NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
+/// The type with NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
 std::optional<ElementType> element_type(std::string_view kind);
 
-/// How an array lies in a file.
+/// The layout of an array in a file.
 struct ArrayLayout {
   ElementType type;
   std::endian order = std::endian::little;
-  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; else the last one
-  std::size_t offset = 0;           ///< of the first element
+  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; otherwise the last axis is
+  std::size_t offset = 0;           ///< offset of the first element
 };
 
-/// What the header of an NPY file says.
+/// The content of an NPY header.
 struct NpyLayout {
   ArrayLayout array;
   std::vector<Index> shape;
   char kind = 'f';        ///< NumPy's letter of the type: b, u, i or f
-  std::size_t count = 0;  ///< of elements, all there
+  std::size_t count = 0;  ///< number of elements, all of them present
 };
-/// @throws Error (bad_data) on what is no NPY file, or has not as many elements as it says.
+/// @throws Error (bad_data) if the input is not an NPY file, or has a different number of elements
+/// than it states.
 NpyLayout npy_layout(const Input& input);
 
-/// Whether so many bytes that are made of an input are better left in a file: more than a third of
-/// the memory that is left, or of an input that stays in one itself.
+/// True if that many bytes made from an input should be left in a file: if they take more than a
+/// third of the remaining memory, or if the input itself stays in a file.
 bool stays_in_file(const Input& input, std::size_t bytes);
 
-/// The number of elements of an array that must reach from its offset to the end of the input.
+/// The number of elements of an array, which must reach from its offset to the end of the input.
 /// @throws Error (bad_data) "truncated" or "trailing data".
 std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);
 
-/// Reads an array whose elements are there (see count_elements); the result is in C order.
-/// @param excess stays_in_file: voxels that `stays_in_file` stay in the input's file, or in a
-///        temporary one if they are stored in another way.
-/// @throws Error (bad_data) at an integer that double cannot hold; Error (resource); Error (io).
+/// Reads an array whose elements are present (see count_elements); the result is in C order.
+/// @param excess with stays_in_file, voxels for which `stays_in_file` is true stay in the input's
+///        file, or in a temporary file if their stored form differs.
+/// @throws Error (bad_data) on an integer that double cannot hold; Error (resource); Error (io).
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess = Input::Excess::refused);
 
-/// Numbers in a temporary file, zero at first: `fill(std::span<T>)` writes them.
+/// Numbers in a temporary file, zero at first; `fill(std::span<T>)` writes them.
 template <VoxelNumber T, class Fill>
 Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
   auto file = std::make_shared<ScratchFile>(count * sizeof(T));
@@ -67,7 +68,7 @@ Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
   return Voxels(BorrowedVoxels{type, file->data(), count, file, true});
 }
 
-/// Places in C order of the elements of an array, visited with the first axis fastest.
+/// Positions, in C order, of the elements of an array that is visited with the first axis fastest.
 class FirstAxisFastest {
  public:
   explicit FirstAxisFastest(const std::vector<Index>& extents);

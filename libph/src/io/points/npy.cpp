@@ -20,10 +20,10 @@ struct Header {
   std::string descr;
   bool fortran_order = false;
   std::vector<Index> shape;
-  std::size_t offset = 0;  // of the data
+  std::size_t offset = 0;  // start of the data
 };
 
-// The header is a Python dictionary with three known keys; nothing else of Python is read.
+// The header is a Python dictionary with three known keys; no other Python is understood.
 class HeaderParser {
  public:
   HeaderParser(const Input& input, std::size_t begin, std::size_t end)
@@ -209,7 +209,7 @@ std::string place_of(std::size_t voxel, const std::vector<Index>& extents) {
   return fmt::format("{}", fmt::join(place, ", "));
 }
 
-// Calls `use(begin, end)` for blocks of the numbers; what lies behind may leave the memory.
+// Calls `use(begin, end)` for blocks of the numbers; blocks already used may leave the memory.
 template <class T, class Use>
 void for_each_block(std::span<const T> all, bool in_file, const Input& input, Use&& use) {
   constexpr std::size_t block = 1 << 20;

@@ -7,8 +7,8 @@
 #include "io/bytes/unpack.hpp"
 #include "io/readers.hpp"
 
-// An NPZ is a zip archive of NPY files. The central directory at the end of the file says what
-// there is; local headers are only followed to the data.
+// An NPZ is a zip archive of NPY files. The central directory at the end of the file lists the
+// members; local headers are only used to find the data.
 
 namespace ph::detail {
 namespace {
@@ -24,7 +24,7 @@ constexpr std::uint16_t kStored = 0, kDeflated = 8;
 
 struct Member {
   std::string name;
-  std::size_t header_at = 0;  // its record in the central directory
+  std::size_t header_at = 0;  // position of its record in the central directory
   std::uint16_t flags = 0, method = 0;
   std::uint32_t crc = 0;
   std::size_t packed = 0, size = 0, local_at = 0;
@@ -45,7 +45,7 @@ void expect_signature(BinaryCursor& cursor, std::string_view signature, const ch
   }
 }
 
-// Sizes beyond 32 bits, in the order of those that are missing.
+// Reads sizes beyond 32 bits, in the order in which they are missing.
 void read_zip64(BinaryCursor extra, std::size_t end, Member& member) {
   while (extra.offset() + 4 <= end) {
     const auto id = extra.read<std::uint16_t>("extra field");
@@ -169,7 +169,7 @@ Input read_npz_member(const Input& input) {
   cursor.take(lengths, "header of a member");
   const std::size_t data_at = cursor.offset();
   cursor.take(member.packed, "member");
-  // Deflate gives at most 1032 bytes for one.
+  // Deflate makes at most 1032 bytes from one.
   const bool possible =
       member.method == kStored ? member.size == member.packed : member.size / 1032 <= member.packed;
   if (!possible) {

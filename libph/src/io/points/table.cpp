@@ -22,9 +22,9 @@ bool is_whole(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// Cells of a line with its first one empty, as tables have it whose rows have names. Numbers are
-// names where they count the columns, or where the next line begins with a name, or with the first
-// of them.
+// Cells of a line whose first cell is empty, as in tables whose rows have names. Numbers are names
+// if they count the columns, or if the next line begins with a name, or with the first of these
+// numbers.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
   std::vector<std::string> names = header_cells(line, false, true);
@@ -49,14 +49,14 @@ bool is_name_of_index(std::string_view name) {
   return std::ranges::find(kNames, lower_case(name)) != kNames.end();
 }
 
-// The first column.
+// Properties of the first column.
 struct FirstColumn {
   std::size_t rows = 0;
   bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
   bool names_columns = true;  // row k has the name of column k
 };
 
-// Of the first rows, `most` of them at most.
+// Looks at the first rows, up to `most` of them.
 FirstColumn first_column(const Input& input, const TableLayout& layout,
                          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   FirstColumn column;
@@ -86,7 +86,7 @@ std::vector<std::size_t> range(std::size_t begin, std::size_t end) {
   return all;
 }
 
-// Whether a line is 0, 1, 2, … or 1, 2, 3, …, as tables have it whose columns have numbers.
+// Recognises a line 0, 1, 2, … or 1, 2, 3, …, as in tables whose columns have numbers.
 std::vector<std::string> counting_header(const TextLines& line) {
   std::vector<std::string> names;
   Cells cells(line);
@@ -98,8 +98,8 @@ std::vector<std::string> counting_header(const TextLines& line) {
   return names;
 }
 
-// Names and an index that a matrix has though they look like its numbers: n rows are symmetric
-// behind a line that counts the columns, or behind a column that counts the rows.
+// Removes names and an index of a matrix that look like its numbers: the n rows are symmetric after
+// a line that counts the columns, or after a column that counts the rows.
 void leave_counts_out(const Input& input, const TextLines& first, const ReadOptions& options,
                       TableLayout& layout) {
   const auto is_matrix = [&](const TableLayout& rest) {
@@ -129,8 +129,8 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Cells of the first row. An empty last one counts if the header has a name for it, or if one of
-// the next rows has a cell there: it is a missing value.
+// Number of cells in the first row. An empty last cell counts if the header has a name for it, or
+// if one of the next rows has a cell there: it is a missing value.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
   if (!ends_empty(row.line())) return count;
@@ -141,7 +141,7 @@ std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   return count + (cells == count + 1 ? 1 : 0);
 }
 
-// How to read the first column, too; nothing of a square matrix, which it would make none.
+// Advice to read the first column as well; nothing for a square matrix, which would lose its shape.
 std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   TableLayout rest = layout;
   rest.columns = range(1, layout.width);
@@ -159,7 +159,7 @@ std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
   return cells.more() ? cells.skip() : std::string_view();
 }
 
-// Whether blanks separate numbers in a line: in it all, or between two tabs.
+// True if blanks separate numbers in a line: in the entire line, or between two tabs.
 bool has_blanks_between_numbers(std::string_view line) {
   const bool has_tabs = separator_in(line) == '\t';
   return std::ranges::any_of(
@@ -170,8 +170,7 @@ bool has_blanks_between_numbers(std::string_view line) {
       });
 }
 
-// Whether each tab separates two cells: not if blanks do so, too, unless a header has as many
-// cells.
+// True if each tab separates two cells: not if blanks also do, unless a header has as many cells.
 bool has_tabs_between_cells(const Input& input) {
   TextLines lines(input);
   lines.keep_tabs();
@@ -189,8 +188,9 @@ bool has_tabs_between_cells(const Input& input) {
   return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
-// Whether --columns has a name of this line that is no number of a column. Who counts columns from
-// 0 asks for 0, which is a name only before fractions, in a line that counts from 0 itself.
+// True if --columns has a name in this line that is not the number of a column. A user who counts
+// columns from 0 asks for 0; it is a name only before fractions, in a line that itself counts from
+// 0.
 bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
                     const std::vector<std::string>& next) {
   bool may_be_0 = !std::ranges::all_of(next, is_whole);
@@ -204,8 +204,8 @@ bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& 
   });
 }
 
-// Whether the first line has a name in a column that is not read, and where it is read whole
-// numbers in place of fractions: years, for example.
+// True if the first line has a name in a column that is not read, and integers instead of fractions
+// in the columns that are read: years, for example.
 bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
   const std::vector<bool> taken = layout.taken();
   const auto looks = [&](const TextLines& line) {
@@ -222,7 +222,7 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
-// Whether the first column has names, or counts the rows; says why in a note.
+// True if the first column has names or counts the rows; a note gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;
@@ -315,7 +315,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   const TextLines& row = has_header ? next : lines;
   layout.separator = separator(row);
   layout.width = width_of(row, layout);
-  // Points and pictures may well be symmetric behind numbers that count.
+  // Points and pictures may happen to be symmetric after numbers that count.
   if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {

@@ -14,22 +14,22 @@ namespace ph {
 
 namespace {
 
-// Whether a column counts the rows, from 0 or from 1.
+// True if a column counts the rows, from 0 or from 1.
 bool counts_rows(PointsView points, Index column) {
   for (Index i = 0; i < points.rows(); ++i)
     if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
   return points(0, column) == 0 || points(0, column) == 1;
 }
 
-// Whether the name of a column says that its numbers are meant: a place, or a time.
+// True if the name of a column is that of a coordinate or a time.
 bool names_coordinate(std::string_view name) {
   constexpr std::array<std::string_view, 10> kNames{"x", "y", "z", "X",    "Y",
                                                     "Z", "t", "T", "time", "Time"};
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
-// Whether the first row may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of one or two whole
-// numbers among others that says nothing.
+// True if the first row may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. One or two integers
+// among others are not enough evidence.
 bool may_be_header(PointsView rows) {
   const Index columns = rows.cols();
   if (rows.rows() < 2 || columns == 0 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
@@ -42,14 +42,15 @@ bool may_be_header(PointsView rows) {
   return false;
 }
 
-// Whether the first row is of digits alone, as names are: a column of values may begin with 0.0.
+// True if the first row consists of digits alone, as names do: a column of values may begin with
+// 0.0.
 bool begins_with_digits(const Input& input) {
   TextLines lines(input);
   return lines.next() &&
          lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
 }
 
-// Says which numbers may be none: those of an index that was not left out, or of a header.
+// Notes numbers that may not be data: an index that was not left out, or a header.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
   constexpr Index kFewest = 8;  // rows that hardly count by chance
@@ -105,7 +106,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
                           const TableLayout* layout) {
   TextTable table;
   TextLines lines = layout != nullptr ? layout->lines(input) : TextLines(input);
-  // Clouds are read by programs that have none of these options.
+  // Programs that read clouds have none of these options.
   Cells cells(lines, layout != nullptr && allow != Allow::any ? cell_hints(options) : CellHints(),
               layout != nullptr ? layout->separator : ' ');
   bool more = layout != nullptr ? layout->start(lines) : lines.next();
@@ -145,8 +146,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
-  // No more rows than lines. A row takes a byte a cell, its separator or the line end, for cells
-  // may be empty: memory is at most eight times the file, whatever it holds.
+  // There are no more rows than lines. A row takes at least one byte per cell, its separator or the
+  // line end, because cells may be empty: memory is at most eight times the file, whatever it
+  // contains.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
@@ -253,11 +255,11 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   "one column at least",
                   {}});
     }
-    // Both are there for a while, and no budget counts the array.
+    // Both arrays exist for a while, and the stored array is not counted in any budget.
     input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
     points = Points(array.extents[0], array.extents[1]);
     with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
-      constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
+      constexpr std::size_t block = 1 << 16;  // numbers between two polls of the stop token
       for (std::size_t k = 0; k < array.values.size(); k += block) {
         input.poll(input.size());
         const std::size_t count = std::min(block, array.values.size() - k);

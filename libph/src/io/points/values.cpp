@@ -66,7 +66,7 @@ std::vector<double> of_array(const Input& input, std::string_view owner) {
   return values;
 }
 
-// The property of the vertices of a PLY that the name asks for: "FILE.ply:NAME".
+// Reads the vertex property of a PLY that the name asks for: "FILE.ply:NAME".
 std::vector<double> of_property(const Input& input) {
   const Cloud cloud = read_ply(input, {.allow_empty = true, .context = input.context()});
   std::vector<std::string> names;
@@ -89,7 +89,7 @@ std::vector<double> of_property(const Input& input) {
   return values;
 }
 
-// float64, little endian, without a header.
+// Reads float64, little endian, without a header.
 std::vector<double> of_bytes(const Input& input, std::size_t count, std::string_view owner) {
   if (input.size() % sizeof(double) != 0 || input.size() / sizeof(double) != count) {
     input.fail({"wrong number of values",
@@ -109,7 +109,8 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
                                 std::string_view owner) {
   const bool is_array = detail::is_npy(input) || detail::is_npz(input);
   const bool is_ply = detail::is_ply(input);
-  // A few doubles may have no byte that text has not, but they hardly ever are UTF-8.
+  // A few doubles may consist of bytes that also occur in text, but they are hardly ever valid
+  // UTF-8.
   const bool may_be_raw = input.size() == count * sizeof(double) && !is_utf8(input.text());
   const bool is_raw = !is_array && !is_ply && (may_be_raw || !detail::is_text(input.text()));
   std::vector<double> values = is_array ? of_array(input, owner)
@@ -123,7 +124,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
       if (is_raw) input.fail_at_byte(k * sizeof(double), fault);
       input.fail(fault);
     }
-    values[k] += 0.0;  // -0.0 becomes +0.0
+    values[k] += 0.0;  // turns -0.0 into +0.0
   }
   return values;
 }
