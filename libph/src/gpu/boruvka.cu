@@ -12,10 +12,10 @@
 namespace ph::gpu {
 namespace {
 
-/// Borůvka's algorithm as on the CPU: each point keeps its last answer, which stays one while it
-/// names a point of another component, and is a lower bound after that. Edges have the order
-/// (length, larger row, smaller row), which is total: components choose without regard to each
-/// other, and no cycle arises.
+/// Borůvka's algorithm as on the CPU: each point keeps its last answer, which stays valid while it
+/// names a point of another component, and is a lower bound after that. Edges are ordered by
+/// (length, larger row, smaller row). This order is total: components choose independently, and no
+/// cycle arises.
 class Boruvka {
  public:
   Boruvka(Search& search, double limit, FlagEdge* edges, const RunContext& context)
@@ -51,7 +51,7 @@ class Boruvka {
     return {raw(component_), raw(nearest_), raw(bounds_), raw(ends_), raw(takes_), raw(joins_)};
   }
 
-  /// The length of each component's best edge.
+  /// Finds the length of each component's best edge.
   void propose() {
     thrust::fill(thrust::device, bounds_.begin(), bounds_.end(), bits_of(limit_));
     const BoruvkaView v = view();
@@ -68,7 +68,7 @@ class Boruvka {
     search_.ask(asked_, v, context_);
   }
 
-  /// Of the edges that long the first.
+  /// Chooses the first of the edges of that length.
   void choose() {
     thrust::fill(thrust::device, ends_.begin(), ends_.end(), UINT64_MAX);
     thrust::fill(thrust::device, takes_.begin(), takes_.end(), kNone);
@@ -95,14 +95,14 @@ class Boruvka {
     for_each_index(size_, [=] __host__ __device__(std::uint32_t c) {
       if (v.component[c] != c) return;
       const std::uint32_t o = other(c);
-      // Two that take each other take the same edge.
+      // Two components that choose each other choose the same edge.
       v.joins[c] = other(o) == c && c < o ? c : o;
       if (v.joins[c] == c) return;
       const std::uint64_t ends = v.ends[c];
       edges[rows[c]] = {of_bits(v.bounds[c]), static_cast<std::uint32_t>(ends >> 32),
                         static_cast<std::uint32_t>(ends)};
     });
-    // Each looks twice as far as before.
+    // Each step doubles the distance of the jump.
     const auto jumps = [=] __host__ __device__(std::uint32_t c) {
       if (v.component[c] != c) return false;
       const std::uint32_t next = load(v.joins[c]), after = load(v.joins[next]);

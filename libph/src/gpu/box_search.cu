@@ -12,7 +12,7 @@
 namespace ph::gpu {
 namespace {
 
-/// Sorts rows by a key, those with the same one staying in order.
+/// Sorts rows by a key; rows with equal keys keep their order.
 template <class Key, class KeyOf>
 void sort_rows(Positions& rows, KeyOf key_of) {
   thrust::device_vector<Key> keys(rows.size());
@@ -23,14 +23,14 @@ void sort_rows(Positions& rows, KeyOf key_of) {
   thrust::stable_sort_by_key(thrust::device, keys.begin(), keys.end(), rows.begin());
 }
 
-/// Rows in the order of the curve; equal points side by side, the first of them first.
+/// Rows in the order of the curve; equal points are side by side, with the first of them first.
 template <int Axes>
 Positions order_of(const double* x, std::uint32_t size, const Curve& curve) {
   Positions rows(size);
   thrust::sequence(thrust::device, rows.begin(), rows.end());
   for (int k = Axes - 1; k >= 0; --k)
     sort_rows<double>(rows, [=] __host__ __device__(std::uint32_t row) {
-      return x[std::size_t{row} * Axes + k] + 0.0;  // -0 is 0
+      return x[std::size_t{row} * Axes + k] + 0.0;  // turns -0 into 0
     });
   sort_rows<std::uint64_t>(rows, [=] __host__ __device__(std::uint32_t row) {
     return curve.code<Axes>(x + std::size_t{row} * Axes).low;
@@ -44,7 +44,7 @@ Positions order_of(const double* x, std::uint32_t size, const Curve& curve) {
 template <int Axes>
 class BvhSearch final : public Search {
  public:
-  /// @param x coordinates by row. @param rows distinct points, at least two, in the order of the
+  /// @param x coordinates by row. @param rows at least two distinct points, in the order of the
   /// curve.
   BvhSearch(const double* x, Positions&& rows, const Curve& curve)
       : rows_(std::move(rows)),
@@ -80,7 +80,7 @@ class BvhSearch final : public Search {
       (node.first(i) == node.split ? parent_of_leaf : parent_of_node)[node.split] = i;
       (node.last(i) == node.split + 1 ? parent_of_leaf : parent_of_node)[node.split + 1] = i;
     });
-    // Whoever comes to a node second knows that both children have their boxes.
+    // The second thread to reach a node knows that both children have their boxes.
     Positions arrivals(size() - 1, 0);
     const auto arrival = raw(arrivals);
     for_each_index(size(), [=] __host__ __device__(std::uint32_t p) {
@@ -93,7 +93,7 @@ class BvhSearch final : public Search {
     });
   }
 
-  /// Nodes know whether they belong to a component as a whole: between their ends it never changes.
+  /// A node records if it belongs entirely to one component: between its ends this never changes.
   void see(const BoruvkaView& v) override {
     const auto change = raw(changes_);
     for_each_index(size(), [=] __host__ __device__(std::uint32_t p) {
@@ -135,8 +135,8 @@ class BvhSearch final : public Search {
   Positions labels_, changes_;
 };
 
-/// Joins copies to the first of them. @return the rows of distinct points, in the order given.
-/// @param rows copies side by side, the first of them first.
+/// Joins copies to the first of them. @return the rows of distinct points, in their original order.
+/// @param rows has copies side by side, with the first of them first.
 Positions join_copies(const double* x, int axes, Positions& rows, FlagEdge* edges) {
   const auto size = static_cast<std::uint32_t>(rows.size());
   Positions heads(size), distinct(size);

@@ -12,8 +12,8 @@
 
 #include "ph/detail/metric/metric.hpp"
 
-// What all of the device's code speaks of. Compiled without products fused into sums (-fmad=false):
-// a number is the same wherever it is computed.
+// Common definitions of the device code. Compiled without fused multiply-add (-fmad=false): a
+// number is the same wherever it is computed.
 
 namespace ph::gpu {
 
@@ -36,7 +36,7 @@ __global__ void call_body(std::uint32_t count, Body body) {
   const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < count) body(i);
 }
-/// Calls body(i) for i < count, on the device. What is asked for later waits for it.
+/// Calls body(i) for all i < count, on the device. Later requests wait for it.
 template <class Body>
 void for_each_index(std::uint32_t count, Body body) {
   constexpr std::uint32_t threads = 128;
@@ -53,18 +53,19 @@ template <class T>
 PH_DEVICE void store(T& cell, T value) {
   cuda::atomic_ref<T, cuda::thread_scope_device>(cell).store(value, cuda::memory_order_relaxed);
 }
-/// Makes it `value` unless it is less. Most do not lower it: a look is cheap.
+/// Lowers a cell to `value` unless the cell is smaller. Most calls do not lower it, and a look is
+/// cheap.
 PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
   if (value < load(cell))
     cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(cell).fetch_min(
         value, cuda::memory_order_relaxed);
 }
 
-/// Of doubles that are not negative these have the order.
+/// For doubles that are not negative, the bits have the same order.
 PH_DEVICE std::uint64_t bits_of(double x) { return cuda::std::bit_cast<std::uint64_t>(x); }
 PH_DEVICE double of_bits(std::uint64_t bits) { return cuda::std::bit_cast<double>(bits); }
 
-// Distances as PointMetric computes them where no square of a coordinate overflows.
+// Distances as PointMetric computes them if no square of a coordinate overflows.
 
 inline constexpr double kLeastPlainSquare = PointMetric::kLeastPlainSquare;
 
@@ -73,7 +74,7 @@ PH_DEVICE double square_of_distance(const double* x, const double* y, int axes) 
   for (int k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// @param square from square_of_distance: where it is tiny it has lost digits.
+/// @param square the result of square_of_distance; if it is tiny, it has lost digits.
 PH_DEVICE double distance_of_square(double square, const double* x, const double* y, int axes) {
   if (square >= kLeastPlainSquare || square == 0) return std::sqrt(square);
   double largest = 0;
@@ -85,15 +86,16 @@ PH_DEVICE double distance_of_square(double square, const double* x, const double
   }
   return largest * std::sqrt(sum);
 }
-/// The square that nothing at distance <= d exceeds, whether of points or of boxes around them.
+/// An upper bound for the computed squares of all distances <= d, between points or to boxes around
+/// them.
 PH_DEVICE double reach_of(double d, int axes) {
   return std::fmax(d * d * (1 + 4e-16 * (axes + 8)), kLeastPlainSquare);
 }
 
-/// A point and the one that is nearest to it among those of other components.
+/// A point, and the nearest point of another component.
 struct Nearest {
   double distance;
-  std::uint32_t position;  ///< kNone: there is none up to that distance
+  std::uint32_t position;  ///< kNone if there is none up to that distance
 };
 
 }  // namespace ph::gpu

@@ -18,7 +18,7 @@
 namespace ph::gpu {
 namespace {
 
-constexpr int kMostAxesOfBoxes = 8;  // as on the CPU: above, boxes exclude little
+constexpr int kMostAxesOfBoxes = 8;  // as on the CPU: with more axes, boxes exclude little
 
 void require_device(std::size_t points, std::size_t axes) {
   cudaDeviceProp device;
@@ -53,7 +53,7 @@ struct Cloud {
     const double* const from = is_whole ? points.row(0) : copy.data();
     thrust::copy(from, from + coordinates.size(), coordinates.begin());
   }
-  /// The least coordinates, then the largest.
+  /// The smallest coordinates, then the largest.
   std::vector<double> box() {
     std::vector<double> box;
     for (const double sign : {1.0, -1.0})

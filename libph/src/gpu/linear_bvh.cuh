@@ -11,12 +11,13 @@
 
 namespace ph::gpu {
 
-/// A place on the curve: 128 bits, so that far outliers leave digits for the others.
+/// A place on the curve: 128 bits, which leave enough digits for most points even if there are far
+/// outliers.
 struct Code {
   std::uint64_t high, low;
 };
 
-/// Cubes of one size for all axes, whatever the extent of each.
+/// Uses cubes of equal size on all axes, whatever the extent of each axis.
 struct Curve {
   double origin[8];
   double cells_a_unit;
@@ -24,7 +25,7 @@ struct Curve {
   template <int Axes>
   static constexpr int kBits = Axes <= 2 ? 52 : 128 / Axes;
 
-  /// @param box of all points: the least coordinates, then the largest.
+  /// @param box of all points: the smallest coordinates, then the largest.
   template <int Axes>
   static Curve of(std::span<const double> box) {
     Curve curve{};
@@ -55,16 +56,18 @@ struct Curve {
   }
 };
 
-/// What a kernel sees. Inner nodes are 0 … size - 2, the root first; a leaf is a point.
+/// The data of the hierarchy in kernels. Inner nodes are 0 … size - 2, the root first; a leaf is a
+/// point.
 template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;
-  static constexpr std::uint32_t kFew = 8;  // points that are looked at one by one
+  static constexpr std::uint32_t kFew = 8;  // points that are compared one by one
   static constexpr int kMostLevels = 160;   // bits of a code and of a position
 
   struct Node {
-    std::uint32_t other_end;  // of its positions; one end is its own number
-    std::uint32_t split;      // the last position of its left child, whose number that is, too
+    std::uint32_t other_end;  // of its positions; the other end is its own number
+    // The last position of its left child, which is also that child's number.
+    std::uint32_t split;
     PH_DEVICE std::uint32_t first(std::uint32_t self) const {
       return self < other_end ? self : other_end;
     }
@@ -73,11 +76,11 @@ struct BvhView {
     }
   };
 
-  std::uint32_t size;         // points, at least 2
+  std::uint32_t size;         // number of points, at least 2
   const double* coordinates;  // by position
-  const std::uint32_t* rows;  // by position: as the caller numbers them
+  const std::uint32_t* rows;  // by position: the number of the point in the caller's order
   Node* nodes;
-  double* boxes;          // by node: the least coordinates, then the largest
+  double* boxes;          // by node: the smallest coordinates, then the largest
   std::uint32_t* labels;  // by node: the component of all its points, or kMixed
 
   PH_DEVICE const double* point(std::uint32_t p) const {
@@ -98,7 +101,7 @@ struct BvhView {
     return sum;
   }
 
-  /// Bits that the codes of two positions share from the top on; -1 beyond the ends.
+  /// Number of leading bits that the codes of two positions share; -1 beyond the ends.
   PH_DEVICE int shared(const Code* codes, std::int64_t i, std::int64_t j) const {
     if (j < 0 || j >= size) return -1;
     const Code a = codes[i], b = codes[j];
@@ -122,7 +125,7 @@ struct BvhView {
     }
     return {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(d > 0 ? i + s : i - s - 1)};
   }
-  /// Fills the box of a node whose children have theirs.
+  /// Fills the box of a node whose children have their boxes.
   PH_DEVICE void join_boxes(std::uint32_t self) const {
     const Node node = nodes[self];
     const std::uint32_t left = node.split, right = node.split + 1;
@@ -137,7 +140,7 @@ struct BvhView {
   }
 
   /// The nearest point of another component, in the order (distance, row).
-  /// @param within at most so far away.
+  /// @param within the largest distance of interest.
   PH_DEVICE Nearest nearest_foreign(std::uint32_t p, const std::uint32_t* component,
                                     double within) const {
     double x[Axes];
@@ -157,7 +160,7 @@ struct BvhView {
       reach = reach_of(d, Axes);
     };
     constexpr double never = HUGE_VAL;
-    double gaps[kMostLevels];  // of nodes that are left for later, one a level
+    double gaps[kMostLevels];  // of nodes that are postponed, one per level
     std::uint32_t later[kMostLevels];
     int height = 0;
     for (std::uint32_t at = 0;;) {

@@ -6,7 +6,8 @@
 
 #include "gpu/boruvka.cuh"
 
-// The nearest foreign point among all, in spaces of so many dimensions that boxes exclude nothing.
+// Finds the nearest foreign point among all points, in spaces of so many dimensions that boxes
+// exclude nothing.
 
 namespace ph::gpu {
 namespace {
@@ -25,13 +26,14 @@ struct PairPoints {
   }
 };
 
-inline constexpr int kTile = 64;  // points a side of a square of pairs
+inline constexpr int kTile = 64;  // points per side of a square of pairs
 inline constexpr int kSlab = 16;  // axes that a block holds at a time
-inline constexpr int kSide = 16;  // threads a side
+inline constexpr int kSide = 16;  // threads per side
 inline constexpr int kEach = kTile / kSide;
 
-/// Of 64 asked points, a block each (x), the nearest foreign ones among a range of all (y). Points
-/// come by component: where two tiles are of one component there is nothing to do.
+/// For blocks of 64 asked points (x), finds the nearest foreign points in one range out of several
+/// that cover all points (y). Points are sorted by component: two tiles of the same component need
+/// no work.
 /// @param order all points by component. @param answers by asked point and range.
 __global__ void __launch_bounds__(kSide* kSide)
     nearest_of_tiles(PairPoints points, const std::uint32_t* asked, std::uint32_t asked_count,
@@ -67,7 +69,7 @@ __global__ void __launch_bounds__(kSide* kSide)
         of_others[tx][row] = k < points.axes ? points.point(b)[k] : 0;
       }
       __syncthreads();
-      // What is added beyond the last axis is zero, and changes no sum.
+      // Entries beyond the last axis are zero and change no sum.
 #pragma unroll
       for (int s = 0; s < kSlab; ++s) {
         double x[kEach], y[kEach];
@@ -141,7 +143,7 @@ class PairSearch final : public Search {
     const std::uint32_t share = (size() + most_ranges - 1) / most_ranges;
     const std::uint32_t range = std::max(least, (share + kTile - 1) / kTile * kTile);
     const std::uint32_t ranges = (size() + range - 1) / range;
-    // So many that a launch takes some tenths of a second.
+    // Chooses the number such that a launch takes some tenths of a second.
     const double terms_a_point = static_cast<double>(size()) * axes_;
     const auto batch = static_cast<std::uint32_t>(
         std::clamp(1e12 / terms_a_point, 16.0 * kTile, 1e6) / kTile * kTile);

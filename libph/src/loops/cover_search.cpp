@@ -42,7 +42,7 @@ bool CoverSearch::add_step(Values& values, std::uint32_t from, std::uint32_t to,
   return changed;
 }
 
-/// @return whether the budget was enough.
+/// @return true if the budget was enough.
 bool CoverSearch::measure_distances(std::uint32_t from, std::uint32_t to, const Around& around,
                                     double bound, StepBudget& budget) {
   using Entry = std::tuple<Distance, std::uint32_t>;

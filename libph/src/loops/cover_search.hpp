@@ -11,7 +11,7 @@
 
 namespace ph::detail {
 
-/// Steps that may still be taken, of all loops and of the one at hand.
+/// Steps that may still be taken, for all loops and for the current one.
 struct StepBudget {
   std::uint64_t of_all, of_one = 0;
   void begin(std::uint64_t most) { of_one = std::min(of_all, most); }
@@ -23,19 +23,19 @@ struct StepBudget {
   }
 };
 
-/// What a loop is looked for in: the edges up to `limit`, the birth edge excepted.
+/// The graph in which a loop is searched: the edges up to `limit`, without the birth edge.
 struct Around {
   EarlyGraph::Key limit, birth;
 };
 
-/// What a search came to.
+/// The result of a search.
 enum class Verdict { found, none, gave_up };
 
-/// Looks for shortest paths on which cocycles have given values.
+/// Finds shortest paths on which cocycles have given values.
 ///
-/// Dijkstra's algorithm from the end tells how far each vertex is from it. If the shortest path has
-/// the values, that is it. Else A* goes through pairs (vertex, values so far), guided by these
-/// distances, which no path with values can beat.
+/// Dijkstra's algorithm, started at the end, computes the distance of each vertex from the end. If
+/// the shortest path has the values, it is the answer. Otherwise A* searches pairs (vertex, values
+/// so far); these distances guide it, because a path with values cannot be shorter.
 class CoverSearch {
  public:
   using Path = std::vector<std::uint32_t>;
@@ -43,10 +43,10 @@ class CoverSearch {
   CoverSearch(const EarlyGraph& graph, const EdgeCocycles& cocycles, std::int64_t field,
               const RunContext& context);
 
-  /// The cocycles that count from now on, by number, and the values wanted.
+  /// Sets the cocycles that count from now on, by number, and the wanted values.
   void set_target(std::span<const std::uint32_t> cocycles, std::span<const std::uint32_t> values);
 
-  /// A path from `from` to `to`, both included, shorter than `bound`.
+  /// Finds a path from `from` to `to`, both included, shorter than `bound`.
   Verdict find(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                StepBudget& budget, Path& path);
 
@@ -56,7 +56,7 @@ class CoverSearch {
     std::uint32_t steps;
     friend auto operator<=>(const Distance&, const Distance&) = default;
   };
-  using Values = std::vector<std::uint32_t>;  // of the cocycles that count
+  using Values = std::vector<std::uint32_t>;  // values of the cocycles that count
   struct State {
     std::uint32_t vertex, values, parent;
     Distance from_start;
@@ -64,24 +64,24 @@ class CoverSearch {
   };
   static constexpr std::uint32_t kNone = UINT32_MAX;
   static constexpr std::size_t kMostStates = std::size_t{1} << 17;
-  static constexpr std::size_t kMostNumbers = std::size_t{1} << 21;  // in all values together
+  static constexpr std::size_t kMostNumbers = std::size_t{1} << 21;  // total number of values
 
   bool measure_distances(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                          StepBudget& budget);
   Verdict search_cover(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                        StepBudget& budget, Path& path);
   bool is_near(std::uint32_t v) const { return stamp_[v] == run_; }
-  /// The values after one more step. @return whether they changed.
+  /// Computes the values after one more step. @return true if they changed.
   bool add_step(Values& values, std::uint32_t from, std::uint32_t to, EarlyGraph::Key key) const;
 
   const EarlyGraph& graph_;
   const EdgeCocycles& cocycles_;
   std::uint64_t p_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> slot_;  // by cocycle; kNone: does not count
+  std::pmr::vector<std::uint32_t> slot_;  // by cocycle; kNone if it does not count
   std::vector<std::uint32_t> counted_;
   Values target_;
-  // By vertex, of the distances to the end that were measured last.
+  // By vertex, for the distances to the end that were measured last.
   std::pmr::vector<std::uint32_t> stamp_, towards_;
   std::pmr::vector<Distance> distance_;
   std::uint32_t run_ = 0;

@@ -11,9 +11,9 @@
 
 namespace ph::detail {
 
-/// The first edges of a RipsGraph, those that are there when loops are born. At each vertex
-/// neighbours come in the order of their edges, so that the graph at any earlier value is there,
-/// too.
+/// The first edges of a RipsGraph: the edges that exist when loops are born. At each vertex,
+/// neighbours come in the order of their edges, which makes the graph at any earlier value
+/// available as well.
 class EarlyGraph {
  public:
   using Key = RipsGraph::Key;
@@ -22,7 +22,7 @@ class EarlyGraph {
     Key key;
   };
 
-  /// @param last value of an edge.
+  /// @param last the largest value of an edge.
   EarlyGraph(const RipsGraph& graph, double last, const RunContext& context)
       : graph_(graph), last_value_(last), offsets_(&context.memory), neighbours_(&context.memory) {
     edges_ = edges_up_to(last);
@@ -45,9 +45,9 @@ class EarlyGraph {
   std::size_t vertices() const { return offsets_.size() - 1; }
   Key edges() const { return edges_; }
   double last_value() const { return last_value_; }
-  /// How many edges have a value <= `last`: the key of the last of them.
+  /// The number of edges with a value <= `last`, which is the key of the last of them.
   Key edges_up_to(double last) const {
-    // Edges are sorted as far as anybody looks: not beyond twice as many as are wanted.
+    // Looking at edges sorts them: no more than twice the wanted number are looked at.
     const Key all = static_cast<Key>(graph_.edge_count());
     Key low = 0, high = std::min<Key>(1, all);
     while (high < all && graph_.value(high) <= last) {
@@ -66,7 +66,7 @@ class EarlyGraph {
   double value(Key key) const { return graph_.value(key); }
   const FlagEdge& edge(Key key) const { return graph_.edge(key); }
 
-  /// Calls `use(vertex, key)` for the neighbours of v by edges up to `limit`, one excepted.
+  /// Calls `use(vertex, key)` for the neighbours of v by edges up to `limit`, except for one edge.
   template <class Use>
   void for_each_neighbour(std::uint32_t v, Key limit, Key except, Use&& use) const {
     for (const Neighbour& n : neighbours(v)) {

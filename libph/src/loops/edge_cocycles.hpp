@@ -9,25 +9,25 @@
 
 namespace ph::detail {
 
-/// A bar as far as others are compared with it.
+/// The lifetime of a bar, used to compare bars.
 struct Lifetime {
   double birth, death;
   EarlyGraph::Key birth_key;
 };
 
-/// Which bars of a filtration say something about the cycles of another one: those that are born
+/// Decides which bars of a filtration matter for the cycles of another bar: bars that are born
 /// before it and live at least as long.
 class Elders {
  public:
-  /// @param by_value birth edges of one value may be others than the first of the filtration's
-  ///        order (as after a collapse): all of one value count as elders of each other, and of
-  ///        themselves.
+  /// @param by_value true if the birth edge among edges of equal value may differ from the first in
+  ///        the filtration's order (as after a collapse): all bars of one value then count as
+  ///        elders of each other, and of themselves.
   explicit Elders(bool by_value) : by_value_(by_value) {}
   bool is_elder(const Lifetime& elder, const Lifetime& of) const {
     if (elder.death < of.death) return false;
     return by_value_ ? elder.birth <= of.birth : elder.birth_key < of.birth_key;
   }
-  /// Increases with birth as far as elders are concerned.
+  /// True if `a` is born before `b` in the sense of elders.
   bool is_born_before(const Lifetime& a, const Lifetime& b) const {
     return by_value_ ? a.birth < b.birth : a.birth_key < b.birth_key;
   }
@@ -37,7 +37,7 @@ class Elders {
   bool by_value_;
 };
 
-/// The values that cocycles have on the first edges of a graph.
+/// The values of cocycles on the first edges of a graph.
 class EdgeCocycles {
  public:
   struct Term {
@@ -48,7 +48,7 @@ class EdgeCocycles {
   explicit EdgeCocycles(const RunContext& context)
       : lifetimes_(&context.memory), offsets_(&context.memory), terms_(&context.memory) {}
 
-  /// @param cocycles the bars of H1 of the same vertices; `keep` says which are wanted.
+  /// @param cocycles the bars of H1 of the same vertices; `keep` selects the wanted ones.
   template <class Keep>
   void take(const EarlyGraph& graph, const Barcode& cocycles, std::int64_t field, Keep&& keep,
             Ticker& ticker) {

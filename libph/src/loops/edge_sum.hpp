@@ -15,16 +15,16 @@ namespace ph::detail {
 class EdgeSum {
  public:
   explicit EdgeSum(std::int64_t field) : p_(field) {}
-  /// A closed walk of vertices, whose names ascend as they do.
+  /// Adds a closed walk of vertices, whose names ascend as the vertices do.
   void add(const EarlyGraph& graph, std::span<const std::uint32_t> walk, std::int64_t coefficient) {
-    if (walk.size() < 2) return;  // it came back
+    if (walk.size() < 2) return;  // nothing is left of the walk
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const std::uint32_t u = walk[i], v = walk[(i + 1) % walk.size()];
       terms_.push_back({graph.name(std::min(u, v)), graph.name(std::max(u, v)),
                         u < v ? coefficient : -coefficient});
     }
   }
-  /// Taken apart.
+  /// Splits the sum into closed walks.
   std::vector<Loop> loops(const RunContext& context) {
     std::ranges::sort(terms_, [](const Term& a, const Term& b) {
       return std::tie(a.u, a.v) < std::tie(b.u, b.v);
@@ -52,12 +52,12 @@ class EdgeSum {
   std::vector<Term> terms_;
 };
 
-/// Cuts a closed walk wherever it comes back to a vertex. The parts pass no vertex twice, and are
-/// no longer than the walk. They come as those of EdgeSum do.
+/// Splits a closed walk wherever it returns to a vertex. The parts pass no vertex twice, and
+/// together are no longer than the walk. They have the same order as the loops of EdgeSum.
 inline std::vector<Loop> parts_of(std::span<const std::uint32_t> walk, const EarlyGraph& graph,
                                   std::int64_t coefficient, std::int64_t field,
                                   const RunContext& context) {
-  // By their vertices from the smallest on, towards its smaller neighbour.
+  // By their vertices, from the smallest on, towards its smaller neighbour.
   std::map<std::vector<std::uint32_t>, EdgeSum> parts;
   std::vector<std::uint32_t> open;
   const auto close = [&](auto first) {

@@ -8,9 +8,9 @@
 
 namespace ph::detail {
 
-/// Shortens closed walks step by step, each step over one or two triangles all of whose edges are
-/// there: what comes out is homologous over every field. The clique of three edges is a triangle
-/// of a flag complex, so nothing but edges needs to be looked at.
+/// Shortens closed walks step by step, each step across one or two triangles whose edges all exist:
+/// the result is homologous over every field. The clique of three edges is a triangle of a flag
+/// complex; only edges must therefore be checked.
 class Shortcuts {
  public:
   using Walk = std::vector<std::uint32_t>;
@@ -20,9 +20,9 @@ class Shortcuts {
         near_first_(graph.vertices(), {0, 0}, &context.memory),
         near_middle_(graph.vertices(), {0, 0}, &context.memory) {}
 
-  /// Shortens a walk until no step does or the budget ends.
-  /// @param keeps_last_step whether the step from the last vertex to the first stays: the birth
-  ///        edge. A walk without it that bounds a triangle becomes empty.
+  /// Shortens a walk until no step shortens it or the budget ends.
+  /// @param keeps_last_step true if the step from the last vertex to the first, the birth edge,
+  ///        must stay. Without such a step, a walk that bounds a triangle becomes empty.
   void shorten(Walk& walk, bool keeps_last_step, const Around& around, StepBudget& budget) {
     bool goes_on = true;
     while (goes_on && budget.take()) {
@@ -34,10 +34,10 @@ class Shortcuts {
       for (std::size_t i = 1; i + 1 < walk.size();) {
         const Change change = change_at(walk, i, around, budget);
         goes_on |= change != Change::none;
-        // What was removed brings two others together.
+        // A removal brings two other vertices together.
         i = change == Change::removed ? std::max<std::size_t>(i, 2) - 1 : i + 1;
       }
-      if (!keeps_last_step && walk.size() > 3)  // the one vertex that was no middle
+      if (!keeps_last_step && walk.size() > 3)  // the only vertex that was not in the middle
         goes_on |= change_around(walk, around, budget);
     }
   }
@@ -49,7 +49,7 @@ class Shortcuts {
     double value;
   };
 
-  /// At walk[i], between two others.
+  /// Tries a change at walk[i], between two other vertices.
   Change change_at(Walk& walk, std::size_t i, const Around& around, StepBudget& budget) {
     const std::uint32_t first = walk[i - 1], middle = walk[i], last = walk[i + 1];
     const auto at = walk.begin() + static_cast<std::ptrdiff_t>(i);
@@ -81,7 +81,7 @@ class Shortcuts {
     return Change::moved;
   }
 
-  /// At the first vertex of a walk, between the last and the second.
+  /// Tries a change at the first vertex of a walk, between the last and the second.
   bool change_around(Walk& walk, const Around& around, StepBudget& budget) {
     std::rotate(walk.begin(), walk.end() - 1, walk.end());
     return change_at(walk, 1, around, budget) != Change::none;
@@ -102,7 +102,7 @@ class Shortcuts {
   }
 
   const EarlyGraph& graph_;
-  std::pmr::vector<Mark> near_first_, near_middle_;  // by vertex: the edge from there
+  std::pmr::vector<Mark> near_first_, near_middle_;  // by vertex: the edge from that vertex
   std::uint64_t stamp_ = 0, first_stamp_ = 0, middle_stamp_ = 0;
 };
 

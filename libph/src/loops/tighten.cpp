@@ -20,11 +20,12 @@
 namespace ph::detail {
 namespace {
 
-// Steps over an edge, some nanoseconds each: of all loops, and of one.
+// Limits for steps across an edge, some nanoseconds each: for all loops, and for one.
 constexpr std::uint64_t kMostSteps = 300'000'000, kMostStepsOfOne = 20'000'000;
-// Cofacets of edges to be listed for cocycles: persistent cohomology takes a second or so.
+// Limit for the cofacets of edges that are listed for cocycles: persistent cohomology then takes
+// about a second.
 constexpr double kMostCofacets = 5e7;
-// Sums of the same lengths in another order.
+// Sums of the same lengths in different orders differ by this.
 constexpr double kRounding = 1e-12;
 
 using Key = EarlyGraph::Key;
@@ -42,7 +43,7 @@ struct Candidate {
   bool needs_cocycles;
 };
 
-/// The last value of a bar of H1 that has loops; nothing if there is none.
+/// The largest birth of a bar of H1 with loops; nothing if there is none.
 std::optional<double> last_birth(const Barcode& cycles, const std::vector<BarLoops>& loops) {
   std::optional<double> last;
   for (std::size_t i = 0; i < loops.size(); ++i)
@@ -75,7 +76,7 @@ class Tightener {
     std::vector<Candidate> candidates = list_candidates(all);
     EdgeCocycles cocycles(context_);
     const double reach = compute_cocycles(candidates, cocycles);
-    // The most persistent first: the budget may end.
+    // The most persistent come first, because the budget may end.
     std::ranges::stable_sort(candidates, std::greater<>(),
                              [&](const Candidate& c) { return cycles_[c.bar].persistence(); });
     CoverSearch search(graph_, cocycles, options_.field, context_);
@@ -105,7 +106,7 @@ class Tightener {
     return key_of(graph_.vertex_of(edge.numbers[0]), graph_.vertex_of(edge.numbers[1]));
   }
 
-  /// Bars of positive length that have loops, and whether any other is an elder of theirs.
+  /// Lists the bars of positive length with loops, and finds out if another bar is their elder.
   std::vector<Candidate> list_candidates(const std::vector<BarLoops>& all) const {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -117,9 +118,9 @@ class Tightener {
     std::ranges::stable_sort(candidates, [&](const Candidate& a, const Candidate& b) {
       return elders_.is_born_before(a.lifetime, b.lifetime);
     });
-    double last_death = -kInfinity;  // of those born before
+    double last_death = -kInfinity;  // of the bars born before
     for (std::size_t begin = 0, end; begin < candidates.size(); begin = end) {
-      // One group where birth edges tell, else all of one value.
+      // A group is a single birth edge if edges decide, otherwise all bars of one value.
       double last_of_group = -kInfinity;
       for (end = begin;
            end < candidates.size() &&
@@ -141,10 +142,10 @@ class Tightener {
            (key < graph_.edges() && graph_.value(key + 1) == value);
   }
 
-  /// Cocycles for as many of the bars that need some as can be had in little time.
-  /// @return the last death of those for which they are there.
+  /// Computes cocycles for as many of the bars that need some as is possible in little time.
+  /// @return the last death among the bars whose cocycles were computed.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
-    std::vector<Candidate> asking;  // by birth
+    std::vector<Candidate> asking;  // sorted by birth
     for (const Candidate& c : candidates)
       if (c.needs_cocycles) asking.push_back(c);
     if (asking.empty()) return -kInfinity;
@@ -153,7 +154,7 @@ class Tightener {
     if (asking.empty()) return -kInfinity;
     double reach = -kInfinity;
     for (const Candidate& c : asking) reach = std::max(reach, c.lifetime.death);
-    // By place among those that ask: the first death from there on.
+    // By position among the bars that ask: the first death from that position on.
     std::vector<double> first_death(asking.size());
     for (std::size_t i = asking.size(); i-- > 0;)
       first_death[i] = std::min(asking[i].lifetime.death,
@@ -188,11 +189,11 @@ class Tightener {
     return -kInfinity;
   }
 
-  /// The complex below this value has few enough triangles.
+  /// The value below which the complex has few enough triangles.
   double last_affordable_value() const {
     std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
-    double cofacets = 0;  // at most: an edge has as many as its ends have neighbours
+    double cofacets = 0;  // an upper bound: an edge has as many as its ends have neighbours
     for (Key key = 1; key <= all_.edge_count(); ++key) {
       const FlagEdge& e = all_.edge(key);
       cofacets += 2.0 * degrees[e.u]++ + 2.0 * degrees[e.v]++ + 2;
@@ -225,7 +226,7 @@ class Tightener {
         shortcuts.shorten(walk, is_born, around, budget);
         sum.add(graph_, walk, loop.coefficient);
       }
-      // What has come together is taken apart anew, which may open the way for more.
+      // The sum is split again, which may allow further shortening.
       std::vector<Loop> shorter = sum.loops(context_);
       measure(shorter);
       goes_on = shorter != out.loops;
@@ -242,13 +243,14 @@ class Tightener {
     Walk path;
     const Verdict verdict = search.find(high, low, around, bound, budget, path);
     if (verdict == Verdict::found) {
-      // The birth edge, then the path, whose last vertex is the first of the walk.
+      // Puts the birth edge first, then the path, whose last vertex is the first of the walk.
       std::rotate(path.begin(), path.end() - 1, path.end());
       EdgeSum found(options_.field);
       found.add(graph_, path, coefficient);
       std::vector<Loop> loops = found.loops(context_);
       measure(loops);
-      // Over Z/p what is taken apart edge by edge may be longer than the walk, whose parts are not.
+      // Over Z/p, splitting edge by edge may give more length than the walk; the parts of the walk
+      // do not.
       std::vector<Loop> parts = parts_of(path, graph_, coefficient, options_.field, context_);
       measure(parts);
       if (length_of(parts) < length_of(loops)) loops = std::move(parts);
@@ -258,7 +260,7 @@ class Tightener {
       out.tightness = Tightness::shortest;
   }
 
-  /// Turns a walk so that its last step is the birth edge. @return whether it has that one.
+  /// Turns a walk so that its last step is the birth edge. @return true if it has that edge.
   static bool turn_to(Walk& walk, std::uint32_t low, std::uint32_t high) {
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const std::uint32_t next = walk[(i + 1) % walk.size()];
@@ -270,7 +272,7 @@ class Tightener {
     return false;
   }
 
-  /// Which values the cocycles that count have on a path that closes the birth edge.
+  /// Computes the values that the counting cocycles must have on a path that closes the birth edge.
   /// @return the coefficient of that edge in the chain.
   std::int64_t set_target(const Candidate& c, const InputChain& chain, const EdgeCocycles& cocycles,
                           CoverSearch& search) const {
@@ -278,7 +280,7 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // Deaths are known as far as cocycles were asked for.
+      // Deaths are known as far as cocycles were computed.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);
@@ -330,7 +332,7 @@ void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Op
     Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
-  } catch (const Error& error) {  // each bar's loops are old or new, and right
+  } catch (const Error& error) {  // every bar's loops are either old or new, and correct
     if (error.kind() != ErrorKind::resource) throw;
   } catch (const std::bad_alloc&) {
   }

@@ -7,8 +7,8 @@
 
 namespace ph::detail {
 
-/// Gives the loops of a Rips filtration, which are the chains taken apart, their lengths, and
-/// shorter ones in their place where that is asked for and memory allows it.
+/// Measures the loops of a Rips filtration, which are the chains split into walks, and replaces
+/// them by shorter ones if that is asked for and memory allows it.
 void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Options& options,
                          bool tighten, std::vector<BarLoops>& loops, const RunContext& context);
 

@@ -7,15 +7,16 @@ namespace ph {
 
 CubeList::CubeList(PointsView points, double radius, const RunContext& context)
     : cubes_(&context.memory), points_(&context.memory) {
-  // A hair larger than the radius: rounding must not put two points in reach two cubes apart. There
-  // are 10^9 cubes an axis at most, so that a coordinate in cubes is off by 10^-7 at most: less
-  // than the hair. With no radius at all, any cubes will do in which equal points meet.
+  // Slightly larger than the radius: rounding must not put two points within the radius two cubes
+  // apart. There are at most 10^9 cubes per axis; a coordinate in units of cubes is then off by at
+  // most 10^-7, which is less than that margin. If the radius is 0, any cubes are fine in which
+  // equal points meet.
   const double reach = largest_coordinate(points);
   const double edge = std::max(radius * (1 + 1e-6), 1e-9 * reach);
   const double scale = reach > 0 ? 1 / edge : 0;
   const auto size = static_cast<std::size_t>(points.rows());
   struct Placed {
-    double x, y, z;  // the cube
+    double x, y, z;  // coordinates of the cube
     std::uint32_t number;
     bool same_cube(const Placed& o) const { return x == o.x && y == o.y && z == o.z; }
   };

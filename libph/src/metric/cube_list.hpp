@@ -13,10 +13,10 @@
 
 namespace ph {
 
-/// The points of R^1, R^2 or R^3 sorted into cubes a little larger than a radius, so that all
-/// neighbours of a point lie in the 27 cubes around it. Coordinates of cubes are whole numbers kept
-/// as doubles: they cannot overflow. It stays beside the k-d tree, which takes 1.1 to 1.8 times as
-/// long (docs/development/adr/0020).
+/// The points of R^1, R^2 or R^3 sorted into cubes slightly larger than a radius: all neighbours of
+/// a point lie in the 27 cubes around it. Coordinates of cubes are integers stored as doubles,
+/// which cannot overflow. It is kept beside the k-d tree, which takes 1.1 to 1.8 times as long
+/// (docs/development/adr/0020).
 class CubeList {
  public:
   struct Point {
@@ -28,8 +28,8 @@ class CubeList {
   CubeList(PointsView points, double radius, const RunContext& context);
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
-  /// depends on the points alone. Few of them are further apart than the radius: O(pairs within it)
-  /// up to a constant.
+  /// depends on the points alone. Few of these pairs are farther apart than the radius: the time is
+  /// O(pairs within it).
   template <class Visit>
   void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 
@@ -49,9 +49,10 @@ class CubeList {
 template <class Visit>
 void CubeList::for_each_candidate_pair(Visit&& visit, const RunContext& context) const {
   Ticker ticker(context, "near pairs", cubes_.size());
-  // Half of the neighbours: the next cube of the same row, and three cubes of each row after it.
+  // Half of the neighbours: the next cube of the same row, and three cubes in each of the following
+  // rows.
   constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-  std::array<std::size_t, 4> first{};  // per row: cubes before this one lie behind for good
+  std::array<std::size_t, 4> first{};  // per row: cubes before this one are done
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
     const Cube& cube = cubes_[c];
     const auto here = points(cube);

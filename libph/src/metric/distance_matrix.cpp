@@ -9,7 +9,7 @@ namespace ph {
 
 DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
     : size_(size) {
-  constexpr Index most = Index{1} << 31;  // whose pairs can be counted
+  constexpr Index most = Index{1} << 31;  // more points have too many pairs to count
   if (size < 0 || size > most)
     throw Error(ErrorKind::bad_data,
                 fmt::format("distance matrix: found {} points, expected 0 to 2^31", size));
@@ -27,7 +27,7 @@ DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vecto
             ErrorKind::bad_data,
             fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, lower[k]));
       }
-      lower[k] += 0.0;  // -0.0 becomes +0.0
+      lower[k] += 0.0;  // turns -0.0 into +0.0
     }
   }
   numbers_ = std::make_shared<const Numbers>(Numbers{std::move(lower), std::move(births)});

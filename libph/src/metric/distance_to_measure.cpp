@@ -24,7 +24,7 @@ void detail::check_neighbours(Index neighbours, Index size) {
 double detail::root_mean_square(std::span<const double> distances) {
   const double largest = distances.empty() ? 0 : std::ranges::max(distances);
   if (largest == 0 || std::isinf(largest)) return largest;
-  double sum = 0;  // scaled: squares may leave the range of double
+  double sum = 0;  // scaled, because squares may leave the range of double
   for (const double d : distances) sum += (d / largest) * (d / largest);
   return largest * std::sqrt(sum / static_cast<double>(distances.size() + 1));
 }
@@ -32,10 +32,11 @@ double detail::root_mean_square(std::span<const double> distances) {
 std::vector<double> distance_to_measure(PointsView points, Index neighbours, PointDistance distance,
                                         double p, const RunContext& context) {
   const PointMetric checked(points, distance, p);
-  points = checked.points();  // whose rows are whole
+  points = checked.points();  // now with contiguous rows
   detail::check_neighbours(neighbours, points.rows());
   const auto others = static_cast<std::size_t>(neighbours - 1);
-  // A list of neighbours is kept sorted as it grows: long ones are found sooner in all of them.
+  // A list of neighbours is kept sorted as it grows: beyond this length, a search of all points is
+  // faster.
   constexpr std::size_t most_others = 512;
   if (others == 0 || others > most_others || points.cols() == 0 ||
       !has_fast_spanning_forest(points, distance))

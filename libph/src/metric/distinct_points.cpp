@@ -36,7 +36,7 @@ std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunC
   for (auto run = order.begin(); run != order.end();) {
     const auto end =
         std::find_if_not(run, order.end(), [&](const Hashed& h) { return same_hash(*run, h); });
-    // Different points of one hash are rare, unless somebody makes them.
+    // Different points with equal hashes are rare, unless somebody constructs them.
     std::stable_sort(run, end, [&](const Hashed& a, const Hashed& b) {
       return std::ranges::lexicographical_compare(row(a.number), row(b.number));
     });

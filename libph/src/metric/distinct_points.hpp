@@ -10,12 +10,12 @@
 
 namespace ph {
 
-/// By point: the first one that is equal to it, which may be itself. O(n log n).
-/// @param points fewer than 2^32 of them, finite; -0 equals +0.
+/// By point: the first point that is equal to it, which may be the point itself. O(n log n).
+/// @param points fewer than 2^32, finite; -0 equals +0.
 std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunContext& context);
 
-/// The first point of each class of equal ones, ascending.
-/// @param first_equal from `first_equal_points`.
+/// The first point of each class of equal points, ascending.
+/// @param first_equal the result of `first_equal_points`.
 std::pmr::vector<std::uint32_t> distinct_points(std::span<const std::uint32_t> first_equal,
                                                 const RunContext& context);
 

@@ -13,8 +13,9 @@
 namespace ph {
 namespace {
 
-// Euclidean points, axis by axis: squares of distances to the chosen ones, many at a time. No
-// branches in the loops and no sums across points, which a compiler may not reorder: vectors.
+// For Euclidean points, axis by axis: squared distances to the chosen points, many at a time. The
+// loops have no branches, and no sums across points, which a compiler may not reorder: they become
+// vector code.
 class Squares {
  public:
   Squares(PointsView points, const RunContext& context)
@@ -46,13 +47,13 @@ class Squares {
     double square;
   };
   Farthest farthest() const {
-    std::array<double, 8> lanes{};  // a maximum each
+    std::array<double, 8> lanes{};  // one maximum per lane
     const std::size_t whole = size_ - size_ % lanes.size();
     for (std::size_t i = 0; i < whole; i += lanes.size())
       for (std::size_t l = 0; l < lanes.size(); ++l) lanes[l] = std::max(lanes[l], nearest_[i + l]);
     double largest = *std::ranges::max_element(lanes);
     for (std::size_t i = whole; i < size_; ++i) largest = std::max(largest, nearest_[i]);
-    // Squares may differ where distances, their rounded roots, are equal.
+    // Squares may differ although distances, their rounded roots, are equal.
     const double root = std::sqrt(largest), almost = largest * (1 - 1e-15);
     for (std::size_t i = 0; i < size_; ++i)
       if (nearest_[i] >= almost && std::sqrt(nearest_[i]) == root) return {i, largest};

@@ -23,12 +23,12 @@ KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const Run
                   points_.row(static_cast<Index>(i)).data());
     }
   };
-  if (items.size() < 1 << 15) {  // not worth a thread
+  if (items.size() < 1 << 15) {  // too small for a thread
     split_below(1, points, items);
     put(0, items.size());
     return;
   }
-  // The first levels one by one, then whatever hangs below each of their nodes.
+  // Splits the first levels one by one, then the subtrees below them in parallel.
   constexpr int top = 6;
   for (int level = 0; level <= top; ++level) {
     const Node first = Node{1} << level;

@@ -12,16 +12,16 @@
 namespace ph {
 
 /// A balanced k-d tree (Bentley 1975): each node is halved at the median of the axis along which
-/// its points spread most. Complete, so that no links are stored: node 1 is the root, 2i and 2i + 1
-/// are the children of i, and the points of a node are neighbours in the order of the tree.
+/// its points spread most. The tree is complete and needs no links: node 1 is the root, 2i and 2i +
+/// 1 are the children of i, and the points of a node are consecutive in the order of the tree.
 class KdTree {
  public:
   using Node = std::uint32_t;
-  using Position = std::uint32_t;              ///< of a point in the order of the tree
-  static constexpr std::size_t kLeafSize = 8;  ///< points of a leaf: at most
+  using Position = std::uint32_t;              ///< position of a point in the order of the tree
+  static constexpr std::size_t kLeafSize = 8;  ///< largest number of points in a leaf
 
-  /// O(n log n). @param points one point a row, finite, at least one column.
-  /// @param rows which of them, fewer than 2^32 - 1 and at least one.
+  /// O(n log n). @param points one per row, finite, with at least one column.
+  /// @param rows the rows to take: at least one, fewer than 2^32 - 1.
   KdTree(PointsView points, std::span<const std::uint32_t> rows, const RunContext& context);
 
   std::size_t size() const { return rows_.size(); }
@@ -35,7 +35,7 @@ class KdTree {
   bool is_leaf(Node node) const { return node >= first_leaf(); }
   Position begin(Node node) const { return bound(node, 0); }
   Position end(Node node) const { return bound(node, 1); }
-  /// The smallest box around the points of a node: least and largest coordinate, axis by axis.
+  /// The smallest box around the points of a node: smallest and largest coordinate, axis by axis.
   const double* box(Node node) const { return boxes_.data() + node * box_size(); }
 
  private:
@@ -54,7 +54,7 @@ class KdTree {
   void split_below(Node node, PointsView points, std::span<Item> items);
 
   int levels_ = 0;
-  MemoryClaim claim_;  // of points_
+  MemoryClaim claim_;  // for points_
   Points points_;
   std::pmr::vector<std::uint32_t> rows_;
   std::pmr::vector<double> boxes_;

@@ -10,16 +10,16 @@
 namespace ph {
 namespace {
 
-// A norm that is never larger than the distance searched for, in a form that is cheap to compute
-// from the gaps between two boxes, axis by axis. Both are rounded: `beyond` leaves room for the
-// errors of sums of `axes` terms, so that nothing within reach is taken to be beyond it.
+// A norm that is never larger than the distance searched for, and that is cheap to compute from the
+// gaps between two boxes, axis by axis. Both are rounded: `beyond` leaves room for the errors of
+// sums of `axes` terms, which keeps everything within reach.
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
 struct EuclideanGaps {
   // Smaller sums of squares may have lost digits to underflow.
   static constexpr double kSmallestPlainSquare = 1e-280;
   static double add(double sum, double gap) { return sum + gap * gap; }
-  /// The sum that nothing at distance <= d exceeds.
+  /// The sum that no distance <= d exceeds.
   static double reach(double d, double slack) {
     return std::max(d * d * slack, kSmallestPlainSquare);
   }
@@ -33,16 +33,17 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
-/// Of Euclidean distances where squares underflow: of what is nearer they are 0, as in the metric.
+/// For Euclidean distances whose squares underflow: closer points have distance 0, as in the
+/// metric.
 struct TinyGaps : ChebyshevGaps {
   static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
 };
 
-/// @tparam Axes number of coordinates; 0: any.
+/// @tparam Axes number of coordinates; 0 for any.
 template <class Gaps, int Axes>
 class Search final : public NeighbourSearch {
  public:
-  /// @param is_root_of_sum the distance is the square root of the sum of squares.
+  /// @param is_root_of_sum true if the distance is the square root of the sum of squares.
   Search(const KdTree& tree, const PointMetric& metric, bool is_root_of_sum)
       : tree_(tree),
         metric_(metric),
@@ -109,7 +110,8 @@ class Search final : public NeighbourSearch {
     const VisitPair& visit;
     Ticker& ticker;
   };
-  /// Those of a point of `a` and one of `b`, which is at the level of `a` and not before it.
+  /// Visits pairs of a point of `a` and a point of `b`, which must be at the level of `a` and not
+  /// before it.
   void visit_pairs(Node a, Node b, const Pairs& pairs) const {
     if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
     if (tree_.is_leaf(a)) {
@@ -162,13 +164,13 @@ class Search final : public NeighbourSearch {
       sum = Gaps::add(sum, std::max({a[2 * k] - b[2 * k + 1], b[2 * k] - a[2 * k + 1], 0.0}));
     return sum;
   }
-  /// @param sum gap_to_point(p, q): where digits count, the metric's own sum.
+  /// @param sum gap_to_point(p, q): if no digits are lost, this is the metric's own sum.
   double distance(Position p, Position q, double sum) const {
     if constexpr (std::same_as<Gaps, EuclideanGaps>)
       if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
     return metric_(p, q);
   }
-  /// The sum that nothing exceeds that may take the place of the worst neighbour.
+  /// The largest sum with which a point may still replace the worst neighbour.
   double reach_beside(const Neighbour& worst, Ties ties) const {
     constexpr double nothing = -1;
     if (ties == Ties::any && worst.distance == 0) return nothing;
@@ -178,7 +180,7 @@ class Search final : public NeighbourSearch {
     if (a.distance != b.distance) return a.distance < b.distance;
     return b.position == kNone || tree_.rows()[a.position] < tree_.rows()[b.position];
   }
-  /// Puts it where it belongs and drops the last.
+  /// Inserts it at its place and drops the last.
   void insert(const Neighbour& neighbour, std::span<Neighbour> list) const {
     if (!is_nearer(neighbour, list.back())) return;
     std::size_t i = list.size() - 1;
@@ -186,15 +188,16 @@ class Search final : public NeighbourSearch {
     list[i] = neighbour;
   }
 
-  /// Visits the leaves, the nearer child first. @param gap_to of a node from where we search.
-  /// @param is_hopeless whether to pass over a node with that gap.
+  /// Visits the leaves, nearer child first. @param gap_to the gap between a node and the starting
+  /// point.
+  /// @param is_hopeless true if a node with that gap can be skipped.
   template <class GapTo, class IsHopeless, class VisitLeaf>
   void traverse(GapTo&& gap_to, IsHopeless&& is_hopeless, VisitLeaf&& visit_leaf) const {
     struct Entry {
       double gap;
       Node node;
     };
-    std::array<Entry, 64> stack;  // one a level
+    std::array<Entry, 64> stack;  // one per level
     std::size_t height = 0;
     for (Entry at{0, 1};;) {
       if (!is_hopeless(at.node, at.gap)) {
@@ -220,8 +223,8 @@ class Search final : public NeighbourSearch {
   const bool is_root_of_sum_;
 };
 
-/// Whether different points are so near each other that the squares of their gaps are below what
-/// EuclideanGaps tells apart. None of a cluster of such points could be passed over.
+/// True if distinct points are so close that the squares of their gaps are too small for
+/// EuclideanGaps. No node in a cluster of such points could be skipped.
 bool has_tiny_node(const KdTree& tree) {
   constexpr double tiny = 1e-139;  // above the root of kSmallestPlainSquare
   for (KdTree::Node node = 1; node < tree.node_count(); ++node) {
@@ -251,8 +254,8 @@ std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetr
 std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
                                                        PointDistance distance, double p) {
-  // The p-norms fall as p grows: the Euclidean one bounds those below 2, the largest coordinate
-  // bounds them all, and needs no squares.
+  // p-norms decrease as p grows: the Euclidean norm is a lower bound for p below 2; the largest
+  // coordinate is a lower bound for all, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;

@@ -11,9 +11,9 @@
 
 namespace ph {
 
-/// Exact searches in a k-d tree: for nearest points, and for all pairs within a distance. Distances
-/// are those of PointMetric to the last bit; among points at one distance the one of the smaller
-/// row is nearer.
+/// Exact searches in a k-d tree, for nearest points and for all pairs within a distance. Distances
+/// equal those of PointMetric to the last bit; among points at the same distance, the one with the
+/// smaller row is nearer.
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -28,20 +28,21 @@ class NeighbourSearch {
   struct Parts {
     static constexpr std::uint32_t kMixed = UINT32_MAX;
     std::span<const std::uint32_t> of_point;  ///< by position
-    std::span<const std::uint32_t> of_node;   ///< by node: the part of all its points, or kMixed
+    /// By node: the part that contains all its points, or kMixed.
+    std::span<const std::uint32_t> of_node;
   };
 
   virtual ~NeighbourSearch() = default;
 
-  /// Which of points at one distance are found: those of the smaller rows, or any. Any is much
-  /// faster where many points are equal, all at distance 0.
+  /// The points to find among points at the same distance: those with the smallest rows, or any.
+  /// `any` is much faster if many points are equal and at distance 0.
   enum class Ties { by_row, any };
 
-  /// For each point of a leaf its k nearest others at distance <= limit, the nearest first.
-  /// @param found k a point, point by point; what is not there is left as kNone.
+  /// For each point of a leaf, its k nearest other points at distance <= limit, nearest first.
+  /// @param found k entries per point, point by point; missing ones stay kNone.
   virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                        std::span<Neighbour> found) const = 0;
-  /// The nearest point of another part at distance <= limit; kNone if there is none.
+  /// The nearest point of another part at distance <= limit, or kNone.
   virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
                                     Ties ties) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
@@ -50,13 +51,13 @@ class NeighbourSearch {
   virtual void pairs_within(double limit, const VisitPair& visit,
                             const RunContext& context) const = 0;
 
-  /// Whether a k-d tree helps to bound the distance.
+  /// True if a k-d tree helps to bound the distance.
   static bool can_search(PointDistance distance) {
     return distance == PointDistance::euclidean || distance == PointDistance::manhattan ||
            distance == PointDistance::chebyshev || distance == PointDistance::minkowski;
   }
-  /// @param tree outlives the search, as does `metric`, which is that of tree.points().
-  /// @param distance one that can be searched. @param p exponent of `minkowski`.
+  /// @param tree must outlive the search, as must `metric`, the metric of tree.points().
+  /// @param distance a distance that can be searched. @param p exponent of `minkowski`.
   static std::unique_ptr<NeighbourSearch> make(const KdTree& tree, const PointMetric& metric,
                                                PointDistance distance, double p);
 };

@@ -21,9 +21,9 @@ namespace {
 
 using Visit = std::function<void(Index, Index, double)>;
 
-// Where to look for the pairs: the points and the radius, times a power of two where squares would
-// leave the range of double. That is exact but for digits that do not count beside the largest
-// coordinate.
+// The search for pairs: the points and the radius, multiplied by a power of two if squares would
+// leave the range of double. This is exact, except for digits that are negligible compared with the
+// largest coordinate.
 struct SearchSpace {
   PointsView points;
   double radius;
@@ -33,7 +33,7 @@ struct SearchSpace {
 void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
-  // Most candidates are too far away by more than rounding: no root is needed to see it.
+  // Most candidates are too far by more than rounding: no root is needed to see this.
   const double far =
       std::max(space.radius * space.radius, PointMetric::kLeastPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
@@ -41,7 +41,7 @@ void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double 
         const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
         const double square = dx * dx + dy * dy + dz * dz;
         if (square > far) return;
-        // The same sum as the metric's, unless digits were lost to underflow.
+        // The sum equals the metric's sum, unless digits were lost to underflow.
         const double d = square >= PointMetric::kLeastPlainSquare && !space.is_scaled
                              ? std::sqrt(square)
                              : metric(p.number, q.number);
@@ -63,7 +63,7 @@ void visit_by_cubes(const PointMetric& metric, double radius, const Visit& visit
   const auto scale = [=](double x) { return std::scalbn(x, exponent); };
   Points scaled(points);
   std::ranges::transform(scaled.coordinates(), scaled.data(), scale);
-  // Distances that are denormal themselves were rounded, by half of the least one at most.
+  // Distances that are denormal themselves were rounded, by at most half of the smallest denormal.
   const double reachable = radius + std::numeric_limits<double>::denorm_min();
   visit_in_cubes({scaled, std::min(scale(reachable), kLargestPlain), true}, metric, radius, visit,
                  context);
@@ -100,9 +100,10 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  // Measured: all pairs of so few points take little, many at a time. A tree takes longer for some.
+  // Measured: all pairs of this few points take little time, because many are computed at once. For
+  // some inputs a tree takes longer.
   constexpr Index few = 1 << 14;
-  // Squares of what is nearer underflow, and one cube would hold all such points.
+  // The squares of smaller distances underflow, and one cube would hold all such points.
   constexpr double tiny = 1e-139;
   const bool has_cubes = points.cols() == 0 || (points.cols() <= 3 && radius >= tiny);
   const auto visit_all = has_cubes              ? visit_by_cubes

@@ -3,7 +3,8 @@
 
 namespace ph {
 
-/// Differences of coordinates whose squares neither overflow nor lose digits to underflow.
+/// Bounds for differences of coordinates whose squares neither overflow nor lose digits to
+/// underflow.
 inline constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
 
 }  // namespace ph

@@ -23,7 +23,7 @@ namespace {
 
 static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
 
-/// The sum of terms 0 … count - 1, four at a time: each of four partial sums waits for itself only.
+/// The sum of terms 0 … count - 1 in four partial sums: each of them waits only for itself.
 template <class Term>
 double sum_in_lanes(Index count, const Term& term) {
   std::array<double, 4> lanes{};
@@ -42,7 +42,7 @@ double sum_in_lanes(Index count, const Term& term) {
   return sum;
 }
 
-/// 0 if there is none.
+/// 0 if there are no terms.
 template <class Term>
 double largest_of(Index count, const Term& term) {
   double largest = 0;
@@ -50,7 +50,7 @@ double largest_of(Index count, const Term& term) {
   return largest;
 }
 
-/// A vector of length 1, whatever the size of the one that it is from; that one is not 0.
+/// A vector of length 1 with the direction of another vector of any size other than 0.
 class Direction {
  public:
   Direction(const double* x, Index d) : x_(x) {
@@ -118,10 +118,11 @@ double PointMetric::euclidean(Index i, Index j) const {
   if (!may_need_scaling_) {
     double sum = 0;
     for (Index k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
-    // A tiny sum may have lost digits to underflow: take the careful way for it.
+    // A tiny sum may have lost digits to underflow and is computed the careful way.
     if (sum >= kLeastPlainSquare || sum == 0) return std::sqrt(sum);
   }
-  // Halves only where whole differences overflow: the half of the least denormal is zero.
+  // Halves coordinates only if their differences overflow, because half of the smallest denormal is
+  // zero.
   const auto scaled = [&](double unit) {
     double largest = 0;
     for (Index k = 0; k < d; ++k) largest = std::max(largest, std::abs(x[k] * unit - y[k] * unit));
@@ -140,7 +141,7 @@ double PointMetric::euclidean(Index i, Index j) const {
 double PointMetric::operator()(Index i, Index j) const {
   if (i == j) return 0;
   const double d = distance_ == PointDistance::euclidean ? euclidean(i, j) : other(i, j);
-  // Taken for an infinite distance, it would pass for "never joined".
+  // An infinite distance would be understood as "never joined".
   if (!(d <= std::numeric_limits<double>::max())) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("two points are farther apart than the largest double, {}; scale the "

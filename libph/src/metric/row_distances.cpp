@@ -12,11 +12,11 @@
 namespace ph {
 namespace {
 
-// Points a block: sums stay in registers. A block holds its points axis by axis, those that are
-// missing in the last one at zero.
+// Points per block: sums stay in registers. A block holds its points axis by axis; missing points
+// in the last block are zero.
 constexpr Index kBlock = 16;
 
-// Square roots of the squared distances to point i from all before it; a whole block is written.
+// The distances (square roots) from point i to all points before it; an entire block is written.
 // @return the least of the squares that are not zero.
 PH_FOR_EACH_TARGET
 double distances_of_row(const double* blocks, Index dims, Index i, double* out) {
@@ -51,8 +51,8 @@ double distances_of_row(const double* blocks, Index dims, Index i, double* out) 
   return *std::min_element(least, least + kBlock);
 }
 
-// As integers the bits of non-negative doubles keep their order; those of the others and of NaN are
-// larger than infinity's.
+// As integers, the bits of non-negative doubles keep their order; the bits of all other doubles and
+// of NaN are larger than infinity's.
 PH_FOR_EACH_TARGET
 std::uint64_t take_maxima_as_bits(double* row, Index count, double* of_columns) {
   std::uint64_t largest = 0;

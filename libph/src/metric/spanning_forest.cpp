@@ -12,11 +12,11 @@
 namespace ph {
 namespace {
 
-// Borůvka's algorithm: in each round every component takes its first edge to another one. What
-// makes rounds cheap is that the nearest point of another component only ever gets farther. So each
-// point keeps a few nearest neighbours, found once; while one of them is foreign the first such is
-// its nearest foreign point. After that, the last one known is a lower bound, and the tree is asked
-// only where the bound does not exceed the best edge that the component has already.
+// Borůvka's algorithm: in each round every component takes its first edge to another one. Rounds
+// are cheap because the distance to the nearest point of another component never decreases. Each
+// point therefore stores a few nearest neighbours, found once; the first of them that is foreign is
+// its nearest foreign point. After that, the last known neighbour gives a lower bound; the tree is
+// searched only if the bound does not exceed the best edge that the component already has.
 class Boruvka {
  public:
   Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,
@@ -38,7 +38,7 @@ class Boruvka {
     std::iota(component_.begin(), component_.end(), 0U);
   }
 
-  /// Appends the edges, between rows.
+  /// Appends the edges, given by rows.
   void run(FlagEdges& forest) {
     find_neighbours();
     do {
@@ -57,12 +57,13 @@ class Boruvka {
 
   enum class Knows : std::uint8_t {
     nearest,      // `first` is the nearest foreign point
-    lower_bound,  // the nearest foreign point comes after `first`; after all at that distance if
-                  // `first` names no point
+    lower_bound,  // the nearest foreign point comes after `first`, or after all points at that
+                  // distance if `first` names none
   };
   struct Point {
     Neighbour first;
-    std::uint8_t place = 0;  // of `first` among the neighbours known; kKnown: the tree found it
+    // Position of `first` among the known neighbours; kKnown if the tree found it.
+    std::uint8_t place = 0;
     Knows knows = Knows::lower_bound;
   };
 
@@ -71,7 +72,7 @@ class Boruvka {
     const auto [v, u] = std::minmax(tree_.rows()[p], tree_.rows()[q.position]);
     return {q.distance, u, v};
   }
-  /// Whether the edge of p comes before that of q.
+  /// True if the edge of p comes before the edge of q.
   bool precedes(Position p, Position q) const {
     const double of_p = points_[p].first.distance, of_q = points_[q].first.distance;
     return of_p != of_q ? of_p < of_q : ph::precedes(edge_of(p), edge_of(q));
@@ -94,7 +95,7 @@ class Boruvka {
     for_each_piece("neighbours", first, kPiece / KdTree::kLeafSize, context_, find);
   }
 
-  /// Each component's best edge among those that its points know.
+  /// Finds each component's best edge among the edges that its points know.
   void propose() {
     for_each_piece("spanning forest", points_.size(), kPiece, context_,
                    [&](std::size_t begin, std::size_t end) {
@@ -103,7 +104,7 @@ class Boruvka {
     std::fill(best_.begin(), best_.end(), kNone);
     for (Position p = 0; p < points_.size(); ++p) offer(p);
   }
-  /// Goes on to the first neighbour known that is foreign.
+  /// Moves to the first known neighbour that is foreign.
   void advance(Position p) {
     Point& point = points_[p];
     const std::uint32_t own = component_[p];
@@ -112,7 +113,7 @@ class Boruvka {
     if (point.place < kKnown) ++point.place;
     for (; point.place < kKnown; ++point.place) {
       const Position q = known_[p * kKnown + point.place];
-      if (q == kNone) {  // there are no more up to the limit
+      if (q == kNone) {  // there are no more within the limit
         point.first = {limit_, kNone};
         point.knows = Knows::lower_bound;
         return;
@@ -129,12 +130,12 @@ class Boruvka {
     if (best == kNone || precedes(p, best)) best = p;
   }
 
-  /// Asks the tree where a point may have a better edge than its component knows.
+  /// Searches the tree for points that may have a better edge than their component knows.
   void ask() {
     for (Position c = 0; c < points_.size(); ++c)
       if (component_[c] == c)
         reach_[c] = best_[c] == kNone ? limit_ : points_[best_[c]].first.distance;
-    // Neighbours in the order of the tree are near each other: a first bound where there is none.
+    // Neighbours in the order of the tree are near each other: they give a first bound.
     for (Position p = 1; p < points_.size(); ++p) {
       const std::uint32_t a = component_[p - 1], b = component_[p];
       if (a == b || (best_[a] != kNone && best_[b] != kNone)) continue;
@@ -172,14 +173,14 @@ class Boruvka {
     return best == kNone || precedes(p, best);
   }
 
-  /// Takes the best edge of each component. @return whether components are left that may join.
+  /// Takes the best edge of each component. @return true if components are left that may join.
   bool join(FlagEdges& forest) {
     const std::size_t before = components_;
     for (Position c = 0; c < best_.size(); ++c) {
       if (best_[c] == kNone) continue;
       const std::uint32_t a = sets_.find(c),
                           b = sets_.find(component_[points_[best_[c]].first.position]);
-      if (a == b) continue;  // the other component took this edge too
+      if (a == b) continue;  // the other component also took this edge
       sets_.link(a, b);
       --components_;
       forest.push_back(edge_of(best_[c]));
@@ -208,30 +209,32 @@ class Boruvka {
   const double limit_;
   const RunContext& context_;
   std::size_t components_;
-  std::pmr::vector<Position> known_;  // kKnown a point, the nearest first
+  std::pmr::vector<Position> known_;  // kKnown per point, nearest first
   std::pmr::vector<Point> points_;
   std::pmr::vector<std::uint32_t> component_;       // by position: a root of sets_
   std::pmr::vector<std::uint32_t> node_component_;  // by node of the tree
   DisjointSets sets_;
-  std::pmr::vector<Position> best_;              // by component: the point that has its best edge
-  std::pmr::vector<std::atomic<double>> reach_;  // by component: its best edge is no longer
+  std::pmr::vector<Position> best_;  // by component: the point that has its best edge
+  // By component: an upper bound for the length of its best edge.
+  std::pmr::vector<std::atomic<double>> reach_;
   std::pmr::vector<Position> asking_;
 };
 
 }  // namespace
 
 bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
-  constexpr Index most_axes = 8;  // above, boxes exclude little: measured
+  constexpr Index most_axes = 8;  // with more axes, boxes exclude little (measured)
   return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context, double largest) {
   const PointMetric checked(points, distance, p);
-  points = checked.points();  // whose rows are whole
+  points = checked.points();  // now with contiguous rows
   FlagEdges forest(&context.memory);
   const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
-  // Among copies each is joined to the first; no other edge of theirs precedes that of the first.
+  // Each copy is joined to the first of its kind; no other edge of a copy precedes that of the
+  // first.
   for (std::uint32_t i = 0; i < first_equal.size(); ++i)
     if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});
   const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);

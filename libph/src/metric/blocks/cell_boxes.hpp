@@ -12,27 +12,27 @@
 
 namespace ph {
 
-// Squares of lengths say what is far: in a way that is true of the distances that PointMetric
-// computes, rounded as they are.
+// Squares of lengths decide what is far, in a way that holds for the rounded distances of
+// PointMetric.
 
 inline double squared_distance(const double* x, const double* y, Index axes) {
   double sum = 0;
   for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// No two points have a distance of at most the root of `square` if the square of a gap between
-/// them, as computed, is larger than this. Sums of squares have relative errors of (axes + 2) ·
-/// 2^-53, and below 1e-280 any: there is no need to be close.
+/// If the computed square of a gap between two points exceeds this, their distance exceeds the root
+/// of `square`. Sums of squares have relative errors of (axes + 2) · 2^-53, and arbitrary ones
+/// below 1e-280: the bound need not be tight.
 inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
 
-/// The points of a cell, or of some: the box around them, and how far they are from the points of
-/// the sample in their cells.
+/// The box around the points of a cell, or around some of them, and their largest distance from the
+/// points of the sample in their cells.
 class CellBoxes {
  public:
-  /// @param count how many cells, of whatever kind.
+  /// @param count number of cells, of any kind.
   CellBoxes(std::size_t count, Index axes, const RunContext& context)
       : axes_(axes), sides_(count * box_size(), &context.memory), squares_(count, &context.memory) {
     for (std::size_t i = 0; i < sides_.size(); i += 2) {
@@ -40,7 +40,7 @@ class CellBoxes {
       sides_[i + 1] = -std::numeric_limits<double>::infinity();
     }
   }
-  /// @param square of its distance to the sample.
+  /// @param square its squared distance to the sample.
   void add_point(std::size_t i, const double* x, double square) {
     double* const box = sides_.data() + i * box_size();
     for (Index k = 0; k < axes_; ++k) {
@@ -58,13 +58,13 @@ class CellBoxes {
     }
     squares_[i] = std::max(squares_[i], others.squares_[j]);
   }
-  /// Least and largest coordinate, axis by axis; infinite where there are no points.
+  /// Smallest and largest coordinate, axis by axis; infinite if there are no points.
   std::span<const double> box(std::size_t i) const {
     return {sides_.data() + i * box_size(), box_size()};
   }
   /// The square of the largest distance to the sample.
   double square(std::size_t i) const { return squares_[i]; }
-  /// The square of the gap to another box, whose coordinates are `stride` apart; of a point `low`
+  /// The square of the gap to another box, whose coordinates are `stride` apart; for a point, `low`
   /// and `high` are the same.
   double gap(std::size_t i, const double* low, const double* high, Index stride) const {
     const double* const box = sides_.data() + i * box_size();

@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// The coordinates of one point after another, side by side.
+/// The coordinates of points, one point after another, side by side.
 class Rows {
  public:
   explicit Rows(PointsView points)
@@ -54,7 +54,7 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
       sizes_(mine.size()),
       first_block_(mine.begin) {
   if (tree_.cell_count() == 0) return;
-  // To the last bit they depend on whether squares of the whole cloud are plain.
+  // The last bit of distances depends on whether squares of the entire cloud are plain.
   bottlenecks_.emplace(tree_, 0, context);
   scan(mine, context);
   const auto is_plain = [&](double largest) {
@@ -74,7 +74,7 @@ std::uint64_t CloudBlocks::fingerprint_of(PointsView points) {
   return fingerprint;
 }
 
-// What all of the cloud says about a distance, and of the own blocks which points there are.
+// Collects the data of the entire cloud that affect distances, and the points of its own blocks.
 void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
   const Index axes = points_.cols();
   const auto d = static_cast<std::size_t>(axes);
@@ -158,7 +158,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
       PointDistance::euclidean, 2, limit, context, largest_);
   members.coordinates = std::pmr::vector<double>(&context.memory);
 
-  // Who is isolated does not occur.
+  // An isolated point does not occur in the forest.
   std::pmr::vector<bool> occurs(size, false, &context.memory);
   for (const FlagEdge& e : result.edges) occurs[e.u] = occurs[e.v] = true;
   std::pmr::vector<std::uint32_t> place(size, &context.memory);
@@ -166,8 +166,8 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
     place[i] = static_cast<std::uint32_t>(result.numbers.size());
     if (occurs[i]) result.numbers.push_back(members.numbers[i]);
   }
-  // Edges between others are for others to find, but that they join what they join is what all
-  // else was told by.
+  // Other parts find edges between other points, but the search relied on these ends being joined:
+  // this becomes a claim.
   std::size_t kept = 0;
   for (const FlagEdge& e : result.edges) {
     const FlagEdge renumbered{e.value, place[e.u], place[e.v]};
@@ -183,7 +183,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   return result;
 }
 
-/// Edges of the sample's tree that begin in the block.
+/// Claims for the edges of the sample's tree that begin in the block.
 NumberedForest CloudBlocks::sample_claims(std::uint32_t block, double limit,
                                           const RunContext& context) const {
   NumberedForest claims(context);

@@ -13,25 +13,26 @@
 
 namespace ph {
 
-/// Some of the blocks of a cloud: the edges of the cloud's minimum spanning forest that have an end
-/// in them, block by block. Reads the cloud from its begin to its end, once as it is made and once
-/// for each block; holds a block and what is near it.
+/// Some blocks of a cloud, and block by block the edges of the cloud's minimum spanning forest that
+/// have an end in them. It reads the cloud from beginning to end, once when it is made and once per
+/// block; it holds one block and the points near it.
 class CloudBlocks {
  public:
-  /// @param points at least one coordinate each, or all are equal.
-  /// @param sample, blocks as for SampleTree. @param mine which of the blocks.
+  /// @param points with at least one coordinate each; otherwise all are equal.
+  /// @param sample, blocks as for SampleTree. @param mine the blocks of this object.
   /// @throws Error (bad_data) on a coordinate that is not finite; as SampleTree.
   CloudBlocks(PointsView points, std::size_t sample, std::uint32_t blocks, SampleTree::Range mine,
               const RunContext& context);
 
-  /// Of all coordinates of the cloud.
+  /// A fingerprint of all coordinates of the cloud.
   std::uint64_t fingerprint() const { return fingerprint_; }
-  /// The same without blocks. O(coordinates).
+  /// The same without making blocks. O(coordinates).
   static std::uint64_t fingerprint_of(PointsView points);
-  /// How many points the blocks have.
+  /// Number of points in the blocks.
   Index size() const { return size_; }
-  /// All edges of the minimum spanning forest of the cloud that have an end in the block, and that
-  /// it has to look for, and perhaps others. Claims: see docs/explanation/engines/cloud-parts.md.
+  /// All edges of the minimum spanning forest of the cloud that have an end in the block and that
+  /// this block must find, and possibly others. For claims see
+  /// docs/explanation/engines/cloud-parts.md.
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:
@@ -46,7 +47,7 @@ class CloudBlocks {
   PointsView points_;
   SampleTree tree_;
   SampleTree::Cell first_cell_;
-  CellBoxes boxes_;  // two by cell, from first_cell_ on, as NearPoints takes them
+  CellBoxes boxes_;  // two per cell, from first_cell_ on, in the form of NearPoints
   std::vector<Index> sizes_;
   std::uint32_t first_block_;
   double largest_ = 0;

@@ -21,7 +21,7 @@ CellRegions::CellRegions(const SampleTree& tree, std::span<const double> box,
 
 void CellRegions::add(const SampleTree& tree, SampleTree::Node node, std::vector<double>& box) {
   if (tree.is_leaf(node)) {
-    if (tree.cells(node).size() == 0) return;  // nothing lies there
+    if (tree.cells(node).size() == 0) return;  // the node is empty
     const Index axes = tree.points().cols();
     const double* const s = tree.points().row(Index{tree.cells(node).begin});
     std::vector<double> low, high, farthest;
@@ -77,7 +77,8 @@ NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
   mark(SampleTree::kRoot, regions);
 }
 
-// Half of those ahead, around a circle; of opposite ones every other one.
+// Each block looks for half of the blocks ahead of it around a circle, and for alternate ones of
+// those opposite.
 bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks) {
   if (block == other) return false;
   const std::uint64_t ahead = (std::uint64_t{other} + blocks - block) % blocks;
@@ -85,7 +86,7 @@ bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32
   return (std::min(block, other) % 2 == 0) == (block < other);
 }
 
-/// @return whether anything below is not hopeless.
+/// @return true if something below the node is not hopeless.
 bool NearPoints::mark(Node node, const CellRegions& regions) {
   if (node == own_) {
     kinds_[node] = Kind::own;
@@ -108,8 +109,8 @@ bool NearPoints::mark(Node node, const CellRegions& regions) {
   return left || right;
 }
 
-// Of the gap only whether it is beyond that is asked: bottlenecks take a while, and mostly it is
-// clear without.
+// Only one question matters about the gap: does it exceed that bound? Bottlenecks take a while, and
+// the answer is usually clear without them.
 double NearPoints::reach(Node own, double square, double within, SampleTree::Cell cell,
                          double gap) const {
   const double least = reach_of(
@@ -128,7 +129,7 @@ bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
     const double gap = boxes_.gap(own - own_, box, box + 1, 2);
     const double farthest = std::max(boxes_.square(own - own_), square);
     if (gap > reach(own, farthest, within, cells.begin, gap)) return false;
-    // Smaller ones than the node itself are for those below it.
+    // Smaller nodes than the block's own node are handled at the nodes below it.
     if (tree_.is_leaf(own) || tree_.cells(own).size() <= cells.size()) return true;
     return self(self, tree_.left(own)) || self(self, tree_.right(own));
   };
@@ -145,7 +146,7 @@ bool NearPoints::is_near(const double* x, Node leaf) const {
     const double gap = boxes.gap(i, x, x, 1);
     return gap > reach(own, std::max(boxes.square(i), sample.square), 0, sample.cell, gap);
   };
-  std::array<Node, 64> stack;  // as deep as the tree at most
+  std::array<Node, 64> stack;  // at most as deep as the tree
   std::size_t height = 0;
   for (Node own = own_;;) {
     if (!is_beyond(own, boxes_, own - own_)) {

@@ -18,7 +18,7 @@ bool is_same(const FlagEdge& a, const FlagEdge& b) {
   return a.value == b.value && a.u == b.u && a.v == b.v;
 }
 
-/// Ascending numbers and where those of two lists are among them.
+/// The union of two ascending lists of numbers, with the positions of both lists in it.
 struct Merged {
   std::pmr::vector<Index> numbers;
   std::pmr::vector<std::uint32_t> places[2];
@@ -60,7 +60,7 @@ Merged merged(const std::pmr::vector<Index>& a, const std::pmr::vector<Index>& b
   return all;
 }
 
-/// Both are left empty.
+/// Merges two lists of edges; both are left empty.
 FlagEdges merged(FlagEdges& a, FlagEdges& b, const Merged& all, const RunContext& context) {
   const auto renumber = [](FlagEdges& edges, const std::pmr::vector<std::uint32_t>& places) {
     for (FlagEdge& e : edges) e = {e.value, places[e.u], places[e.v]};

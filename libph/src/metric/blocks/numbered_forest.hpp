@@ -8,27 +8,28 @@
 
 namespace ph {
 
-/// The minimum spanning forest of some edges between points of a cloud, and what has to be true of
-/// the whole cloud's. Two of them joined are the one of both lists of edges: whatever the grouping,
-/// the same bytes.
+/// The minimum spanning forest of some edges between points of a cloud, and claims that must hold
+/// for the entire cloud's forest. Joining two of them gives the forest of both lists of edges: the
+/// bytes are the same for every grouping.
 struct NumberedForest {
   explicit NumberedForest(const RunContext& context)
       : numbers(&context.memory), edges(&context.memory), claims(&context.memory) {}
 
-  std::pmr::vector<Index> numbers;  ///< of the points that occur, ascending; below: places in it
-  FlagEdges edges;                  ///< in order
-  /// In order: the ends are joined by edges no longer than that. Those of which that is true
-  /// already are left out.
+  /// Numbers of the points that occur, ascending; edges and claims use positions in it.
+  std::pmr::vector<Index> numbers;
+  FlagEdges edges;  ///< sorted
+  /// Sorted. A claim says that its ends are joined by edges no longer than its value. Claims that
+  /// already hold are left out.
   FlagEdges claims;
 
-  /// Takes in another one. @param context of what is needed meanwhile.
-  /// @throws Error (resource) if they have 2^32 - 1 points or more.
+  /// Takes in another forest. @param context for the memory needed meanwhile.
+  /// @throws Error (resource) if together they have 2^32 - 1 points or more.
   void join(NumberedForest other, const RunContext& context);
-  /// Leaves the edges that Kruskal's algorithm takes, and the claims that are still open.
+  /// Keeps the edges that Kruskal's algorithm takes, and the claims that are still open.
   void reduce(const RunContext& context);
 };
 
-/// By (value, u, v), the order of a filtration.
+/// Sorts by (value, u, v), the order of a filtration.
 void sort_edges(FlagEdges& edges, const RunContext& context);
 
 }  // namespace ph

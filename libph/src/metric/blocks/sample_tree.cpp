@@ -46,7 +46,7 @@ SampleTree::SampleTree(PointsView points, std::size_t sample, std::uint32_t bloc
   split({0, size}, {0, blocks}, order);
   context.poll();
 
-  // From the order in which they were drawn to that of the cells.
+  // Maps the order in which points were drawn to the order of the cells.
   std::vector<std::uint32_t> cell(size);
   for (std::uint32_t c = 0; c < size; ++c) cell[order[c]] = c;
   Points in_order(points_.rows(), points_.cols());
@@ -61,8 +61,8 @@ SampleTree::SampleTree(PointsView points, std::size_t sample, std::uint32_t bloc
     if (s.right != 0 && size > 0) s.point = cell[s.point];
 }
 
-// One of each of `sample` ranges of equal length: points that follow each other in a file are near
-// each other, as a rule. Of copies the first one stays.
+// Draws one point from each of `sample` ranges of equal length, because consecutive points in a
+// file are usually close. The first of several copies stays.
 void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& context) {
   const auto n = static_cast<std::uint64_t>(points.rows());
   const Index axes = points.cols();
@@ -100,7 +100,7 @@ void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& c
   }
 }
 
-/// @param order of all points that were drawn, of which those of the cells are put in order.
+/// @param order of all points that were drawn; the points of the cells are put in order.
 void SampleTree::split(Range cells, Range blocks, std::span<std::uint32_t> order) {
   const auto node = static_cast<Node>(splits_.size());
   splits_.push_back({0, 0, 0, 0});
@@ -151,9 +151,9 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
                           NearSample known) {
   struct Entry {
     SampleTree::Node node;
-    double gap;  // the square of a distance to it: no more than the true one
+    double gap;  // a lower bound for the squared distance to it
   };
-  std::array<Entry, 64> stack;  // one a level, and few points are that many times halved
+  std::array<Entry, 64> stack;  // one per level; a set of points can be halved only this often
   std::size_t height = 0;
   stack[height++] = {tree.node_of_block(block), 0};
   while (height > 0) {
@@ -191,7 +191,7 @@ Bottlenecks::Bottlenecks(const SampleTree& tree, double largest, const RunContex
     return v;
   };
   edges_.reserve(forest.size());
-  // By size: paths to roots are short without being shortened.
+  // Links by size: paths to roots are short without path compression.
   for (const FlagEdge& e : forest) {
     edges_.push_back({e.value, e.u, e.v});
     for (const SampleTree::Cell cell : {e.u, e.v}) first_[cell] = std::min(first_[cell], e.value);

@@ -10,12 +10,14 @@
 
 namespace ph {
 
-/// A cut of space into blocks of about equally many points of a cloud, and of blocks into cells: a
-/// k-d tree (Bentley 1975) over a sample of the cloud, whose leaves, the cells, have one point of
-/// the sample each. Only comparisons decide, so that whoever knows the cloud has the same cut. A
-/// point lies in one cell, copies of it lie there, too, and a point of the sample lies in its own.
+/// Divides space into blocks with about equally many points of a cloud, and blocks into cells: a
+/// k-d tree (Bentley 1975) over a sample of the cloud, whose leaves, the cells, each contain one
+/// point of the sample. Only comparisons decide, which gives the same division to every process
+/// that knows the cloud. A point lies in one cell together with its copies, and a point of the
+/// sample lies in its own cell.
 ///
-/// Cells are numbered from side to side, and so are blocks: a block is some cells in a row.
+/// Cells are numbered from one side to the other, and so are blocks: a block consists of
+/// consecutive cells.
 class SampleTree {
  public:
   using Node = std::uint32_t;
@@ -26,34 +28,36 @@ class SampleTree {
     std::uint32_t size() const { return end - begin; }
   };
 
-  /// @param points one a row. @param sample how many to draw: at most as many as there are, fewer
-  /// than 2^31. @param blocks at least one; more than points that differ leave some empty.
+  /// @param points one per row. @param sample how many points to draw: at most all of them, fewer
+  /// than 2^31. @param blocks at least one; if there are more blocks than distinct points, some are
+  /// empty.
   /// @throws Error (bad_data) on a coordinate that is not finite, if it meets one.
   SampleTree(PointsView points, std::size_t sample, std::uint32_t blocks,
              const RunContext& context);
 
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(numbers_.size()); }
-  /// By cell: its point of the sample; the points differ.
+  /// By cell: its point of the sample; these points are distinct.
   PointsView points() const { return points_; }
-  /// By cell: which point of the cloud that is.
+  /// By cell: the number of that point in the cloud.
   Index number(Cell cell) const { return numbers_[cell]; }
 
-  /// Children come after their parent, the left one right after it; all below a node are in a row.
+  /// Children come after their parent, the left one directly after it; all nodes below a node are
+  /// consecutive.
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(splits_.size()); }
   bool is_leaf(Node node) const { return splits_[node].right == 0; }
   Node left(Node node) const { return node + 1; }
   Node right(Node node) const { return splits_[node].right; }
-  /// The first node that is not below `node`. Precondition: it has one block only.
+  /// The first node after all nodes below `node`. Precondition: `node` has only one block.
   Node end_below(Node node) const {
     return cells(node).size() == 0 ? node + 1 : node + 2 * cells(node).size() - 1;
   }
-  /// What a node has. A leaf has one cell, or none if nothing lies there.
+  /// The cells of a node. A leaf has one cell, or none if it is empty.
   Range cells(Node node) const { return cells_[node]; }
   Range blocks(Node node) const { return blocks_[node]; }
-  /// The node that has the block and no other one.
+  /// The node that has exactly this block.
   Node node_of_block(std::uint32_t block) const { return block_nodes_[block]; }
-  /// Both sides of a split that is in the way: coordinates on the left are not larger, those on the
-  /// right not smaller. -infinity: all is on the right.
+  /// The split of a node: coordinates on the left are not larger, those on the right not smaller.
+  /// -infinity: everything is on the right.
   std::uint32_t axis(Node node) const { return splits_[node].axis; }
   double value(Node node) const { return splits_[node].value; }
 
@@ -68,11 +72,11 @@ class SampleTree {
  private:
   struct Split {
     double value;
-    Node right;  // 0: a leaf
+    Node right;  // 0 for a leaf
     std::uint32_t axis;
-    std::uint32_t point;  // first on the right; its row in drawn_, later its cell
+    std::uint32_t point;  // first point on the right: its row in drawn_, later its cell
   };
-  /// By its coordinates from the axis of the split on, then those before it.
+  /// Compares coordinates from the axis of the split on, then the coordinates before that axis.
   bool precedes(const double* x, const Split& split) const;
   void draw(PointsView points, std::size_t sample, const RunContext& context);
   void split(Range cells, Range blocks, std::span<std::uint32_t> order);
@@ -84,21 +88,21 @@ class SampleTree {
   std::vector<Node> block_nodes_;
 };
 
-/// A point of the sample, and the square of the distance to it.
+/// A point of the sample with its squared distance.
 struct NearSample {
   SampleTree::Cell cell;
   double square;
 };
-/// The nearest one to x in a block. @param known one of the block.
+/// The point of the sample in a block that is nearest to x. @param known a point of the block.
 NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
                           NearSample known);
 
-/// How near the points of a sample are by way of others. The bottleneck of two points is the least
-/// number r such that hops of length at most r within the sample lead from the one to the other:
-/// the longest edge between them in a minimum spanning tree.
+/// The distances between points of a sample by way of other points. The bottleneck of two points is
+/// the least number r such that hops of length at most r within the sample lead from one to the
+/// other: the longest edge between them in a minimum spanning tree.
 class Bottlenecks {
  public:
-  /// @param largest of the cloud, as for PointMetric.
+  /// @param largest for the cloud, as for PointMetric.
   Bottlenecks(const SampleTree& tree, double largest, const RunContext& context);
 
   /// O(log cells).
@@ -111,25 +115,25 @@ class Bottlenecks {
     }
     return longest;
   }
-  /// The square of twice the least one between a cell and another one: points no farther from the
-  /// sample than its root have no longer edges for that.
+  /// The square of twice the least bottleneck between a cell and another cell: points that are no
+  /// farther from the sample than its root have no longer edges because of that distance.
   double square_around(SampleTree::Cell cell) const {
     const double twice = 2 * first_[cell];
     return twice * twice;
   }
-  /// The largest one between two cells of a node.
+  /// The largest bottleneck between two cells of a node.
   double within(SampleTree::Node node) const { return within_[node]; }
 
   struct Edge {
     double length;
     SampleTree::Cell a, b;
   };
-  /// Those of the minimum spanning tree, the shortest first.
+  /// The edges of the minimum spanning tree, shortest first.
   std::span<const Edge> edges() const { return edges_; }
 
  private:
   std::pmr::vector<std::uint32_t> parent_;
-  std::pmr::vector<double> length_;  // of the edge by which a set joined that of its parent
+  std::pmr::vector<double> length_;  // length of the edge by which a set joined its parent's set
   std::pmr::vector<double> first_;   // the shortest edge of a cell
   std::pmr::vector<double> within_;
   std::pmr::vector<Edge> edges_;
