@@ -12,11 +12,11 @@
 namespace ph::plot {
 namespace {
 
-/// Floor of the decimal logarithm of a positive number.
+/// The floor of the decimal logarithm of a positive number.
 int magnitude(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 double in_units(double value, int exponent) {
-  // In two steps: a power of ten beyond 10^±308 is not a double, half of it is.
+  // Scales in two steps: a power of ten beyond 10^±308 is not a double, but its root is.
   const int half = exponent / 2;
   return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
 }
@@ -28,7 +28,7 @@ std::string superscript(int number) {
   return text;
 }
 
-/// 1, 2 or 5 times a power of ten, about as large.
+/// A number of about this size that is 1, 2 or 5 times a power of ten.
 double round_step(double rough) {
   const double power = std::pow(10.0, magnitude(rough));
   double step = 10 * power;
@@ -37,7 +37,7 @@ double round_step(double rough) {
   return step;
 }
 
-/// Whether numbers of this magnitude are written without a power of ten.
+/// True if numbers of this magnitude are written without a power of ten.
 bool has_plain_labels(int power) { return power >= -3 && power <= 4; }
 
 }  // namespace
@@ -72,8 +72,8 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   }
   low_ = in_units(low, exponent_);
   high_ = in_units(high, exponent_);
-  // Equal ends, or so near to each other that doubles between them are few: a class that lives
-  // there begins at the left and has room to go on.
+  // The ends are equal, or so close that few doubles lie between them: widens the axis so that a
+  // class begins at the left and has room to go on.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
 }
@@ -96,7 +96,7 @@ std::string Axis::label_of(double value, int decimals) const {
   return label;
 }
 
-/// At 1, 2 and 5 times powers of ten, or at powers alone, as many as there is room for.
+/// Ticks at 1, 2 and 5 times powers of ten, or at powers only, depending on the room.
 std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   std::vector<Tick> ticks;
   const auto add = [&](double factor, int power) {
@@ -120,9 +120,9 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   return ticks;
 }
 
-/// At round values: less than a decade has no two powers of ten.
+/// Ticks at round values, because less than a decade does not contain two powers of ten.
 std::vector<Axis::Tick> Axis::round_values(int count) const {
-  // In a unit in which neither the ends nor a step leave the range of double.
+  // Uses a unit in which neither the ends nor a step leave the range of double.
   const auto unit = static_cast<int>(std::floor(negated_ ? -low_ : high_));
   const double least = std::pow(10.0, (negated_ ? -high_ : low_) - unit),
                most = std::pow(10.0, (negated_ ? -low_ : high_) - unit);
@@ -168,7 +168,7 @@ std::string Axis::unit() const { return shows_unit_ ? "×10" + superscript(expon
 
 void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const {
   std::vector<Tick> shown = ticks(6);
-  // Long labels need room: at 7 points a digit is about 4 wide.
+  // Long labels need room: a digit of 7 points is about 4 points wide.
   for (int count = 5; count >= 2; --count) {
     double needed = 0;
     for (const Tick& tick : shown)
@@ -179,7 +179,7 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   for (const Tick& tick : shown) {
     canvas.line(tick.position, top, tick.position, bottom, kGrid, 0.5);
     canvas.line(tick.position, bottom, tick.position, bottom + 2.5, kInk, 0.6);
-    // The last one must not leave the picture.
+    // The last label must not leave the picture.
     const double half = 2.0 * static_cast<double>(tick.label.size()) + 1;
     canvas.text(std::min(tick.position, kWidth - half), bottom + 9.5, tick.label, Anchor::middle);
   }

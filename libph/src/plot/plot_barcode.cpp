@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kGap = 7;  // between dimensions
 
-/// What is drawn of one dimension.
+/// The drawing of one dimension.
 struct Panel {
   int dim = 0;
   std::span<const Bar> bars;
   Longest places;  // in the barcode's order
 };
 
-/// The rows of each dimension: as many as it has bars, as far as all get the same at least.
+/// The number of rows for each dimension: one per bar if possible, otherwise a fair share.
 std::vector<std::size_t> share_rows(const std::vector<Panel>& panels) {
   std::vector<std::size_t> rows(panels.size(), 0);
   std::size_t free = std::max(kRows, 4 * panels.size());

@@ -13,13 +13,13 @@ constexpr double kLeft = 38, kRight = 242;
 constexpr double kHeight = 52, kGap = 9;  // of one dimension's curve
 constexpr double kColumn = 0.25;          // steps inside a column cannot be told apart
 
-/// The curve from one value on.
+/// The value of the curve from a position on.
 struct Step {
   double x = 0;
   long living = 0;
 };
 
-/// The number of living bars as a function of the position: a step where it changes.
+/// The number of living bars as a function of the position, with a step at each change.
 std::vector<Step> steps_of(std::span<const Bar> bars, const Axis& axis) {
   std::vector<std::pair<double, long>> events;
   events.reserve(2 * bars.size());
@@ -38,7 +38,7 @@ std::vector<Step> steps_of(std::span<const Bar> bars, const Axis& axis) {
   return steps;
 }
 
-/// Keeps the first, lowest, highest and last step of each column.
+/// Keeps the first, lowest, highest and last step of each column of the picture.
 std::vector<Step> thinned(const std::vector<Step>& steps) {
   std::vector<Step> kept;
   for (std::size_t begin = 0; begin < steps.size();) {
@@ -57,7 +57,7 @@ std::vector<Step> thinned(const std::vector<Step>& steps) {
   return kept;
 }
 
-/// Whole numbers for the vertical axis: two or three of them.
+/// The step between two or three integers on the vertical axis.
 long count_step(long most) {
   long step = 1;
   for (long power = 1; power <= most; power *= 10)
@@ -66,7 +66,7 @@ long count_step(long most) {
   return most / step > 3 ? 10 * step : step;
 }
 
-/// 20k for 20,000: the ticks are round.
+/// Writes 20k for 20,000, because the ticks are round.
 std::string count_label(long count) {
   if (count >= 1'000'000 && count % 100'000 == 0)
     return fmt::format("{}M", static_cast<double>(count) / 1e6);

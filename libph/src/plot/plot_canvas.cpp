@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
 
-/// Bytes of the UTF-8 character at the start of `text` if XML may hold it, else 0.
+/// Number of bytes of the UTF-8 character at the start of `text` if XML allows it, otherwise 0.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -22,7 +22,7 @@ std::size_t character_length(std::string_view text) {
   if (two < 0xe0a0 && first == 0xe0) return 0;                        // overlong
   if (two >= 0xeda0 && first == 0xed) return 0;                       // surrogates
   if (first == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe) return 0;  // U+FFFE, U+FFFF
-  if ((two < 0xf090 && first == 0xf0) || two > 0xf48f) return 0;      // overlong, too large
+  if ((two < 0xf090 && first == 0xf0) || two > 0xf48f) return 0;      // overlong or too large
   return length;
 }
 
@@ -86,7 +86,7 @@ void Canvas::picture(double x, double y, double width, double height, const Rast
 }
 
 void Canvas::title(const std::string& title) {
-  constexpr std::size_t fits = 52;  // characters of 8 points across the picture
+  constexpr std::size_t fits = 52;  // characters of 8 points that fit the width of the picture
   const std::vector<std::string> characters = characters_of(title);
   std::string shown;
   for (std::size_t i = 0; i < characters.size(); ++i) {

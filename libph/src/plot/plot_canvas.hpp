@@ -14,22 +14,22 @@
 
 namespace ph::plot {
 
-/// 0x00RRGGBB.
+/// A colour as 0x00RRGGBB.
 using Colour = std::uint32_t;
 
 inline constexpr double kWidth = 250;   // points: 88 mm, a column of a paper
-inline constexpr Index kPixels = 1040;  // across a PNG: 300 dots an inch
+inline constexpr Index kPixels = 1040;  // width of a PNG: 300 dots per inch
 inline constexpr double kDotsPerInch = 300;
-inline constexpr double kHalo = 1.6;  // width of a line around text, half of it outside
+inline constexpr double kHalo = 1.6;  // width of a line around text, half of it outside the text
 inline constexpr Colour kInk = 0x222222, kGrey = 0x767676, kGrid = 0xe4e4e4, kWhite = 0xffffff;
 
-/// Okabe and Ito's colours, told apart with every kind of colour vision.
+/// The colours of Okabe and Ito, which people with any kind of colour vision can distinguish.
 Colour colour_of_dim(int dim);
-/// "H" and a dimension in Unicode's subscript digits; the same for any other letter.
+/// "H" (or another letter) with a dimension in Unicode's subscript digits.
 std::string with_subscript(std::string_view letter, int number);
-/// "12,345"
+/// Formats a number as "12,345".
 std::string grouped(std::size_t number);
-/// The characters of a text in UTF-8, those that XML cannot hold replaced by U+FFFD.
+/// The characters of a UTF-8 text; characters that XML does not allow become U+FFFD.
 std::vector<std::string> characters_of(std::string_view text);
 
 /// Lines, open or closed, and circles.
@@ -39,11 +39,11 @@ class Outline {
     move_to,
     line_to,
     line_by,
-    horizontal_to,  // x only
+    horizontal_to,  // has only x
     horizontal_by,
-    vertical_to,  // y only
+    vertical_to,  // has only y
     vertical_by,
-    circle_by,  // one that begins and ends here, x wide, to the right
+    circle_by,  // starts and ends here; x is its width, to the right
     close
   };
   struct Step {
@@ -78,20 +78,20 @@ enum class Anchor { start, middle, end };
 enum class Look {
   plain,
   bold,
-  upwards,  ///< turned, from below to above
-  haloed    ///< bold, white around it
+  upwards,  ///< turned, to be read from below
+  haloed    ///< bold, with white around it
 };
 enum class Stroke { solid, dashed };
 
-/// How an outline is drawn. What overlaps of one outline is one area.
+/// The style of an outline. Overlapping parts of one outline form a single area.
 struct Style {
   std::optional<Colour> fill = {}, stroke = {};
-  double stroke_width = 1;  ///< round where two lines meet
+  double stroke_width = 1;  ///< lines meet in round joints
   double fill_opacity = 1;
-  bool crisp = false;  ///< no smooth edges: areas that touch have no seam
+  bool crisp = false;  ///< without smooth edges: adjacent areas show no seam
 };
 
-// What a picture consists of.
+// The elements of a picture.
 struct Line {
   double x1, y1, x2, y2;
   Colour colour;
@@ -108,7 +108,7 @@ struct Shape {
   Style style;
 };
 struct Text {
-  double x, y;  // of its baseline
+  double x, y;  // start of its baseline
   std::string content;
   Anchor anchor;
   double size;
@@ -121,11 +121,11 @@ struct Picture {
 };
 using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
 
-/// A whole picture on white. Formats are made of it: to_svg, to_raster.
+/// A complete picture on white. to_svg and to_raster convert it to file formats.
 struct Drawing {
-  double height = 0, width = kWidth;  // points
-  std::optional<PlotSize> size = {};  // empty: 88 mm wide, kPixels
-  std::string title, description;     // for those who cannot see it
+  double height = 0, width = kWidth;  // in points
+  std::optional<PlotSize> size = {};  // if empty: 88 mm wide, kPixels
+  std::string title, description;     // for readers who cannot see it
   std::vector<Element> elements;
 };
 
@@ -135,38 +135,39 @@ class Canvas {
   void line(double x1, double y1, double x2, double y2, Colour colour, double width,
             Stroke stroke = Stroke::solid);
   void rect(double x, double y, double width, double height, Colour colour, double opacity = 1);
-  /// Nothing is drawn of an empty outline.
+  /// Draws nothing if the outline is empty.
   void shape(Outline outline, const Style& style);
   void text(double x, double y, std::string_view content, Anchor anchor = Anchor::start,
             double size = 7, Colour colour = kInk, Look look = Look::plain);
-  /// @param raster outlives the drawing.
+  /// @param raster must outlive the drawing.
   void picture(double x, double y, double width, double height, const Raster& raster);
-  /// The title above everything; cut in its middle if it is too long.
+  /// Draws the title above everything, cut in the middle if it is too long.
   void title(const std::string& title);
-  /// The whole; the canvas is empty then.
+  /// Returns the complete drawing and leaves the canvas empty.
   Drawing finish(double height, std::string_view title, std::string_view description);
 
  private:
   std::vector<Element> elements_;
 };
 
-/// The least and the largest finite value; 0 and 1 if there is none, 1 and 10 of logarithms.
+/// The smallest and the largest finite value; if there is none, 0 and 1, or 1 and 10 for
+/// logarithms.
 struct Range {
   double low = 0;
   double high = 1;
 };
 
-/// Maps the finite values of a barcode to positions and says where the ticks are. Safe for values
-/// of any size: it computes in units of a power of ten.
+/// Maps the finite values of a barcode to positions and places the ticks. It is safe for values of
+/// any size, because it computes in units of a power of ten.
 class Axis {
  public:
-  /// @param range values at the ends, which the options may replace; widened if they are equal.
-  /// @throws Error (usage) if the options leave no room.
+  /// @param range the values at the ends, which the options may replace; equal values are widened.
+  /// @throws Error (usage) if the options leave an empty range.
   Axis(const Range& range, const PlotOptions& options, double from, double to);
 
   double from() const { return from_; }
   double to() const { return to_; }
-  /// Position of a value; an infinite one, or one beyond the ends, lies at the end.
+  /// Position of a value; a value that is infinite or beyond an end lies at that end.
   double at(double value) const;
 
   struct Tick {
@@ -175,50 +176,53 @@ class Axis {
   };
   /// About `count` ticks at round numbers.
   std::vector<Tick> ticks(int count) const;
-  /// "×10⁻⁶" if the labels are in such units, else empty.
+  /// "×10⁻⁶" if the labels are in such units, otherwise empty.
   std::string unit() const;
-  /// Draws gridlines between `top` and `bottom`, ticks, labels and the axis' name below `bottom`.
+  /// Draws gridlines between `top` and `bottom`, and below `bottom` ticks, labels and the name of
+  /// the axis.
   void draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const;
 
  private:
   std::vector<Tick> powers_of_ten(int count) const;
   std::vector<Tick> round_values(int count) const;
   std::string label_of(double value, int decimals) const;
-  /// A value in the units of low_ and high_. Of negated data the logarithm is that of their own.
+  /// A value in the units of low_ and high_. For negated data, the logarithm is taken of the data's
+  /// own values.
   double in_scale(double value) const;
 
-  double low_ = 0, high_ = 1;  // in units of 10^exponent_; of a logarithmic axis the logarithms
+  double low_ = 0, high_ = 1;  // in units of 10^exponent_; logarithms on a logarithmic axis
   double from_, to_;
   int exponent_ = 0;
   bool shows_unit_ = false, logarithmic_ = false, negated_ = false;
 };
 
-/// The limits of the axis as values of the bars: of negated data they change places.
+/// The limits of the axis as values of the bars; for negated data they are swapped.
 PlotAxis limits_of(const PlotOptions& options);
-/// Of what has a place on the axis; of none one that says nothing.
+/// The range of the values on the axis; an arbitrary range if there are none.
 Range finite_range(const Barcode& barcode, const PlotOptions& options);
 Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
                    const PlotOptions& options);
-/// Whether a class has a place on the axis. @param limits see limits_of.
+/// True if a class is visible on the axis. @param limits see limits_of.
 bool is_shown(double birth, double death, const PlotAxis& limits);
-/// The bars that are drawn, without cells. @param beyond how many are not, for the axis.
+/// The bars that are drawn, without cells. @param beyond the number of bars that are beyond the
+/// axis.
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
-/// What is not drawn, at the left, beside the name of the axis.
+/// Explains the bars beyond the axis, at the left, beside the name of the axis.
 void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
-/// The drawing in the middle of a picture of that size.
+/// Puts the drawing into the middle of a picture of that size.
 Drawing fitted(Drawing drawing, const PlotOptions& options);
 /// The dimensions that have bars, ascending.
 std::vector<int> dims_of(const Barcode& barcode);
-/// "214 bars in H₀, 3 in H₁"
+/// A description such as "214 bars in H₀, 3 in H₁".
 std::string description_of(const Barcode& barcode);
 
-// Of what is shown of a barcode. @param beyond how many bars are not, for the axis.
+// Draws the visible bars of a barcode. @param beyond the number of bars that are beyond the axis.
 Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options);
 Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options);
-/// Of any of the kinds. @throws Error (internal) on an unknown one.
+/// Draws any kind of plot. @throws Error (internal) on an unknown kind.
 Drawing draw(const Barcode& barcode, const PlotOptions& options);
 
 std::string to_svg(const Drawing& drawing);

@@ -15,7 +15,7 @@ constexpr double kGap = 12;   // between columns
 constexpr double kRow = 9.5;  // height
 constexpr double kSquare = 6;
 
-/// Column by column. @return where the next thing below may begin.
+/// Draws the legend column by column. @return the top of the free space below it.
 double draw_legend(Canvas& canvas, const ColouredPicture& picture, double top) {
   if (!picture.heading.empty()) {
     canvas.text(kLeft, top + 6, picture.heading, Anchor::start, 6, kGrey);
@@ -46,13 +46,13 @@ Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options
   if (raster.samples.empty())
     throw Error(ErrorKind::bad_data, fmt::format("{}: found {} x {} pixels, expected some",
                                                  raster.name, raster.width, raster.height));
-  // Pixels of the raster are those of a PNG unless there are too many.
+  // Pixels of the raster become pixels of a PNG, unless there are too many.
   const double pixel = kWidth / static_cast<double>(std::max(kPixels, raster.width));
   const double width = pixel * static_cast<double>(raster.width);
   const double height = pixel * static_cast<double>(raster.height);
   canvas.picture((kWidth - width) / 2, top, width, height, raster);
   for (const auto& [x, y, text] : picture.marks) {
-    constexpr double size = 6.5, half = 0.36 * size;  // of a digit
+    constexpr double size = 6.5, half = 0.36 * size;  // size of a digit
     canvas.text((kWidth - width) / 2 + pixel * x, top + pixel * y + half, text, Anchor::middle,
                 size, kInk, Look::haloed);
   }

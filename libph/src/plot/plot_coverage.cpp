@@ -4,7 +4,7 @@
 namespace ph::plot {
 namespace {
 
-/// Where a line is at a height; its ends are not at the same one.
+/// The point of a line at a height; the ends of the line have different heights.
 Place at_height(Place from, Place to, double y) {
   return {from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y), y};
 }
@@ -22,7 +22,7 @@ Coverage::Coverage(std::size_t width, std::size_t height)
       end_row_(0) {}
 
 void Coverage::add(Place from, Place to) {
-  if (from.y == to.y) return;  // has no say in what lies on its right
+  if (from.y == to.y) return;  // a horizontal edge does not change the coverage
   const auto bottom = static_cast<double>(height_);
   const double high = std::clamp(std::min(from.y, to.y), 0.0, bottom);
   const double low = std::clamp(std::max(from.y, to.y), 0.0, bottom);
@@ -40,7 +40,8 @@ void Coverage::add(Place from, Place to) {
 }
 
 void Coverage::add_within_row(std::size_t row, Place from, Place to) {
-  // Beyond the left edge all pixels of the row are on its right, beyond the right edge none is.
+  // If the edge is left of the picture, all pixels of the row are on its right; if it is right of
+  // the picture, none is.
   const auto right = static_cast<double>(width_);
   if (std::max(from.x, to.x) <= 0 || std::min(from.x, to.x) >= right || from.x == to.x) {
     from.x = to.x = std::clamp(from.x, 0.0, right);
@@ -64,7 +65,7 @@ void Coverage::add_within_pixel(std::size_t row, Place from, Place to) {
   const auto column =
       std::min(width_, static_cast<std::size_t>(std::max(0.0, std::min(from.x, to.x))));
   if (column == width_) return;
-  // The part of the pixel that lies on the right of the edge, and all of those behind it.
+  // Adds the part of the pixel on the right of the edge, and all pixels after it.
   const double height = to.y - from.y;
   const double middle = (from.x + to.x) / 2 - static_cast<double>(column);
   float* const change = change_.data() + row * (width_ + 1) + column;

@@ -8,26 +8,27 @@
 
 namespace ph::plot {
 
-/// A place in pixels, y downwards.
+/// A position in pixels, with y pointing down.
 struct Place {
   double x = 0, y = 0;
 };
 
-/// How much of each pixel an area covers. Areas are added by their edges; those that go around in
-/// the same direction and overlap are one area.
+/// The part of each pixel that an area covers. Areas are added by their edges; overlapping areas
+/// with the same orientation form a single area.
 class Coverage {
  public:
   Coverage(std::size_t width, std::size_t height);
 
-  /// An edge of an area, which may lie beyond the picture; the edges of an area go all around it.
+  /// Adds an edge of an area, which may lie outside the picture; all edges of the area must be
+  /// added.
   void add(Place from, Place to);
-  /// A polygon, which closes itself.
+  /// Adds a polygon, which is closed automatically.
   void add(std::span<const Place> corners);
-  /// The same, turned around if it goes the other way: polygons that overlap are one area.
+  /// The same, with the orientation reversed if necessary: overlapping polygons form a single area.
   void add_turned(std::span<const Place> corners);
 
-  /// Calls visit(pixel, part), the number of a pixel row by row and 0 < part <= 1, and forgets
-  /// what was added.
+  /// Calls visit(pixel, part) with the number of a pixel, row by row, and 0 < part <= 1; then
+  /// forgets the areas.
   template <class Visit>
   void take(Visit&& visit);
 
@@ -36,12 +37,12 @@ class Coverage {
   void add_within_pixel(std::size_t row, Place from, Place to);
 
   std::size_t width_, height_;
-  // Row by row, with a column more: by how much the coverage changes from the pixel on the left.
+  // Row by row, with one extra column: the change of the coverage from the pixel on the left.
   std::vector<float> change_;
-  std::size_t first_row_, end_row_;  // those that were touched
+  std::size_t first_row_, end_row_;  // range of rows that were touched
 };
 
-/// The area of a polygon, positive if it goes around clockwise (y downwards).
+/// The area of a polygon, positive if it is oriented clockwise (y pointing down).
 double signed_area(std::span<const Place> corners);
 
 template <class Visit>

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kLeft = 34, kRight = 242;
 constexpr double kInfinityRoom = 14;        // between the infinity line and the finite values
-constexpr std::size_t kMostMarkers = 1500;  // more cannot be told apart
-constexpr std::size_t kCrispBars = 120;     // that are markers where there are more
+constexpr std::size_t kMostMarkers = 1500;  // more markers cannot be distinguished
+constexpr std::size_t kCrispBars = 120;     // bars drawn as markers if there are too many for all
 
-/// Bars of one dimension that cannot be told apart in the picture.
+/// Bars of one dimension that coincide in the picture.
 struct Marker {
   double x = 0, y = 0;
   std::size_t count = 0;
@@ -26,8 +26,8 @@ struct Marker {
 
 using Places = std::map<std::tuple<int, long, long>, Marker>;
 
-/// Joins what lies in one square of a quarter of a point; a marker of several stands in their
-/// middle.
+/// Merges bars in the same square of a quarter of a point; a marker of several bars is at their
+/// mean.
 template <class PlaceOf>
 Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
   constexpr double cell = 0.25;
@@ -42,12 +42,12 @@ Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
   return places;
 }
 
-/// What is drawn one by one, and as a density.
+/// Bars that are drawn one by one, and bars that are drawn as a density.
 struct Parts {
   std::vector<Bar> crisp, rest;
 };
 
-/// The longest of each dimension are crisp, and all that never die.
+/// The longest bars of each dimension and all infinite bars are drawn one by one.
 Parts parts_of(const Barcode& barcode) {
   Parts parts;
   const std::vector<int> dims = dims_of(barcode);
@@ -66,7 +66,7 @@ double radius_of(std::size_t count) {
   return 1.7 * (1 + 0.45 * std::log10(static_cast<double>(count)));
 }
 
-/// A shape of its own for each dimension: colours may be lost in print.
+/// Draws a different shape for each dimension, because colours may be lost in print.
 void add_shape(Outline& to, int dim, double x, double y, double r) {
   switch (dim % 4) {
     case 1:  // a triangle
@@ -85,7 +85,7 @@ void add_shape(Outline& to, int dim, double x, double y, double r) {
   }
 }
 
-/// "Filtration value" in the middle of a phrase; words like "XY" stay.
+/// Writes "Filtration value" with a small letter for use inside a phrase; words like "XY" stay.
 std::string lower_first(std::string text) {
   const auto in = [](char c, char a, char b) { return c >= a && c <= b; };
   if (text.size() > 1 && in(text[0], 'A', 'Z') && in(text[1], 'a', 'z'))
@@ -93,16 +93,16 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-/// How many bars lie in each of the squares of a picture.
+/// Counts the bars in each square of a picture.
 class Squares {
  public:
-  /// @param side in pixels of a PNG, so that squares that touch have no seam there.
+  /// @param side in pixels of a PNG, which avoids seams between adjacent squares.
   explicit Squares(int side) : side_(side * kWidth / static_cast<double>(kPixels)) {}
 
   void add(int dim, double x, double y) { ++counts_[{dim, number(y), number(x)}]; }
   std::size_t size() const { return counts_.size(); }
 
-  /// The darker the more; one path a dimension and shade keeps the file small.
+  /// More bars are darker; one path per dimension and shade keeps the file small.
   void draw(Canvas& canvas) const {
     constexpr int shades = 12;
     std::map<int, std::size_t> most;
@@ -136,7 +136,7 @@ class Squares {
   std::map<std::tuple<int, long, long>, std::size_t> counts_;
 };
 
-/// The axes of a diagram, and where on it a bar is.
+/// The axes of a diagram, and the positions of bars on it.
 class Frame {
  public:
   Frame(const Barcode& barcode, const PlotOptions& options, double top)
@@ -160,7 +160,7 @@ class Frame {
   }
 
   void draw(Canvas& canvas, const std::string& value_label) const {
-    Outline below;  // the diagonal, where no bar can be
+    Outline below;  // the area below the diagonal, where no bar can be
     below.move_to(left_, bottom_).line_to(kRight, finite_top_).vertical_to(bottom_).close();
     canvas.shape(std::move(below), {.fill = 0xf3f3f3});
     const std::vector<Axis::Tick> ticks = deaths_.ticks(6);
@@ -188,7 +188,7 @@ class Frame {
   }
 
  private:
-  /// By a margin, unless it would not be finite.
+  /// Widens by a margin, unless the result would not be finite.
   static Range widened(Range range, bool logarithmic) {
     if (logarithmic) return range;
     const double margin = 0.03 * (range.high / 2 - range.low / 2) * 2;
@@ -210,17 +210,17 @@ void draw_markers(Canvas& canvas, const Places& places, double left) {
   for (const auto& [where, marker] : places)
     add_shape(shapes[std::get<0>(where)], std::get<0>(where), marker.x, marker.y,
               radius_of(marker.count));
-  // White edges keep single markers apart; where there are many they would hide them.
+  // White edges separate single markers; if there are many, the edges would hide them.
   const auto edge = places.size() <= 60 ? std::optional(kWhite) : std::nullopt;
   for (auto& [dim, outline] : shapes)
     canvas.shape(
         std::move(outline),
         {.fill = colour_of_dim(dim), .stroke = edge, .stroke_width = 0.25, .fill_opacity = 0.8});
-  // Few markers have room for the number of bars that each stands for.
+  // If there are few markers, there is room for the number of bars that each stands for.
   if (places.size() > 40) return;
   for (const auto& [where, marker] : places) {
     if (marker.count == 1) continue;
-    // To the upper left, away from the diagonal, but not over the axis.
+    // Puts the number at the upper left, away from the diagonal, but not over the axis.
     const bool near_axis = marker.x < left + 16;
     const double shift = radius_of(marker.count) + 0.8;
     canvas.text(near_axis ? marker.x + shift : marker.x - shift, marker.y - 1.5,
@@ -242,7 +242,7 @@ void draw_density(Canvas& canvas, const std::vector<Bar>& bars, const Frame& fra
   squares->draw(canvas);
 }
 
-/// Below the diagonal no bar can be: that is where the legend has room.
+/// No bar can be below the diagonal: the legend has room there.
 void draw_legend(Canvas& canvas, const Barcode& barcode, double bottom, bool joined,
                  std::size_t shaded) {
   double y = bottom - 5;

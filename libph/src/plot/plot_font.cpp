@@ -12,7 +12,8 @@
 
 #include "ph/error.hpp"
 
-// The font, DejaVu Sans, as CMake found it: where a program runs there may be none, or another one.
+// The font, DejaVu Sans, as CMake found it: a machine that runs the program may have no font or a
+// different one.
 extern "C" {
 extern const unsigned char kFontBegin[] __asm__("ph_plot_font_begin");
 extern const unsigned char kFontEnd[] __asm__("ph_plot_font_end");
@@ -37,11 +38,11 @@ __asm__(PH_READ_ONLY
 namespace ph::plot {
 namespace {
 
-constexpr double kNarrow = 0.9;  // as wide as Helvetica, for which the pictures are laid out
-constexpr int kPieces = 5;       // of a curve
+constexpr double kNarrow = 0.9;  // as wide as Helvetica, for which pictures are designed
+constexpr int kPieces = 5;       // line segments per curve
 
-// What FreeType allocates by. Where that fails it reports whatever it could not do then, a missing
-// module for one: `user` points to whether it has failed.
+// The allocator of FreeType. When memory runs out, FreeType reports a different error, such as a
+// missing module; `user` points to a flag that tells if allocation failed.
 extern "C" {
 static void* allocate(FT_Memory memory, long size) {
   void* const block = std::malloc(static_cast<std::size_t>(size));
@@ -64,8 +65,8 @@ char32_t code_point(const std::string& character) {
   return code;
 }
 
-/// One outline of a glyph in the units of the font: corners, and between them points that pull
-/// (of quadratic Bézier curves). Two of those that follow each other have a corner in their middle.
+/// One outline of a glyph in font units: corners, and control points of quadratic Bézier curves
+/// between them. Two consecutive control points have a corner in their middle.
 /// @param tags of the points: char, since FreeType 2.13.3 unsigned char.
 std::vector<Place> flattened(std::span<const FT_Vector> points, const auto* tags, double unit) {
   const std::size_t count = points.size();
@@ -107,7 +108,7 @@ struct Font::Face {
   FT_Face face = nullptr;
 
   ~Face() {
-    if (library != nullptr) FT_Done_Library(library);  // and its faces
+    if (library != nullptr) FT_Done_Library(library);  // with its faces
   }
   /// @throws std::bad_alloc; Error (internal).
   void require(FT_Error error) const {
@@ -130,7 +131,7 @@ const Font::Glyph& Font::glyph(const std::string& character) {
   const auto found = glyphs_.find(character);
   if (found != glyphs_.end()) return found->second;
   FT_Face face = face_->face;
-  // In units of the font: hinting would depend on the version of FreeType.
+  // Works in font units, because hinting depends on the version of FreeType.
   face_->require(
       FT_Load_Glyph(face, FT_Get_Char_Index(face, code_point(character)), FT_LOAD_NO_SCALE));
   const double unit = 1.0 / face->units_per_EM;

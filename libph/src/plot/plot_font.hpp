@@ -9,13 +9,13 @@
 
 namespace ph::plot {
 
-/// The font that the library has in it, for pictures made of pixels.
+/// The font built into the library, for pictures made of pixels.
 class Font {
  public:
-  /// Areas around holes go around clockwise, holes the other way. For a size of 1.
+  /// Outer outlines are clockwise, outlines of holes are counterclockwise. The size is 1.
   struct Glyph {
-    std::vector<std::vector<Place>> outlines;  // the baseline begins at the origin
-    double advance = 0;                        // to the next one
+    std::vector<std::vector<Place>> outlines;  // the origin is the start of the baseline
+    double advance = 0;                        // distance to the next character
   };
 
   /// @throws Error (internal) if FreeType cannot read the font; std::bad_alloc.
@@ -24,10 +24,10 @@ class Font {
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// Of a character in UTF-8; a box of one that the font lacks.
+  /// The glyph of a UTF-8 character; a box if the font lacks it.
   const Glyph& glyph(const std::string& character);
 
-  /// "FreeType 2.12.1, DejaVu Sans"
+  /// A name such as "FreeType 2.12.1, DejaVu Sans".
   static std::string name();
 
  private:

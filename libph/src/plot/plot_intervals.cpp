@@ -9,7 +9,7 @@ namespace ph::plot {
 namespace {
 
 constexpr double kStrip = 7;     // height of a density
-constexpr double kColumn = 0.5;  // width of what has one darkness
+constexpr double kColumn = 0.5;  // width of a part with constant darkness
 
 }  // namespace
 

@@ -6,23 +6,24 @@
 
 #include "plot/plot_canvas.hpp"
 
-// What the pictures of barcodes and of merge trees have in common: classes as lines over the
-// filtration value, the longest crisp, the others as a density.
+// Code shared by pictures of barcodes and merge trees: classes as lines over the filtration value,
+// the longest one by one, the others as a density.
 namespace ph::plot {
 
-inline constexpr double kFirstValue = 30, kLastValue = 242;  // where the axis begins and ends
-inline constexpr double kTriangle = 4.5;                     // room behind it
+inline constexpr double kFirstValue = 30, kLastValue = 242;  // start and end of the axis
+inline constexpr double kTriangle = 4.5;                     // room for a triangle after the axis
 inline constexpr std::size_t kRows = 96;                     // lines in one picture
-inline constexpr double kDensityHeight = 16;                 // with its caption
+inline constexpr double kDensityHeight = 16;                 // including its caption
 
-/// Places in a list, ascending: of the longest classes, and of all others.
+/// Positions in a list, ascending: of the longest classes, and of all others.
 struct Longest {
   std::vector<std::size_t> crisp, rest;
 };
-/// @param most so many are crisp; all if the others are but a handful. @param length of a place.
+/// @param most number of classes drawn one by one; all, if the others are only a handful. @param
+/// length of the class at a position.
 template <class Length>
 Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
-  constexpr std::size_t handful = 8;  // takes less room than a density
+  constexpr std::size_t handful = 8;  // takes less space than a density
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t crisp = count <= most + handful ? count : most;
@@ -37,31 +38,31 @@ Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
   return longest;
 }
 
-/// The distance of lines.
+/// The distance between lines.
 double pitch_of(std::size_t rows);
 
-/// Lines of one colour, one a class; a triangle ends one that never dies.
+/// Lines of one colour, one per class; a triangle ends a class that never dies.
 class Lines {
  public:
   Lines(const Axis& axis, double pitch);
   void add(double birth, double death, double y);
   /// @pre it has not been drawn yet.
   void draw(Canvas& canvas, Colour colour);
-  /// Where a line begins.
+  /// The start of a line.
   double start(double birth) const;
 
  private:
   const Axis& axis_;
-  double pitch_, half_;  // of a triangle
+  double pitch_, half_;  // half the size of a triangle
   Outline lines_, triangles_;
 };
 
-/// How many of the other classes live at each value, as the darkness of a strip.
+/// The number of the remaining classes alive at each value, shown as the darkness of a strip.
 class Density {
  public:
   explicit Density(const Axis& axis);
   void add(double birth, double death);
-  /// With its caption, kDensityHeight high.
+  /// Draws the strip with its caption, kDensityHeight high.
   void draw(Canvas& canvas, double top, Colour colour) const;
 
  private:
@@ -72,7 +73,7 @@ class Density {
   std::vector<double> change_;  // by column
 };
 
-/// What a triangle means, at the right, beside the name of the axis.
+/// Explains the triangles, at the right, beside the name of the axis.
 void explain_triangles(Canvas& canvas, double bottom);
 
 }  // namespace ph::plot

@@ -12,13 +12,13 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kBold = 0.045;  // of the size: what bold adds
+constexpr double kBold = 0.045;  // thickening by bold type, as a share of the size
 
-/// Pixels across a picture.
+/// Width of a picture in pixels.
 Index pixels_across(const Drawing& drawing) {
   return drawing.size ? drawing.size->width : std::lround(kPixels * drawing.width / kWidth);
 }
-/// Pixels a point.
+/// Pixels per point.
 double scale_of(const Drawing& drawing) {
   return static_cast<double>(pixels_across(drawing)) / drawing.width;
 }
@@ -27,7 +27,7 @@ Index pixels_down(const Drawing& drawing) {
                       : std::max<Index>(1, std::lround(scale_of(drawing) * drawing.height));
 }
 
-/// Fills `corners` with those of a circle, of a radius in pixels, around its middle.
+/// Fills `corners` with the corners of a circle with this centre and radius, in pixels.
 void make_circle(std::vector<Place>& corners, Place middle, double radius) {
   const int count = std::clamp(static_cast<int>(6 + 4 * std::sqrt(radius)), 8, 128);
   corners.clear();
@@ -43,7 +43,7 @@ struct Piece {
   bool closed = false;
 };
 
-/// Calls visit(piece) for each part of an outline; they share their memory, `piece`.
+/// Calls visit(piece) for each part of an outline; all of them use the memory of `piece`.
 template <class Visit>
 void for_each_piece(const Outline& outline, double scale, Piece& piece, Visit&& visit) {
   using Verb = Outline::Verb;
@@ -119,7 +119,7 @@ class Painter {
     paint(line.colour, 1);
   }
 
-  /// On whole pixels: what is side by side has no seam.
+  /// Rounds to entire pixels: adjacent rectangles show no seam.
   void operator()(const Rectangle& rect) {
     const auto whole = [this](double points) { return std::round(scale_ * points); };
     const double left = whole(rect.x), right = whole(rect.x + rect.width);
@@ -152,7 +152,7 @@ class Painter {
     paint(text.colour, 1);
   }
 
-  /// The nearest pixel of the picture for each of ours.
+  /// Takes the nearest pixel of the picture for each output pixel.
   void operator()(const Picture& picture) {
     const Raster& from = *picture.raster;
     const auto whole = [this](double points) { return std::lround(scale_ * points); };
@@ -169,13 +169,13 @@ class Painter {
   Raster take() { return std::move(raster_); }
 
  private:
-  /// Of grey or RGB, 8 or 16 bits.
+  /// A sample from grey or RGB, with 8 or 16 bits.
   static std::uint16_t sample(const Raster& raster, Index x, Index y, int channel) {
     const std::uint16_t value = raster.at(x, y, raster.channels < 3 ? 0 : channel);
     return raster.bits == 16 ? static_cast<std::uint16_t>(value >> 8) : value;
   }
 
-  /// @param halo width of a line along the outlines, pixels.
+  /// @param halo width of a line along the outlines, in pixels.
   void add_text(const Text& text, double halo) {
     const std::vector<std::string> characters = characters_of(text.content);
     const double size = scale_ * text.size;
@@ -215,7 +215,7 @@ class Painter {
                                                {to.x + x, to.y + y}}});
   }
 
-  /// Round where two lines meet.
+  /// Lines meet in round joints.
   void add_stroke(const Piece& piece, double width) {
     const std::vector<Place>& corners = piece.corners;
     for (std::size_t i = 1; i < corners.size(); ++i) add_stroke(corners[i - 1], corners[i], width);
@@ -227,7 +227,7 @@ class Painter {
     }
   }
 
-  /// What has been added, in a colour.
+  /// Paints the collected areas in a colour.
   void paint(Colour colour, double opacity) {
     coverage_.take([&](std::size_t pixel, double part) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -239,11 +239,11 @@ class Painter {
     });
   }
 
-  double scale_;  // pixels a point
+  double scale_;  // pixels per point
   Raster raster_;
   Coverage coverage_;
-  Piece piece_;                // what is being added
-  std::vector<Place> circle_;  // a joint of it
+  Piece piece_;                // the part being added
+  std::vector<Place> circle_;  // a joint of that part
   Font font_;
 };
 

@@ -5,10 +5,10 @@
 
 namespace ph::plot {
 
-/// Bytes that to_raster needs, and writing what it makes as a PNG.
+/// Bytes that to_raster needs, including writing its result as a PNG.
 std::size_t raster_bytes(const Drawing& drawing);
 
-/// The drawing as RGB. @throws std::bad_alloc.
+/// Converts the drawing to RGB. @throws std::bad_alloc.
 Raster to_raster(const Drawing& drawing);
 
 }  // namespace ph::plot

@@ -11,7 +11,7 @@
 namespace ph::plot {
 namespace {
 
-/// Text as XML content or attribute; what XML cannot hold becomes U+FFFD.
+/// Escapes text for XML content or attributes; characters that XML does not allow become U+FFFD.
 std::string xml_escaped(std::string_view text) {
   std::string out;
   for (const std::string& c : characters_of(text)) {
@@ -30,7 +30,7 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-/// A coordinate with two decimals at most.
+/// Formats a coordinate with at most two decimals.
 std::string coordinate(double value) {
   std::string text = fmt::format("{:.2f}", value);
   while (text.back() == '0') text.pop_back();
@@ -140,7 +140,7 @@ std::string element(const Text& text) {
 
 std::string element(const Picture& picture) {
   std::ostringstream png;
-  png.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  png.exceptions(std::ios::badbit);  // otherwise the stream would hide lack of memory
   write_png(png, *picture.raster);
   return fmt::format(
       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" "

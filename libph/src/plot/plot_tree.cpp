@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// The branches that are drawn, each with its row.
+/// The branches that are drawn, with a row for each.
 class Layout {
  public:
-  /// @param shown places in `tree`, ascending.
+  /// @param shown positions in `tree`, ascending.
   Layout(std::span<const Branch> tree, const std::vector<std::size_t>& shown)
       : tree_(tree), shown_(shown), row_(shown.size()), children_(shown.size()) {
     std::vector<std::size_t> roots;
@@ -31,11 +31,11 @@ class Layout {
   }
 
   std::size_t row(std::size_t k) const { return row_[k]; }
-  /// The place among those shown; kNone: of one that never dies.
+  /// The position of the elder among the branches shown; kNone if the branch never dies.
   std::size_t elder(std::size_t k) const { return shown_elder(shown_[k]); }
 
  private:
-  /// The next elder that is drawn: among equally long ones it may be left out.
+  /// The next elder that is drawn: among equally long branches, the elder may be left out.
   std::size_t shown_elder(std::size_t branch) const {
     while (!tree_[branch].is_infinite()) {
       branch = static_cast<std::size_t>(tree_[branch].elder);
@@ -52,8 +52,8 @@ class Layout {
     return rows;
   }
 
-  /// A branch between those that join it. The sooner one joins the nearer it is, so that no line
-  /// crosses another; each goes to the side that has fewer rows.
+  /// Places a branch between the branches that join it. A branch that joins earlier is nearer,
+  /// which avoids crossings; each goes to the side with fewer rows.
   void place(std::size_t k) {
     std::vector<std::size_t> above, below;
     std::size_t rows_above = 0, rows_below = 0;
@@ -74,7 +74,7 @@ class Layout {
   std::size_t next_ = 0;
 };
 
-/// @throws Error (bad_data) on NaN, or unless each branch comes to an end at one that never dies.
+/// @throws Error (bad_data) on NaN, or unless each branch leads to one that never dies.
 void check(std::span<const Branch> tree) {
   const auto refuse = [](std::size_t i, const std::string& found, const std::string& expected) {
     throw Error(ErrorKind::bad_data,
@@ -104,7 +104,7 @@ void check(std::span<const Branch> tree) {
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   check(tree);
   Canvas canvas;
-  // One of no length is no bar either.
+  // A branch of length zero is not a bar either.
   const PlotAxis limits = limits_of(options);
   std::vector<std::size_t> classes;
   std::size_t beyond = 0;

@@ -20,7 +20,7 @@ std::string png_of(const RunContext& context, const PlotOptions& options, Draw&&
   const plot::Drawing drawing = plot::fitted(draw(), options);
   const MemoryClaim claim(context.memory, plot::raster_bytes(drawing));
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  out.exceptions(std::ios::badbit);  // otherwise the stream would hide lack of memory
   write_png(out, to_raster(drawing));
   return std::move(out).str();
 }
