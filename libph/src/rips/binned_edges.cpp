@@ -13,28 +13,28 @@
 namespace ph {
 namespace {
 
-// Not the function itself: a call through a pointer is not inlined.
+// A lambda instead of the function, because a call through a pointer is not inlined.
 constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
 
-constexpr std::size_t kFew = 32;  // edges that are sorted by insertion
+constexpr std::size_t kFew = 32;  // edges up to this number are sorted by insertion
 
-// Edges by the value of a digit.
+// Edges divided by the value of a digit.
 struct Split {
-  std::pmr::vector<std::size_t> ends;  // of the edges with each value
-  int shift;                           // of the digit
+  std::pmr::vector<std::size_t> ends;  // ends of the edges with each value
+  int shift;                           // position of the digit
 };
 
-// Moves edges whose values share the bits from `shift` on into parts by the next bits, about as
-// many parts as edges.
+// Divides edges whose values share the bits from `shift` on into parts by the next bits, into about
+// as many parts as edges.
 Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
-  constexpr int most_bits = 12;  // counts stay in the cache
+  constexpr int most_bits = 12;  // keeps the counts in the cache
   const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});
   const std::size_t parts = std::size_t{1} << bits;
   Split result{{parts, 0, buffer.get_allocator().resource()}, shift - bits};
   const auto digit = [parts, shift = result.shift](const FlagEdge& e) {
     return std::bit_cast<std::uint64_t>(e.value) >> shift & (parts - 1);
   };
-  auto& next = result.ends;  // where the next edge of a part goes
+  auto& next = result.ends;  // place of the next edge of a part
   for (const FlagEdge& e : edges) ++next[digit(e)];
   std::size_t sum = 0;
   for (std::size_t& count : next) sum += std::exchange(count, sum);
@@ -43,7 +43,7 @@ Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   return result;
 }
 
-// For edges that are few places away from theirs.
+// For edges that are only a few places away from their final place.
 void sort_by_insertion(std::span<FlagEdge> edges) {
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const FlagEdge e = edges[i];
@@ -58,7 +58,7 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
     sort_by_insertion(edges);
     return true;
   }
-  // Ties arrive in order from a matrix: integers are sorted when they come.
+  // Ties from a matrix arrive in order: edges with integer values are already sorted.
   if (std::is_sorted(edges.begin(), edges.end(), kInOrder)) return true;
   if (shift > 0) return false;
   std::sort(edges.begin(), edges.end(), kInOrder);
@@ -67,7 +67,7 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
 
 void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer);
 
-// Sorts edges that were split, from one of the parts on.
+// Sorts edges that were divided, from one of the parts on.
 void sort_parts(std::span<FlagEdge> edges, std::size_t begin, std::span<const std::size_t> ends,
                 int shift, FlagEdges& buffer) {
   const std::size_t first = begin;
@@ -75,7 +75,7 @@ void sort_parts(std::span<FlagEdge> edges, std::size_t begin, std::span<const st
     if (end - begin > kFew) sort_edges(edges.subspan(begin, end - begin), shift, buffer);
     begin = end;
   }
-  sort_by_insertion(edges.subspan(first, begin - first));  // the small ones, all at once
+  sort_by_insertion(edges.subspan(first, begin - first));  // all small parts at once
 }
 
 void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
@@ -84,7 +84,7 @@ void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   sort_parts(edges, 0, parts.ends, parts.shift, buffer);
 }
 
-// @param ends of bins, ascending. @return those of the bins that are not empty.
+// @param ends ends of bins, ascending. @return the ends of the bins that are not empty.
 std::pmr::vector<std::size_t> without_empty(std::span<const std::size_t> ends,
                                             const RunContext& context) {
   std::pmr::vector<std::size_t> result(&context.memory);
@@ -135,7 +135,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   FlagEdges buffer(&context_->memory);
   const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer are sorted before a thread has started
+  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer are sorted before a thread would start
   const std::size_t pieces = edges.size() / edges_a_piece + 1;
   for_each_piece("sort edges", parts.ends.size(), (parts.ends.size() + pieces - 1) / pieces,
                  *context_, [&](std::size_t first, std::size_t last) {
@@ -146,7 +146,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
 }
 
 void BinnedEdges::sort_ahead(std::size_t bin) const {
-  constexpr std::size_t few = 1 << 14;  // a thread costs more
+  constexpr std::size_t few = 1 << 14;  // a thread would cost more
   if (bin >= bin_count() || bin_begin(bin + 1) - bin_begin(bin) < few) return;
   if (thread_count(*context_) < 2) return;
   const std::lock_guard lock(lazy_->mutex);
@@ -159,14 +159,14 @@ void BinnedEdges::sort_ahead(std::size_t bin) const {
       FlagEdges buffer(&context->memory);
       sort_edges(edges, shift, buffer);
     } catch (...) {
-      return;  // in some order still: whoever needs the bin sorts it, and meets the error
+      return;  // still unsorted: the caller that needs the bin sorts it, and meets the error
     }
     lazy->is_next_sorted = true;
   };
   try {
     lazy_->ahead = std::jthread(sort);
   } catch (const std::system_error&) {
-    return;  // no thread to be had
+    return;  // no thread is available
   }
 }
 
@@ -190,7 +190,7 @@ void EdgeBinner::allocate(double limit) {
 BinnedEdges EdgeBinner::finish() {
   const std::size_t last = bin_of_(limit_);
   const auto ends = std::span(counts_).subspan(begin_of(workers_ - 1), last + 1);
-  // In the last bin not all were within the limit: the workers' parts move together.
+  // Not all edges of the last bin were within the limit: the workers' parts are moved together.
   auto to = edges_.begin() + static_cast<std::ptrdiff_t>(last == 0 ? 0 : ends[last - 1]);
   for (std::size_t w = 0; w < workers_; ++w)
     to = std::copy(edges_.begin() + static_cast<std::ptrdiff_t>(last_parts_[w]),
@@ -228,8 +228,9 @@ BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context) {
   for (const FlagEdge& e : edges) ++next[bin_of(e.value)];
   std::inclusive_scan(next.begin(), next.end(), ends.begin());
   for (std::size_t bin = 0; bin < next.size(); ++bin) next[bin] = ends[bin] - next[bin];
-  // The "American flag" of McIlroy, Bostic and McIlroy, Engineering radix sort (1993): an edge goes
-  // to the next place of its bin, whoever was there goes on, until one comes that belongs here.
+  // The "American flag" sort of McIlroy, Bostic and McIlroy, Engineering radix sort (1993): an edge
+  // goes to the next place of its bin and displaces the edge there, which moves on, until an edge
+  // arrives that belongs here.
   for (std::size_t bin = 0; bin < next.size(); ++bin)
     for (; next[bin] < ends[bin]; ++next[bin]) {
       FlagEdge& here = edges[next[bin]];

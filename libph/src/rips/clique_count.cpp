@@ -15,12 +15,13 @@ namespace {
 using Vertex = std::uint32_t;
 using Set = std::pmr::vector<Vertex>;  // ascending
 
-constexpr double kFewCells = 1 << 20;   // cells that are counted one by one
-constexpr std::size_t kSamples = 4000;  // of edges
-constexpr double kSteps = 1 << 27;      // of the sample: fewer edges where degrees are high
+constexpr double kFewCells = 1 << 20;   // up to this number, cells are counted one by one
+constexpr std::size_t kSamples = 4000;  // sampled edges
+// Steps of the sample: fewer edges are sampled if degrees are high.
+constexpr double kSteps = 1 << 27;
 constexpr std::size_t kFewestSamples = 200;
 
-/// The neighbours of each vertex in a list.
+/// The neighbours of each vertex, as a list.
 class Neighbours {
  public:
   Neighbours(const RipsGraph& graph, const RunContext& context)
@@ -31,7 +32,7 @@ class Neighbours {
       ++first_[e.v];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    for (const FlagEdge& e : graph.edges()) {  // each list from its end
+    for (const FlagEdge& e : graph.edges()) {  // fills each list from its end
       lists_[--first_[e.u]] = e.v;
       lists_[--first_[e.v]] = e.u;
     }
@@ -76,9 +77,10 @@ class CliqueCounter {
   }
 
  private:
-  // Knuth (1975): an edge taken at random is extended vertex by vertex, each taken at random among
-  // those joined to all before. What there was to choose from, multiplied, is the expected number
-  // of ways to come to a clique so: C(d+1,2) edges to begin with, (d-1)! orders of the rest.
+  // The method of Knuth (1975): a random edge is extended vertex by vertex, each chosen at random
+  // among the vertices joined to all before. The product of the numbers of choices is the expected
+  // number of ways to build a clique; each clique can be built from C(d+1,2) first edges and in
+  // (d-1)! orders of the rest.
   std::vector<double> estimate() {
     std::vector<double> sums(top_ + 1, 0);
     const std::size_t edges = graph_.edge_count();
@@ -86,12 +88,13 @@ class CliqueCounter {
     const auto samples = static_cast<std::size_t>(
         std::clamp(kSteps / (1 + 2 * degree * static_cast<double>(top_)),
                    static_cast<double>(kFewestSamples), static_cast<double>(kSamples)));
-    std::mt19937_64 random(1);  // the same estimate each time
+    std::mt19937_64 random(1);  // a fixed seed gives the same estimate each time
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     Set set(&context_.memory), next(&context_.memory);
     Ticker ticker(context_, "cells", samples);
     for (std::size_t i = 0; i < samples; ++i) {
-      // One edge of each of as many pieces of the order: long and short ones have their share.
+      // Takes one edge from each of equal pieces of the order, which gives long and short edges
+      // their share.
       const std::size_t begin = i * edges / samples, end = (i + 1) * edges / samples;
       const FlagEdge& e = graph_.edges()[begin + (end > begin ? below(end - begin) : 0)];
       intersect(neighbours_.of(e.u), neighbours_.of(e.v), set);
@@ -117,7 +120,7 @@ class CliqueCounter {
     return sums;
   }
 
-  /// Counts dimensions 2 … `last`: each clique from its smallest vertex up.
+  /// Counts dimensions 2 … `last`, each clique from its smallest vertex up.
   void count(std::vector<double>& counts, std::size_t last) {
     std::fill(counts.begin() + 2, counts.begin() + static_cast<std::ptrdiff_t>(last) + 1, 0.0);
     std::vector<Set> sets(last + 1, Set(&context_.memory));

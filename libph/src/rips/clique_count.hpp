@@ -7,14 +7,14 @@
 
 namespace ph {
 
-/// How many cells of each dimension a flag complex has.
+/// The number of cells of each dimension in a flag complex.
 struct CliqueCounts {
   std::vector<double> counts;  ///< by dimension; trailing zeros are left out
-  int counted_dims = 0;        ///< the dimensions below are counted, the others estimated
+  int counted_dims = 0;        ///< lower dimensions are counted, the others estimated
 };
 
-/// Counts the cliques of up to top + 1 vertices: one by one where there are few, else by a sample.
-/// Takes 8 bytes an edge and a small part of a second.
+/// Counts the cliques of up to top + 1 vertices: one by one if there are few, otherwise by a
+/// sample. Takes 8 bytes per edge and a fraction of a second.
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.
 CliqueCounts count_cliques(const RipsGraph& graph, int top, const RunContext& context);
 

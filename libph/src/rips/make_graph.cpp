@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// A copy of some rows, counted for as long as it is held.
+/// A copy of some rows, counted as long as it is held.
 HeldPoints rows_of(PointsView points, std::span<const std::uint32_t> rows,
                    const RunContext& context) {
   struct Copy {
@@ -73,7 +73,7 @@ RipsGraph edges_of_points(PointsView points, const RipsOptions& options,
   return RipsGraph::of_metric(metric, options.threshold, context, weights);
 }
 
-/// @param weights of the points, which all become vertices.
+/// @param weights the weights of the points, all of which become vertices.
 RipsGraph graph_of_all_points(const HeldPoints& points, const RipsOptions& options, RipsForm form,
                               const VertexWeights& weights, const RunContext& context) {
   if (form == RipsForm::points)
@@ -85,7 +85,7 @@ RipsGraph graph_of_all_points(const HeldPoints& points, const RipsOptions& optio
 RipsGraph graph_of_distinct_points(const HeldPoints& points, const RipsOptions& options,
                                    RipsForm form, const VertexWeights& weights,
                                    const RunContext& context) {
-  // Copies with births would be one vertex with the first of them: not worth the code.
+  // Merging copies that have births is not worth the code.
   if (merges_equal_points(options, form) && weights.births().empty()) {
     const WholeRows whole(points.view);
     const std::pmr::vector<std::uint32_t> firsts =
@@ -118,7 +118,7 @@ RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, RipsForm 
   return graph;
 }
 
-/// Makes a form of each kind of data.
+/// Makes a form from each kind of data.
 struct Maker {
   const RipsOptions& options;
   RipsForm form;
@@ -161,7 +161,7 @@ struct Maker {
   }
 };
 
-/// @throws Error (usage) on what no GPU does.
+/// @throws Error (usage) on a task that no GPU can do.
 void check_device(const RipsData& data, const RipsOptions& options) {
   if (options.device == Device::cpu) return;
   std::string_view found;

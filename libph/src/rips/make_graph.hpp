@@ -9,31 +9,31 @@
 
 namespace ph {
 
-/// Points with whoever owns them; null: the caller of Rips::borrowed does.
+/// Points with their owner; if it is null, the caller of Rips::borrowed owns them.
 struct HeldPoints {
   PointsView view;
   std::shared_ptr<const Points> owner;
 };
 
-/// A metric of the user's own with the object that it reads.
+/// A metric of the user, with the object that it reads.
 struct HeldMetric {
   AnyMetric metric;
   std::shared_ptr<const void> owner;
 };
 
-/// What a Rips filtration is of.
+/// The data of a Rips filtration.
 using RipsData = std::variant<HeldPoints, DistanceMatrix, SparseDistances, HeldMetric>;
 
 Index size_of(const RipsData& data);
 
-/// Which points are vertices and when they enter, once the options are settled.
+/// The points that are vertices and their births, once the options are settled.
 struct ChosenVertices {
-  std::span<const std::uint32_t> vertices;  ///< ascending; empty: all
-  std::span<const double> births;           ///< by point of the input; empty: all at 0
+  std::span<const std::uint32_t> vertices;  ///< ascending; if empty, all points
+  std::span<const double> births;           ///< by point of the input; if empty, all are 0
 };
 
-/// @throws Error (usage) on options that the data cannot have, Error (bad_data) on coordinates that
-/// are no numbers, Error (resource) on too many points.
+/// @throws Error (usage) on options that do not fit the data, Error (bad_data) on coordinates that
+/// are not finite, Error (resource) on too many points.
 void check_options(const RipsData& data, const RipsOptions& options, const RunContext& context);
 
 /// Makes a form of the filtration. Precondition: check_options has passed.

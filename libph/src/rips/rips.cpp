@@ -18,7 +18,7 @@
 namespace ph {
 namespace {
 
-/// Bytes of numbers that nobody else holds.
+/// Bytes of the numbers that nobody else holds.
 std::size_t bytes_of(const RipsData& data) {
   const auto* points = std::get_if<HeldPoints>(&data);
   return points && points->owner ? static_cast<std::size_t>(points->view.size()) * sizeof(double)
@@ -40,7 +40,7 @@ HeldPoints copied(PointsView points, const RunContext& context) {
 
 namespace detail {
 
-/// The data of a filtration, counted for as long as a copy or a form holds them.
+/// The data of a filtration, counted as long as a copy or a form holds them.
 struct HeldInput {
   HeldInput(RipsData data_held, const RunContext& context)
       : data(std::move(data_held)), claim(context.memory, bytes_of(data)) {}
@@ -48,14 +48,15 @@ struct HeldInput {
   MemoryClaim claim;
 };
 
-/// What is made once, by the first thread that asks for it; the others wait. Nothing stays of what
-/// was stopped or found no memory. (Not std::call_once: an exception that passes it ends the
-/// process where memory has run out, since glibc then loads what it needs to unwind.)
+/// A value that is made once, by the first thread that asks; the others wait. If the work was
+/// stopped or ran out of memory, nothing is kept. (std::call_once is not used: when memory has run
+/// out, an exception that passes through it ends the process, because glibc then loads the library
+/// that it needs for unwinding.)
 template <class T>
 class Once {
  public:
   const T* made() const { return made_.load(std::memory_order_acquire); }
-  /// @param make returns a std::unique_ptr<const T>. @param context of whoever waits.
+  /// @param make returns a std::unique_ptr<const T>. @param context of the waiting thread.
   template <class Make>
   const T& get(const RunContext& context, Make&& make) {
     if (const T* there = made()) return *there;
@@ -77,30 +78,31 @@ class Once {
   std::atomic<const T*> made_{nullptr};
 };
 
-/// What a subsample or a distance to a measure decides.
+/// The decisions of a subsample or of a distance to a measure.
 struct VertexChoice {
   std::vector<std::uint32_t> vertices;
   std::vector<double> births;
   std::optional<double> covering_radius;
 };
 
-/// A form with the context that it was made with: that of the call may end before the form does.
+/// A form and the context that it was made with, because the context of the call may end before the
+/// form does.
 struct MadeForm {
-  /// @param counts outlives the form.
+  /// @param counts must outlive the form.
   MadeForm(const RunContext& counts, const RunContext& call) : context(counts.memory) {
     if (&counts != &call) context.memory.set_limit(call.memory.left());
     context.stop = call.stop;
     context.on_progress = call.on_progress;
     context.threads = call.threads;
   }
-  /// From now on the form is bounded by the context that counts it, and nobody stops it.
+  /// From now on only the counting context limits the form, and nothing can stop it.
   void settle() {
     context.memory.set_limit(MemoryBudget::kUnlimited);
     context.stop = {};
     context.on_progress = nullptr;
   }
   RunContext context;
-  std::shared_ptr<const HeldInput> input;  // whose points the graph may refer to
+  std::shared_ptr<const HeldInput> input;  // the graph may refer to its points
   std::optional<RipsGraph> graph;
 };
 
@@ -195,7 +197,7 @@ struct Rips::State {
   }
 
   std::shared_ptr<const detail::HeldInput>
-      input;  // null: a graph was given, or the input was given back
+      input;  // null if a graph was given, or the input was freed
   Index size;
   RipsOptions options;
   const RunContext* context = &default_context();

@@ -16,7 +16,7 @@ RipsAdjacency::RipsAdjacency(std::size_t vertices, std::span<const FlagEdge> edg
 }
 
 bool RipsAdjacency::is_dense(std::size_t vertices, std::size_t edges) {
-  // A matrix takes 4 n^2 bytes, lists take 16 bytes an edge.
+  // A matrix takes 4 n^2 bytes, lists take 16 bytes per edge.
   const double n = static_cast<double>(vertices);
   return vertices > 0 && static_cast<double>(edges) >= n * (n - 1) / 8;
 }
@@ -51,8 +51,9 @@ void RipsAdjacency::lay_out_sparse(std::span<const FlagEdge> edges) {
   }
 }
 
-// Matula & Beck (1983): take away a vertex of least degree again and again; the largest degree at
-// removal is the degeneracy. Vertices wait in a list sorted by degree, with the start of each bin.
+// The algorithm of Matula & Beck (1983): repeatedly removes a vertex of least degree; the largest
+// degree at removal is the degeneracy. Vertices wait in a list sorted by degree, with the start of
+// each bin.
 Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   const std::size_t n = size_;
   if (n == 0) return 0;
@@ -71,7 +72,8 @@ Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   }
   std::uint32_t degeneracy = 0;
   const auto lower_degree = [&](std::uint32_t w, std::uint32_t floor) {
-    if (degree[w] <= floor) return;  // already taken away, or cannot fall below the current least
+    // Already removed, or cannot fall below the current least degree.
+    if (degree[w] <= floor) return;
     const std::uint32_t first = bin[degree[w]], other = order[first];
     std::swap(order[place[w]], order[first]);
     std::swap(place[w], place[other]);

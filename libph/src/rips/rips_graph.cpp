@@ -28,7 +28,7 @@ void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
 }
 
 double RipsGraph::checked_distance(Index i, Index j, double value) {
-  if (value >= 0) return value + 0.0;  // -0.0 becomes +0.0
+  if (value >= 0) return value + 0.0;  // turns -0.0 into +0.0
   throw Error(ErrorKind::bad_data,
               fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, value));
 }
@@ -78,7 +78,8 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
                               const VertexWeights& weights) {
   check_arguments(size, threshold);
   const double limit = threshold.value_or(kNoLimit);
-  const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
+  // An infinite distance is not an edge.
+  const double last = std::min(limit, std::numeric_limits<double>::max());
   const auto value_of = [&](const WeightedEdge& e) {
     return weights.edge_value(e.u, e.v, e.value);
   };
@@ -115,7 +116,7 @@ RipsGraph RipsGraph::forest_on_gpu(PointsView points, std::optional<double> thre
                                    const RunContext& context) {
   check_arguments(points.rows(), threshold);
   const double limit = threshold.value_or(kNoLimit);
-  BinnedEdges edges(gpu::spanning_forest(PointMetric(points), limit, context));  // in order
+  BinnedEdges edges(gpu::spanning_forest(PointMetric(points), limit, context));  // sorted
   RipsGraph graph(points.rows(), limit, std::move(edges), context);
   graph.is_forest_ = true;
   return graph;

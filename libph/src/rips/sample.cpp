@@ -14,7 +14,7 @@ double pairs_of(Index points) {
   return static_cast<double>(points) * static_cast<double>(points - 1) / 2;
 }
 
-/// Random points of 0 … size - 1, the same ones on every platform.
+/// Random points in 0 … size - 1, the same on every platform.
 class RandomPoints {
  public:
   explicit RandomPoints(Index size) : size_(static_cast<std::uint64_t>(size)) {}
@@ -38,7 +38,7 @@ std::vector<double> distances_of(const M& metric) {
   return distances;
 }
 
-/// At least the enclosing radius: that of the best of some points.
+/// An upper bound for the enclosing radius, from the best of some points.
 template <Metric M>
 double radius_of(const M& metric, const RunContext& context) {
   double least = std::numeric_limits<double>::infinity();

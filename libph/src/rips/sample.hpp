@@ -4,7 +4,7 @@
 
 namespace ph {
 
-/// As Rips::sample.
+/// The same as Rips::sample.
 RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);
 
 }  // namespace ph

@@ -16,7 +16,7 @@ double VertexWeights::meeting(double b, double c, double distance) const {
       value = std::max(born, distance + (b / 2 + c / 2));
       break;
     case WeightExponent::two:
-      // Where 4 d^2 < |b^2 - c^2| the younger point is born inside the elder's ball.
+      // If 4 d^2 < |b^2 - c^2|, the younger point is born inside the elder's ball.
       if (2 * distance > std::sqrt(std::abs(b - c)) * std::sqrt(b + c))
         value = std::max(value, std::hypot(distance, b / 2 + c / 2) *
                                     (std::hypot(distance, b / 2 - c / 2) / distance));
@@ -26,7 +26,7 @@ double VertexWeights::meeting(double b, double c, double distance) const {
     case WeightExponent::infinity:
       break;
   }
-  // Taken for an infinite distance, it would pass for "never joined".
+  // An infinite distance would be understood as "never joined".
   if (value > std::numeric_limits<double>::max()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("two weighted points meet beyond the largest double, {}; scale "

@@ -20,13 +20,14 @@
 
 namespace ph {
 
-/// The classes of edges under the living generators of H^1: each generator is a cocycle, and the
+/// The classes of edges under the living generators of H^1. Each generator is a cocycle, and the
 /// annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a homology
-/// basis) is the vector of their values on it. Edges of one class share one vector; an edge that
-/// was never annotated has the zero vector. a(u,v) = -a(v,u).
+/// basis) is the vector of the generators' values on it. Edges of the same class share one vector;
+/// an edge that was never annotated has the zero vector. a(u,v) = -a(v,u).
 ///
-/// Dead generators are substituted in a class when it is next asked for. Two classes that became
-/// equal may be two until then, and edges of a class that became zero still be active.
+/// Dead generators are substituted in a class when it is next asked for. Until then, two classes
+/// that became equal may still be separate, and edges of a class that became zero may still be
+/// active.
 template <Field K>
 class Annotations {
  public:
@@ -34,7 +35,7 @@ class Annotations {
   using Term = typename DeadGenerators<K>::Term;
   using Vector = typename DeadGenerators<K>::Vector;
 
-  /// A class up to sign; of two vectors +-a one is stored. 0 is the zero class.
+  /// A class up to sign: only one of the vectors +-a is stored. 0 is the zero class.
   struct Class {
     std::uint32_t id = 0;
     bool negated = false;
@@ -43,8 +44,8 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  /// @param edges outlives this: those of non-zero class, none in the beginning. @param
-  /// keeps_values whether for_each_value will be asked for.
+  /// @param edges receives the edges of non-zero class, starting with none; it must outlive this
+  /// object. @param keeps_values true if for_each_value will be called.
   Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
               std::pmr::memory_resource* memory)
       : field_(field),
@@ -70,19 +71,20 @@ class Annotations {
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
 
-  /// An edge as the caller knows it.
+  /// An edge in the caller's terms.
   struct Edge {
     std::uint32_t u, v;      ///< u > v
     std::uint32_t position;  ///< any number
   };
 
-  /// A generator whose value on a new edge is one and zero on all others.
+  /// Adds a generator whose value is one on a new edge and zero on all others.
   void add_generator(const Edge& edge) {
     scratch_.clear();
     scratch_.emplace_back(add_generator(edge.position), field_.from_int(1));
     assign(edge, intern());
   }
-  /// A generator whose value is zero on all edges so far. @param birth the position of its edge.
+  /// Adds a generator whose value is zero on all edges so far. @param birth the position of its
+  /// edge.
   Generator add_generator(std::uint32_t birth) {
     births_.push_back(birth);
     if (keeps_values_) occurrences_.emplace_back();
@@ -90,7 +92,7 @@ class Annotations {
   }
   std::uint32_t birth(Generator g) const { return births_[g]; }
   std::size_t living_count() const { return births_.size() - dead_.count(); }
-  /// Calls `visit(generator, birth)` for those that live, from the oldest on.
+  /// Calls `visit(generator, birth)` for the living generators, oldest first.
   template <class Visit>
   void for_each_living(Visit&& visit) const {
     for (Generator g = 0; g < births_.size(); ++g)
@@ -113,16 +115,16 @@ class Annotations {
     ActiveEdges::Label* label = edges_.find(u, v);
     if (label == nullptr) return {};
     const Class a = resolve({*label / 2, *label % 2 != 0});
-    if (!a.is_zero()) *label = label_of(a);  // else the edge is active no more
+    if (!a.is_zero()) *label = label_of(a);  // otherwise the edge is no longer active
     return a;
   }
-  /// Annotates an edge for the first time: a(u,v), which is not zero.
+  /// Annotates an edge for the first time, with a(u,v), which must not be zero.
   void assign(const Edge& edge, Class a) {
     members_[a.id].push_back(edge);
     edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
   }
 
-  /// Needs classes, here and below, that came from here after the last call of `kill`.
+  /// Here and below, arguments must be classes returned after the last call of `kill`.
   Class sum(Class a, Class b);
   /// The value of a generator in a class.
   typename K::Element value(Class a, Generator g) const {
@@ -130,7 +132,7 @@ class Annotations {
     if (term == nullptr) return field_.from_int(0);
     return a.negated ? field_.negate(term->coefficient()) : term->coefficient();
   }
-  /// Calls `visit(generator, value)` for those that are not zero in a class.
+  /// Calls `visit(generator, value)` for the generators that are not zero in a class.
   template <class Visit>
   void for_each_generator(Class a, Visit&& visit) const {
     for (const Term& t : vectors_[a.id])
@@ -163,31 +165,33 @@ class Annotations {
     }
   };
 
-  static constexpr std::size_t kMostClasses = INT32_MAX;  // labels have a bit for a sign
+  static constexpr std::size_t kMostClasses = INT32_MAX;  // labels use one bit for the sign
   static ActiveEdges::Label label_of(Class a) { return a.id << 1 | (a.negated ? 1U : 0U); }
-  /// Of two classes equal up to sign: whether they are not equal.
+  /// For two classes that are equal up to sign: true if they differ.
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
   }
-  /// What a class is by now.
+  /// The present class of a former class.
   Class resolve(Class a);
-  /// Follows the links of classes that became equal to others. No DisjointSets: a link has a sign.
+  /// Follows the links of classes that became equal to others. DisjointSets cannot be used, because
+  /// a link has a sign.
   Class follow(Class a);
   /// Substitutes all dead generators in a class.
   void update(std::uint32_t id);
-  /// The class has become zero.
+  /// Removes a class that has become zero.
   void erase(std::uint32_t id);
-  /// The class has become equal to another one, up to sign.
+  /// Merges a class that has become equal to another one, up to sign.
   void join(std::uint32_t id, std::uint32_t other);
-  /// The class had these terms.
+  /// Updates occurrences for a class that had these terms.
   void change_occurrences(std::uint32_t id, const Vector& before);
-  /// The class of scratch_.
+  /// Finds or makes the class of scratch_.
   Class intern();
-  /// Room for another one.
+  /// Makes room for one more class.
   void add_class();
-  /// Forgets the sums since the last call that no edge has got.
+  /// Forgets the sums made since the last call that no edge uses.
   void forget_fresh();
-  /// The hash of a vector is the sum of those of its terms as vectors over Z/2, the same for +-a.
+  /// The hash of a vector is the sum of the hashes of its terms, as vectors over Z/2; it is the
+  /// same for +-a.
   std::size_t hash(const Term& t) const {
     const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
     const std::uint64_t h = (t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
@@ -202,7 +206,7 @@ class Annotations {
   static void release(T& vector) {
     T(vector.get_allocator()).swap(vector);
   }
-  /// The term of a generator; null if it is zero.
+  /// The term of a generator, or null if it is zero.
   const Term* find(const Vector& v, Generator g) const {
     const auto it = std::ranges::lower_bound(v, g, {}, &Term::cell);
     return it != v.end() && it->cell == g ? &*it : nullptr;
@@ -215,14 +219,15 @@ class Annotations {
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
-  std::pmr::vector<Class> links_;           // by class: what it became; itself while it is one
-  std::pmr::vector<std::uint32_t> seen_;    // by class: how many deaths are substituted in it
+  // By class: the class that it became; itself while it exists.
+  std::pmr::vector<Class> links_;
+  std::pmr::vector<std::uint32_t> seen_;    // by class: number of deaths that are substituted in it
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
-  std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be given again
+  std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be used again
   DeadGenerators<K> dead_;
-  // By generator: the classes that it occurs in, if values are kept.
+  // By generator: the classes in which it occurs, if values are kept.
   std::pmr::vector<NumberSet> occurrences_;
-  FlatMap<Class> sums_;  // of two classes, until the next kill
+  FlatMap<Class> sums_;  // sums of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_, merged_;
 };
@@ -231,7 +236,7 @@ template <Field K>
 template <class Visit>
 void Annotations<K>::for_each_edge(Visit&& visit) {
   for (std::uint32_t id = 1; id < vectors_.size(); ++id) {
-    if (links_[id].id == id) resolve({id});  // may join classes
+    if (links_[id].id == id) resolve({id});  // may merge classes
   }
   for (std::uint32_t id = 1; id < vectors_.size(); ++id)
     for (const Edge& edge : members_[id]) visit(edge, std::span<const Term>(vectors_[id]));

@@ -13,9 +13,9 @@
 
 namespace ph {
 
-/// A cochain of a flag complex where it is not zero, as lists: each simplex in those of its
-/// vertices. In the list of a vertex a stands what else a simplex has, with the value of the
-/// cochain on (a, the others ascending).
+/// A cochain of a flag complex, stored as lists of the simplices on which it is not zero: each
+/// simplex is in the lists of its vertices. The list of a vertex a holds the other vertices of each
+/// simplex, with the value of the cochain on (a, the others ascending).
 /// @tparam Others the other vertices of a simplex, as one number.
 template <Field K, class Others>
 class CochainLists {
@@ -30,38 +30,38 @@ class CochainLists {
     ListId list;
   };
 
-  /// What all cochains of a complex share.
+  /// Data shared by all cochains of a complex.
   struct Shared {
     Shared(const K& field_, std::pmr::memory_resource* memory)
         : field(field_), lists(memory), merged(memory), own(memory) {}
     const K& field;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged;
-    std::pmr::vector<ListId> own;  // lists that others are about to be added to
+    std::pmr::vector<ListId> own;  // lists to which others will be added
   };
 
   explicit CochainLists(std::pmr::memory_resource* memory) : lists_(memory) {}
 
   /// By ascending vertex; none is empty.
   const std::pmr::vector<ListAt>& lists() const { return lists_; }
-  /// In all lists.
+  /// Number of terms in all lists.
   std::size_t term_count() const { return term_count_; }
   Terms terms(Vertex a, const Shared& shared) const {
     const auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
     return at != lists_.end() && at->vertex == a ? Terms(shared.lists[at->list]) : Terms();
   }
 
-  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices that have got a list,
-  /// have lost it.
+  /// Adds scale * other. Calls `on_enter(a, list)` for vertices that get a list, and `on_leave(a)`
+  /// for vertices that lose theirs.
   template <class OnEnter, class OnLeave>
   void add(CochainLists& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
-  /// The list of a += scale * terms, which ascend.
+  /// Adds scale * terms, which ascend, to the list of a.
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
                  OnLeave&& on_leave);
-  /// Puts terms at the end of the list of a, in any order. No simplex is there yet, nor comes
-  /// twice. The lists are out of order until the next `add`.
+  /// Appends terms to the list of a, in any order. None of the simplices may be there yet or occur
+  /// twice. The lists are unsorted until the next `add`.
   template <class OnEnter>
   void append_terms(Vertex a, Terms terms, Shared& shared, OnEnter&& on_enter) {
     if (terms.empty()) return;
@@ -70,7 +70,7 @@ class CochainLists {
     is_sorted_ = false;
     term_count_ += terms.size();
   }
-  /// Makes it zero and gives back what it held.
+  /// Makes it zero and returns its lists.
   void clear(Shared& shared) {
     for (const ListAt& at : lists_) shared.lists.give(at.list);
     std::pmr::vector<ListAt>(lists_.get_allocator()).swap(lists_);
@@ -124,7 +124,7 @@ void CochainLists<K, Others>::add(CochainLists& other, Element scale, Shared& sh
                                   OnEnter&& on_enter, OnLeave&& on_leave) {
   sort(shared);
   other.sort(shared);
-  // Lists are anywhere in memory: all are asked for before the first is waited for.
+  // Lists lie at random places in memory: all are prefetched before the first is used.
   auto& lists = shared.lists;
   auto& own = shared.own;
   own.clear();

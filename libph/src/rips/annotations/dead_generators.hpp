@@ -16,15 +16,15 @@
 
 namespace ph {
 
-/// What became of generators that died: each is a combination of older ones, some of which may have
-/// died later. Dead generators are substituted in a vector when it is looked at, all those since
-/// it was last looked at in one pass; most deaths never reach most vectors.
+/// The fate of generators that died: each is a combination of older ones, some of which may have
+/// died later. Dead generators are substituted in a vector when it is read, in one pass for all
+/// deaths since it was last read; most deaths never affect most vectors.
 template <Field K>
 class DeadGenerators {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
   using Term = Entry<Generator, K>;
-  using Vector = std::pmr::vector<Term>;  ///< ascending generators, no zeros
+  using Vector = std::pmr::vector<Term>;  ///< ascending generators without zeros
 
   DeadGenerators(const K& field, std::pmr::memory_resource* memory)
       : field_(field),
@@ -34,15 +34,15 @@ class DeadGenerators {
         for_vectors_(memory),
         for_combinations_(memory) {}
 
-  /// How many have died.
+  /// Number of dead generators.
   std::uint32_t count() const { return count_; }
   bool contains(Generator g) const { return (dead_word(g / 64) >> (g % 64) & 1) != 0; }
   bool occur_in(std::span<const Term> vector) const {
     return std::ranges::any_of(vector, [&](const Term& t) { return contains(t.cell); });
   }
-  /// @param relation zero from now on: its youngest generator dies. The others are alive.
+  /// @param relation becomes zero: its youngest generator dies. The others must be alive.
   void add(std::span<const Term> relation);
-  /// Puts in what became of the dead ones, which may leave nothing.
+  /// Substitutes the dead generators, which may leave nothing.
   void eliminate_from(Vector& vector);
 
  private:
@@ -51,18 +51,18 @@ class DeadGenerators {
   static constexpr bool kIsZ2 = std::same_as<K, Z2>;
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  /// What became of a dead generator.
+  /// The combination that replaces a dead generator.
   struct Combination {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Combination(allocator_type allocator) : terms(allocator) {}
     Combination(Combination&&) noexcept = default;
     Combination(Combination&& other, allocator_type allocator)
         : terms(std::move(other.terms), allocator), bits(other.bits), seen(other.seen) {}
-    Vector terms;                // none if it has bits
-    std::uint32_t bits = kNone;  // in bits_
-    std::uint32_t seen = 0;      // how many deaths are substituted in it
+    Vector terms;                // empty if it has bits
+    std::uint32_t bits = kNone;  // index into bits_
+    std::uint32_t seen = 0;      // number of deaths that are substituted in it
   };
-  /// A vector over Z/2 of many terms as a bit for each generator: it is added sooner like this.
+  /// A vector over Z/2 with many terms, as one bit per generator, which is faster to add.
   struct Bits {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Bits(allocator_type allocator) : words(allocator) {}
@@ -70,16 +70,16 @@ class DeadGenerators {
     Bits(Bits&& other, allocator_type allocator)
         : words(std::move(other.words), allocator), begin(other.begin) {}
     std::pmr::vector<Word> words;
-    std::size_t begin = 0;  // which word is the first
+    std::size_t begin = 0;  // number of its first word
   };
-  /// A vector that others are added to in any order.
+  /// A vector to which others are added in any order.
   struct Accumulator {
     explicit Accumulator(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
-    std::pmr::vector<Word> met;        // a bit for each generator; all zero between uses
-    std::pmr::vector<Element> values;  // by generator, zero where none was met; none over Z/2
-    std::size_t begin = 0, end = 0;    // of the words of those met
+    std::pmr::vector<Word> met;        // one bit per generator; all zero between uses
+    std::pmr::vector<Element> values;  // by generator, zero if it was not met; empty over Z/2
+    std::size_t begin = 0, end = 0;    // range of the words that were met
 
-    /// @param words of those that will be added.
+    /// @param words number of words of the vectors that will be added.
     void reset(std::size_t words) {
       begin = end = words;
       if (met.size() >= words) return;
@@ -104,7 +104,7 @@ class DeadGenerators {
       begin = std::min(begin, other.begin);
       bits::add(met.data() + other.begin, other.words.data(), other.words.size());
     }
-    /// The value of one that was met, which may be zero.
+    /// The value of a generator that was met; it may be zero.
     Element take(Generator g) {
       if constexpr (kIsZ2)
         return true;
@@ -130,22 +130,23 @@ class DeadGenerators {
     else
       sum.add(c.terms, scale, field_);
   }
-  /// The combination of a dead generator. Deaths since are substituted in it: whoever needs it next
-  /// finds hardly any dead ones in it.
+  /// The combination of a dead generator. Later deaths are substituted in it, which leaves hardly
+  /// any dead ones for the next caller.
   const Combination& updated(Generator g);
-  /// @param combination_of what a dead generator is replaced by.
+  /// @param combination_of returns the replacement of a dead generator.
   template <class Find>
   void eliminate(Accumulator& sum, Find&& combination_of);
-  /// What a sum has, which is empty then. A combination that has bits keeps them.
+  /// Returns the content of a sum and empties it. A combination that has bits keeps them.
   void take_terms(Accumulator& sum, Vector& terms);
   void take(Accumulator& sum, Combination& c);
 
   const K& field_;
   std::uint32_t count_ = 0;
-  std::pmr::vector<Combination> combinations_;  // by generator; of those that live none
+  std::pmr::vector<Combination> combinations_;  // by generator; empty for living generators
   std::pmr::vector<Bits> bits_;
-  std::pmr::vector<Word> dead_;                 // a bit for each generator
-  Accumulator for_vectors_, for_combinations_;  // a combination is updated while a vector is
+  std::pmr::vector<Word> dead_;  // one bit per generator
+  // A combination may be updated during the update of a vector.
+  Accumulator for_vectors_, for_combinations_;
 };
 
 template <Field K>
@@ -200,7 +201,7 @@ template <Field K>
 template <class Find>
 void DeadGenerators<K>::eliminate(Accumulator& sum, Find&& combination_of) {
   Word* const met = sum.met.data();
-  // From the youngest down: what comes in is older.
+  // Goes from the youngest down, because substituted terms are older.
   for (std::size_t k = std::min(sum.end, dead_.size()); k-- > sum.begin;)
     while (const Word dead = met[k] & dead_[k]) {
       const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;
@@ -224,7 +225,7 @@ void DeadGenerators<K>::take_terms(Accumulator& sum, Vector& terms) {
 
 template <Field K>
 void DeadGenerators<K>::take(Accumulator& sum, Combination& c) {
-  constexpr std::size_t many = 16;  // for fewer it is not worth a block of memory more
+  constexpr std::size_t many = 16;  // fewer are not worth another block of memory
   const auto words = sum.words();
   if (kIsZ2 && c.bits == kNone && sum.count() >= std::max(many, words.size())) {
     c.bits = static_cast<std::uint32_t>(bits_.size());

@@ -10,12 +10,12 @@
 namespace ph {
 
 struct PotentialStep {
-  bool changed = false;     ///< the potential, to another function
-  bool mismatched = false;  ///< an edge asks for something else
+  bool changed = false;     ///< from the potential to another function
+  bool mismatched = false;  ///< an edge asks for a different value
 };
 
-/// Extends a potential p to the next vertex y of a forest. An edge wy asks that p(y) be
-/// p(w) + asked(w). The first edge to each part that y meets decides, by a constant on that part.
+/// Extends a potential p to the next vertex y of a forest. An edge wy requires p(y) = p(w) +
+/// asked(w). The first edge to each part that y meets fixes a constant for that part.
 /// @param mismatch receives p(w) + asked(w) - p(y) for the other edges.
 template <Field K>
 PotentialStep extend_potential(typename VertexFunction<K>::Unit* p,

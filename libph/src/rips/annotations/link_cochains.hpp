@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// An alternating function of two vertices of a link, a 1-cochain of its flag complex: a row f(x,.)
-/// for each vertex where that is not zero.
+/// An alternating function of two vertices of a link, which is a 1-cochain of its flag complex: a
+/// row f(x,.) for each vertex x on which it is not zero.
 template <Field K>
 class LinkPairs {
  public:
@@ -21,22 +21,22 @@ class LinkPairs {
   using Function = VertexFunction<K>;
   using Unit = typename Function::Unit;
 
-  /// @param rows outlive this.
+  /// @param rows must outlive this object.
   LinkPairs(RowPool<K>& rows, const K& field, std::pmr::memory_resource* memory)
       : rows_(&rows), field_(&field), ids_(memory), used_(memory) {}
 
-  /// f(x,.); null: zero.
+  /// f(x,.), or null if it is zero.
   const Unit* row(Vertex x) const {
     return x < ids_.size() && ids_[x] != kNone ? (*rows_)[ids_[x]] : nullptr;
   }
-  /// f(x,.) += values, of vertices in the first words, and f(.,x) with them.
+  /// Adds values on vertices in the first words to f(x,.), and to f(.,x) accordingly.
   void add_row(Vertex x, const Unit* values, std::size_t words) {
     Function::add(made_row(x), values, field_->from_int(1), *field_, words);
     Function::for_each(values, words, [&](std::size_t y, Element a) {
       Function::add_at(made_row(static_cast<Vertex>(y)), x, field_->negate(a), *field_);
     });
   }
-  /// The same for a part of a function whose other values come by their own rows.
+  /// The same for a part of a function whose other values have their own rows.
   void add_half(Vertex x, const Unit* values, Element scale, std::size_t words) {
     Function::add(made_row(x), values, scale, *field_, words);
   }
@@ -47,7 +47,7 @@ class LinkPairs {
     for (const Vertex x : used_) rows_->give(std::exchange(ids_[x], kNone));
     used_.clear();
   }
-  /// Calls `visit(x, y, f(x,y))` for all pairs in both orders, those of one x after each other.
+  /// Calls `visit(x, y, f(x,y))` for all pairs in both orders; the pairs of one x are consecutive.
   template <class Visit>
   void for_each(std::size_t words, Visit&& visit) const {
     for (const Vertex x : used_)
@@ -74,8 +74,8 @@ class LinkPairs {
   std::pmr::vector<Vertex> used_;
 };
 
-/// An alternating function of three vertices of a link, a 2-cochain of its flag complex: a row
-/// f(x,y,.) for each pair x < y where that is not zero.
+/// An alternating function of three vertices of a link, which is a 2-cochain of its flag complex: a
+/// row f(x,y,.) for each pair x < y on which it is not zero.
 template <Field K>
 class LinkTriples {
  public:
@@ -84,11 +84,11 @@ class LinkTriples {
   using Function = VertexFunction<K>;
   using Unit = typename Function::Unit;
 
-  /// @param rows outlive this.
+  /// @param rows must outlive this object.
   LinkTriples(RowPool<K>& rows, const K& field, std::pmr::memory_resource* memory)
       : rows_(&rows), field_(&field), ids_(memory), used_(memory) {}
 
-  /// f(x,y,.) if x < y, else -f(x,y,.); null: zero.
+  /// f(x,y,.) if x < y, otherwise -f(x,y,.); null if it is zero.
   const Unit* row(Vertex x, Vertex y) const {
     if (x > y) std::swap(x, y);
     if (x >= ids_.size() || y >= ids_[x].size()) return nullptr;

@@ -25,15 +25,16 @@ class ListPool {
     return id;
   }
   void give(Id id) {
-    constexpr std::size_t kept = 64;  // of which memory is not given back
+    constexpr std::size_t kept = 64;  // lists up to this size keep their memory
     if (lists_[id].capacity() > kept) std::pmr::vector<T>(lists_.get_allocator()).swap(lists_[id]);
     lists_[id].clear();
     free_.push_back(id);
   }
-  /// Asks for a list some time before it is used: first for where it lies, then for what it holds.
+  /// Prefetches a list some time before it is used: first its location, then its content.
   void prefetch(Id id) const { __builtin_prefetch(&lists_[id]); }
   void prefetch_terms(Id id) const {
-    constexpr std::size_t line = 64, most = 512;  // bytes; the rest of a long one comes by itself
+    // Bytes; the hardware prefetches the rest of a long list.
+    constexpr std::size_t line = 64, most = 512;
     const auto* const begin = reinterpret_cast<const char*>(lists_[id].data());
     const std::size_t bytes = std::min(lists_[id].size() * sizeof(T), most);
     for (std::size_t at = 0; at <= bytes; at += line) __builtin_prefetch(begin + at, 1);

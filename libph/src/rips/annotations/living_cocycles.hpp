@@ -11,8 +11,9 @@
 
 namespace ph {
 
-/// Living classes of cohomology by their cocycles, and at each vertex those with simplices there.
-/// @tparam Cochain such as TriangleCochain.
+/// Living classes of cohomology, given by their cocycles; for each vertex, the classes with
+/// simplices there.
+/// @tparam Cochain a type such as TriangleCochain.
 template <class Cochain>
 class LivingCocycles {
  public:
@@ -20,13 +21,13 @@ class LivingCocycles {
   using Vertex = std::uint32_t;
   using Element = typename Cochain::Element;
   using ListId = typename Cochain::ListId;
-  /// A generator with simplices at a vertex, perhaps, and their list, unless its cocycle is dense.
+  /// A generator that may have simplices at a vertex, with their list unless its cocycle is dense.
   struct At {
     Generator generator;
     ListId list;
   };
 
-  /// @param shared for `Cochain::Shared`, but for the memory.
+  /// @param shared arguments of `Cochain::Shared` except for the memory.
   template <class... Arguments>
   LivingCocycles(std::size_t vertices, const RunContext& context, const Arguments&... shared)
       : context_(context),
@@ -42,15 +43,15 @@ class LivingCocycles {
   void erase(Generator g);
   /// to += scale * from.
   void add(Generator to, Generator from, Element scale);
-  /// As Cochain::add_star.
+  /// The same as Cochain::add_star.
   template <class Star>
   void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
-  /// Calls `visit(generator, at_u, at_v)` by ascending generator for each with simplices at u or
-  /// v, perhaps; null: none there.
+  /// Calls `visit(generator, at_u, at_v)`, in ascending order, for each generator that may have
+  /// simplices at u or v; null if it has none there.
   template <class Visit>
   void for_each_at(Vertex u, Vertex v, Visit&& visit) const;
-  /// What the list holds; nothing if the cocycle is dense.
+  /// The content of the list; nothing if the cocycle is dense.
   typename Cochain::Terms terms(const At& at) const {
     using Terms = typename Cochain::Terms;
     return cochains_[at.generator].is_dense() ? Terms() : Terms(shared_.lists[at.list]);

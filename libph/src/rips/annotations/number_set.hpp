@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// A set of small numbers that are handed out in ascending order: a list in no particular order
-/// while it is short, then a row of bits, which stays one.
+/// A set of small numbers that are assigned in ascending order: a list in no particular order while
+/// it is short, later a row of bits, which it remains.
 class NumberSet {
  public:
   using Id = std::uint32_t;
@@ -22,7 +22,7 @@ class NumberSet {
   NumberSet(NumberSet&& other, allocator_type allocator)
       : list_(std::move(other.list_), allocator), bits_(std::move(other.bits_), allocator) {}
 
-  /// Adds a number that is absent.
+  /// Adds a number that must be absent.
   void insert(Id id) {
     if (bits_.empty()) {
       list_.push_back(id);
@@ -31,7 +31,7 @@ class NumberSet {
       set(id);
     }
   }
-  /// Takes a number out that is there.
+  /// Removes a number that must be present.
   void erase(Id id) {
     if (bits_.empty()) {
       *std::ranges::find(list_, id) = list_.back();
@@ -40,7 +40,7 @@ class NumberSet {
       bits_[id / 64] &= ~(Word{1} << (id % 64));
     }
   }
-  /// Inserts the numbers of another set that are absent, erases those that are there.
+  /// Inserts the numbers of another set that are absent and erases those that are present.
   void add(const NumberSet& other) {
     if (bits_.size() < other.bits_.size() && !bits_.empty()) bits_.resize(other.bits_.size());
     if (!bits_.empty() && !other.bits_.empty()) {
@@ -76,7 +76,7 @@ class NumberSet {
   }
 
   std::pmr::vector<Id> list_;
-  std::pmr::vector<Word> bits_;  // empty: there is a list
+  std::pmr::vector<Word> bits_;  // empty if there is a list
 };
 
 }  // namespace ph

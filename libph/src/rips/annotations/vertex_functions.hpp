@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// Functions from vertices to a field, as arrays of fixed length: 64 vertices to a block. The
-/// caller owns the units; masks are rows of bits. Functions take the number of blocks to look at.
+/// Functions from vertices to a field, as arrays of fixed length with 64 vertices per block. The
+/// caller owns the units; masks are rows of bits. Functions take the number of blocks to process.
 template <Field K>
 struct VertexFunction {
   using Unit = typename K::Element;
@@ -24,7 +24,7 @@ struct VertexFunction {
   static void add_at(Unit* row, std::size_t v, Element a, const K& field) {
     row[v] = field.add(row[v], a);
   }
-  /// Asks for a value that is about to change.
+  /// Prefetches a value that is about to change.
   static void prefetch(Unit* row, std::size_t v) { __builtin_prefetch(row + v, 1); }
   /// to += scale * from.
   static void add(Unit* to, const Unit* from, Element scale, const K& field, std::size_t blocks) {
@@ -35,7 +35,7 @@ struct VertexFunction {
   static void shift(Unit* row, const Word* mask, Element by, const K& field, std::size_t blocks) {
     bits::for_each(mask, 0, blocks, [&](std::size_t v) { row[v] = field.add(row[v], by); });
   }
-  /// out = a + b - constant on the mask, unchanged elsewhere. @return whether that is not zero.
+  /// out = a + b - constant on the mask, unchanged elsewhere. @return true if that is not zero.
   static bool difference(Unit* out, const Unit* a, const Unit* b, Element constant,
                          const Word* mask, const K& field, std::size_t blocks) {
     bool any = false;
@@ -46,7 +46,7 @@ struct VertexFunction {
     });
     return any;
   }
-  /// Whether a + b is a constant on the mask.
+  /// True if a + b is a constant on the mask.
   static bool is_sum(Element constant, const Unit* a, const Unit* b, const Word* mask,
                      const K& field, std::size_t blocks) {
     bool is_sum = true;
@@ -60,7 +60,7 @@ struct VertexFunction {
     bits::for_each(mask, 0, blocks,
                    [&](std::size_t v) { out[v] = field.add(constant, field.negate(a[v])); });
   }
-  /// Makes the row zero outside the mask. @return whether anything is left.
+  /// Makes the row zero outside the mask. @return true if anything is left.
   static bool restrict(Unit* row, const Word* mask, std::size_t blocks) {
     bool any = false;
     for (std::size_t v = 0; v < 64 * blocks; ++v) {
@@ -78,14 +78,14 @@ struct VertexFunction {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
       if (row[v] != 0) visit(v, row[v]);
   }
-  /// The first vertex from `from` on whose value is not zero; bits::kNone if there is none.
+  /// The first vertex from `from` on whose value is not zero, or bits::kNone.
   static std::size_t first(const Unit* row, std::size_t from, std::size_t blocks) {
     for (std::size_t v = from; v < 64 * blocks; ++v)
       if (row[v] != 0) return v;
     return bits::kNone;
   }
-  /// The value of more than half of the mask's vertices (Boyer-Moore), of the first if there is
-  /// none.
+  /// The value on more than half of the mask's vertices (Boyer-Moore); if there is none, the value
+  /// on the first.
   static Element majority(const Unit* row, const Word* mask, const K& field, std::size_t blocks) {
     Element candidate = field.from_int(0);
     std::size_t votes = 0, count = 0, size = 0;
@@ -167,7 +167,7 @@ struct VertexFunction<Z2> {
   }
 };
 
-/// Zeroed rows, handed out and taken back.
+/// Zeroed rows, borrowed and returned.
 template <Field K>
 class RowPool {
  public:
@@ -189,7 +189,7 @@ class RowPool {
     return id;
   }
   void give(Id id) { free_.push_back(id); }
-  /// Whether the next row may move where rows are looked up.
+  /// True if the next row may move the table of rows.
   Unit* operator[](Id id) {
     return chunks_[id / kRowsPerChunk].data() + id % kRowsPerChunk * units_;
   }

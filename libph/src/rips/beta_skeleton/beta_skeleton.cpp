@@ -7,13 +7,13 @@
 namespace ph {
 namespace {
 
-// Measured, see docs/explanation/engines/beta-skeleton.md: below, all edges take less time. In R^4
-// it is their memory that decides.
-constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by coordinates
+// Measured, see docs/explanation/engines/beta-skeleton.md: with fewer points, listing all edges is
+// faster. In R^4 the memory of the edges decides.
+constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by number of coordinates
 // With fewer edges per point, listing them takes less time.
 constexpr double kFewEdges = 1'000;
 
-/// How many edges there are for each point, about, of a sample of pairs.
+/// The approximate number of edges per point, from a sample of pairs.
 double edges_of_a_point(PointsView points, double threshold) {
   constexpr int sampled = 2'000;
   std::mt19937_64 random(1);

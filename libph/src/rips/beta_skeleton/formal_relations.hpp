@@ -13,8 +13,8 @@
 namespace ph::beta_skeleton {
 
 /// Relations between formal generators over any field, one after the other, and the generator that
-/// each kills: the youngest one left when relations with the same youngest generator have been
-/// subtracted. See docs/explanation/engines/formal-annotations.md.
+/// each of them kills: the youngest one left after relations with the same youngest generator have
+/// been subtracted. See docs/explanation/engines/formal-annotations.md.
 template <Field K>
 class FormalRelations {
  public:
@@ -25,7 +25,7 @@ class FormalRelations {
   FormalRelations(std::size_t generators, const K& field, std::pmr::memory_resource* memory)
       : field_(field), of_(generators, memory), merged_(memory) {}
 
-  /// Makes a sum of terms in any order one of ascending generators without zeros.
+  /// Turns a sum of terms in any order into a sum of ascending generators without zeros.
   void collect(Sum& sum) const {
     std::sort(sum.begin(), sum.end(), [](const Term& a, const Term& b) { return a.cell < b.cell; });
     auto out = sum.begin();
@@ -38,7 +38,7 @@ class FormalRelations {
     }
     sum.erase(out, sum.end());
   }
-  /// @param relation zero from now on; ascending. @return the generator that dies, if one does.
+  /// @param relation becomes zero; must be ascending. @return the generator that dies, if any.
   std::optional<Generator> add(Sum& relation) {
     while (!relation.empty()) {
       const Term youngest = relation.back();
@@ -53,7 +53,7 @@ class FormalRelations {
   }
 
  private:
-  /// With one for the coefficient of its youngest generator.
+  /// Stores a relation, scaled to coefficient one for its youngest generator.
   void store(const Sum& relation) {
     Sum& mine = of_[relation.back().cell];
     mine.reserve(relation.size());

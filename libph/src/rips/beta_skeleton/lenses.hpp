@@ -11,15 +11,15 @@
 
 namespace ph::beta_skeleton {
 
-/// An edge of the Rips filtration between two places in the tree, and its place in the order
+/// An edge of the Rips filtration between two positions in the tree, and its place in the order
 /// (value, larger vertex, smaller vertex).
 struct Edge {
   double value = 0;
   std::uint32_t larger = 0, smaller = 0;  ///< vertices
   Position u = kNone, v = kNone;
 
-  /// Squares below `certainly_before` have a smaller root, those above `certainly_after` a larger
-  /// one; between them the roots decide, and then the vertices.
+  /// Squares below `certainly_before` have a smaller root, squares above `certainly_after` a larger
+  /// one; in between, the roots decide, then the vertices.
   double certainly_before = 0, certainly_after = 0;
 
   friend bool operator<(const Edge& a, const Edge& b) {
@@ -32,14 +32,15 @@ struct Edge {
 struct LensComponents {
   struct Component {
     Position any = kNone;                 ///< one of its points
-    std::uint32_t smallest = UINT32_MAX;  ///< its smallest vertex, as far as that is known
+    std::uint32_t smallest = UINT32_MAX;  ///< its smallest vertex, as far as it is known
   };
-  std::vector<Component> others;    ///< all but that of `first`
-  Position first = kNone;           ///< a point of the lens, near the middle; kNone: it is empty
-  std::vector<Position> of_others;  ///< the points of `others`, all of them
+  std::vector<Component> others;  ///< all components except the one of `first`
+  /// A point of the lens near the middle, or kNone if the lens is empty.
+  Position first = kNone;
+  std::vector<Position> of_others;  ///< all points of `others`
 };
 
-/// The lens of an edge e = (u, v) has the points w with (u,w) and (v,w) before e.
+/// The lens of an edge e = (u, v) consists of the points w with (u,w) and (v,w) before e.
 template <int D>
 class Lenses {
  public:
@@ -69,27 +70,27 @@ class Lenses {
     return w != e.u && w != e.v && precedes(w, e.u, e) && precedes(w, e.v, e);
   }
 
-  /// The square of a radius around the computed middle of an edge that has its whole lens: a point
-  /// at distance at most |uv| of both ends is within sqrt(3/4) |uv| of the middle.
+  /// The squared radius of a ball around the computed middle of an edge that contains its lens: a
+  /// point at distance at most |uv| from both ends is within sqrt(3/4) |uv| of the middle.
   double reach(double square) const {
     const double radius = std::sqrt(0.75 * square) * (1 + 1e-9) + tree_.midpoint_error();
     return radius * radius;
   }
-  /// The lowest node, from that of u up, that has the whole lens.
+  /// The lowest node, from the node of u up, that contains the entire lens.
   Node holder_of(const Edge& e) const {
     const Point middle = PointTree<D>::midpoint(tree_.point(e.u), tree_.point(e.v));
     return tree_.holder_of_ball(tree_.leaf_of(e.u), middle,
                                 std::sqrt(reach(e.certainly_after)) * (1 + 1e-9));
   }
 
-  /// The point other than u and v nearest to the middle of the edge, or the first found of a square
-  /// less than `near_enough`; kNone says that the lens is empty.
+  /// The point other than u and v nearest to the middle of the edge, or the first one found with a
+  /// square below `near_enough`; kNone means that the lens is empty.
   Position nearest_to_middle(const Edge& e, Node holder, double near_enough) const {
     const Point m = PointTree<D>::midpoint(tree_.point(e.u), tree_.point(e.v));
     return tree_.nearest(holder, m, reach(e.certainly_after), near_enough,
                          [&](Position p) { return p != e.u && p != e.v; });
   }
-  /// A point of the lens, if possible near the middle of the edge; kNone if the lens is empty.
+  /// A point of the lens, if possible near the middle of the edge, or kNone if the lens is empty.
   /// @param near_enough as above.
   Position middle(const Edge& e, Node holder, double near_enough = 0) const {
     const Position w = nearest_to_middle(e, holder, near_enough);
@@ -103,8 +104,8 @@ class Lenses {
     return any;
   }
 
-  /// @param near a point of the lens near the middle, or kNone: it is looked for.
-  /// @param holder a node that has the whole lens.
+  /// @param near a point of the lens near the middle; if kNone, one is searched.
+  /// @param holder a node that contains the entire lens.
   void find_components(const Edge& e, Position near, Node holder, LensComponents& found) {
     found.others.clear();
     found.of_others.clear();
@@ -138,7 +139,7 @@ class Lenses {
         },
         visit);
   }
-  /// The points of the lens that w does not see: no edge before e joins them to w.
+  /// Lists the points of the lens that w does not see: no edge before e joins them to w.
   void list_far(const Edge& e, Position w, Node holder) {
     far_.clear();
     const double *u = tree_.point(e.u), *v = tree_.point(e.v), *m = tree_.point(w);
@@ -154,7 +155,7 @@ class Lenses {
         });
   }
   /// Takes a component out of far_; it is one of the others unless a point of the lens joins it to
-  /// that of `first`.
+  /// the component of `first`.
   void take_component(const Edge& e, Node holder, LensComponents& found) {
     part_.assign(1, far_.back());
     far_.pop_back();
@@ -172,7 +173,7 @@ class Lenses {
     found.others.push_back({part_.front(), smallest});
     found.of_others.insert(found.of_others.end(), part_.begin(), part_.end());
   }
-  /// Whether a point of the lens sees both w and x.
+  /// True if a point of the lens sees both w and x.
   bool has_bridge(const Edge& e, Position w, Position x, Node holder) const {
     const double *u = tree_.point(e.u), *v = tree_.point(e.v), *a = tree_.point(w),
                  *b = tree_.point(x);

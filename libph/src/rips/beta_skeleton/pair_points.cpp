@@ -58,8 +58,8 @@ class Pairing {
   using Term = typename Relations::Term;
   using Sum = typename Relations::Sum;
 
-  /// The distance from a point near the middle to the farthest one. It sees the lens of whatever
-  /// edge is longer, which does nothing therefore.
+  /// The distance from a point near the middle to the farthest point. That point sees the lens of
+  /// every longer edge; such edges therefore change nothing.
   double cone_radius() const {
     const Position middle =
         tree_.nearest(1, tree_.centre(1), std::numeric_limits<double>::infinity());
@@ -69,11 +69,11 @@ class Pairing {
     return std::sqrt(largest);
   }
 
-  /// H0 by the elder rule, and the births of H1.
-  /// @param generators receives those of the edges of the graph.
+  /// Computes H0 by the elder rule, and the births of H1.
+  /// @param generators receives the generators of the edges of the graph.
   void join(std::span<const FoundEdge> graph, std::size_t vertices,
             std::pmr::vector<std::uint32_t>& generators) {
-    DisjointSets sets(vertices, &context_.memory);  // the root is the oldest
+    DisjointSets sets(vertices, &context_.memory);  // the root is the oldest vertex
     generators.reserve(graph.size());
     for (const FoundEdge& e : graph) {
       const auto [smaller, larger] = std::minmax({tree_.row(e.u), tree_.row(e.v)});
@@ -93,12 +93,12 @@ class Pairing {
       if (sets.find(tree_.row(p)) == tree_.row(p)) observer_.on_component(tree_.row(p));
   }
 
-  /// The relations of an edge whose lens falls apart.
+  /// Adds the relations of an edge whose lens has several components.
   void look_at(const beta_skeleton::Edge& e, Node holder) {
     bear_before(e);
     if (classes_.living == 0) return;
     lenses_.find_components(e, kNone, holder, components_);
-    // With more than one of them their order decides which triangle kills which class.
+    // If there are several, their order decides which triangle kills which class.
     auto& others = components_.others;
     Position base = components_.first;
     std::uint32_t smallest = UINT32_MAX;
@@ -158,12 +158,12 @@ class Pairing {
   const RunContext& context_;
   const double cone_;
   std::pmr::vector<double> births_;                       // by generator
-  std::pmr::vector<PointPairObserver::Edge> generators_;  // the edges that they are born with
+  std::pmr::vector<PointPairObserver::Edge> generators_;  // the edges that give birth to them
   std::vector<bool> is_dead_;
   Classes classes_;
   std::optional<SkeletonCycles<D>> cycles_;
   std::optional<Relations> relations_;
-  LensComponents components_;  // scratch, as are these:
+  LensComponents components_;  // scratch, like the members below
   Sum base_, relation_;
 };
 
@@ -174,14 +174,14 @@ void pair_points(PointsView points, const K& field, const PointPairRequest& want
                  PointPairObserver& observer, const RunContext& context) {
   if (points.rows() == 0) return;
   const WholeRows whole(points);
-  // Of equal points the first one stands for all: the others cause pairs of length zero alone.
+  // The first of equal points stands for all of them: the others cause only pairs of length zero.
   const std::pmr::vector<std::uint32_t> rows =
       distinct_points(first_equal_points(whole.view(), context), context);
   const auto vertices = static_cast<std::size_t>(points.rows());
   const auto run = [&]<int D>(PointsView view) {
     Pairing<D, K>(view, rows, field, wanted, observer, context).run(vertices);
   };
-  if (points.cols() == 1) {  // on a line of the plane
+  if (points.cols() == 1) {  // as points on a line in the plane
     Points plane(points.rows(), 2);
     const MemoryClaim claim(context.memory, vertices * 2 * sizeof(double));
     for (Index i = 0; i < points.rows(); ++i) plane(i, 0) = points(i, 0);

@@ -9,7 +9,7 @@
 
 namespace ph {
 
-/// What is told of the pairs of points; vertices are rows of the points.
+/// Receives the pairs of points; vertices are rows of the points.
 class PointPairObserver {
  public:
   using Vertex = std::uint32_t;
@@ -23,22 +23,24 @@ class PointPairObserver {
   virtual ~PointPairObserver() = default;
 
   virtual void on_join(Vertex younger, const Edge& edge) = 0;
-  virtual void on_component(Vertex oldest) = 0;  ///< never joined to an older one
-  /// @param apex of the triangle over the edge `death` that kills; 0 where apexes are not wanted.
+  /// A component that is never joined to an older one.
+  virtual void on_component(Vertex oldest) = 0;
+  /// @param apex the apex of the triangle over the edge `death` that kills the class; 0 if apexes
+  /// are not wanted.
   virtual void on_death(const Edge& birth, const Edge& death, Vertex apex) = 0;
   virtual void on_essential(const Edge& birth) = 0;
 };
 
 struct PointPairRequest {
-  double threshold;   ///< of edges, inclusive
-  bool loops = true;  ///< H1, not only H0
+  double threshold;   ///< largest edge, inclusive
+  bool loops = true;  ///< H1 in addition to H0
   bool apexes = true;
 };
 
-/// The pairs of positive length of H0 and H1 of the Rips filtration of points of the plane or of
-/// space, those of the standard algorithm, cell by cell. Memory grows with the points. See
-/// docs/explanation/engines/beta-skeleton.md.
-/// @param points of 1 to 4 plain coordinates, see has_plain_coordinates.
+/// The pairs of positive length in H0 and H1 of the Rips filtration of points in the plane or in
+/// space, equal to the pairs of the standard algorithm, cell by cell. Memory is proportional to the
+/// number of points. See docs/explanation/engines/beta-skeleton.md.
+/// @param points with 1 to 4 plain coordinates, see has_plain_coordinates.
 template <Field K>
 void pair_points(PointsView points, const K& field, const PointPairRequest& wanted,
                  PointPairObserver& observer, const RunContext& context);
@@ -48,11 +50,11 @@ extern template void pair_points<Z2>(PointsView, const Z2&, const PointPairReque
 extern template void pair_points<Zp>(PointsView, const Zp&, const PointPairRequest&,
                                      PointPairObserver&, const RunContext&);
 
-/// Of a point. With more of them hardly a spindle has a point.
+/// The largest number of coordinates per point. With more, hardly any spindle contains a point.
 inline constexpr Index kMostPointCoordinates = 4;
 
-/// Whether all coordinates are zero or of a size from 1e-120 to 1e150. Two of them that differ then
-/// differ by 1e-137 at least, so that no square of a difference underflows or overflows.
+/// True if all coordinates are zero or between 1e-120 and 1e150 in size. Two different coordinates
+/// then differ by at least 1e-137, and the square of a difference neither underflows nor overflows.
 bool has_plain_coordinates(PointsView points);
 
 }  // namespace ph

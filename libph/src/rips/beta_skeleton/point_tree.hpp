@@ -19,9 +19,9 @@ using Position = KdTree::Position;
 using Node = KdTree::Node;
 inline constexpr Position kNone = UINT32_MAX;
 
-/// Squares of distances, rounded as PointMetric rounds them: the sum of the squares of the
-/// differences, axis by axis. Rounding is monotone and all is rounded in the same order, so what is
-/// said of boxes holds for the rounded squares of the points in them, without any slack.
+/// Squares of distances, rounded as in PointMetric: the sum of the squared differences, axis by
+/// axis. Rounding is monotone, and everything is rounded in the same order: statements about boxes
+/// therefore hold for the rounded squares of the points in them, without any slack.
 template <int D>
 struct Squares {
   [[gnu::always_inline]] static double between(const double* a, const double* b) {
@@ -29,7 +29,8 @@ struct Squares {
     for (int k = 0; k < D; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
     return sum;
   }
-  /// The least from a point to those in a box: least and largest coordinate, axis by axis.
+  /// The least square from a point to the points in a box, given by smallest and largest
+  /// coordinate, axis by axis.
   [[gnu::always_inline]] static double least(const double* x, const double* box) {
     double sum = 0;
     for (int k = 0; k < D; ++k) {
@@ -62,7 +63,7 @@ struct Squares {
     }
     return sum;
   }
-  /// Of the diagonal of a box.
+  /// The square of the diagonal of a box.
   [[gnu::always_inline]] static double extent(const double* box) {
     double sum = 0;
     for (int k = 0; k < D; ++k)
@@ -71,24 +72,24 @@ struct Squares {
   }
 };
 
-/// The least share by which a square is larger than another one whose root is smaller for certain.
+/// If a square exceeds another one by this fraction, its root is certainly larger.
 inline constexpr double kBeyondTies = 1e-12;
 
-/// Points of R^D in a k-d tree. Searches start at the smallest node whose cell holds the ball that
-/// is searched: a cell is a part of space with no point of another node inside.
+/// Points of R^D in a k-d tree. Searches start at the smallest node whose cell contains the ball
+/// that is searched: a cell is a part of space that contains no point of another node.
 template <int D>
 class PointTree {
  public:
   using S = Squares<D>;
   using Point = std::array<double, D>;
 
-  /// @param points plain ones, see can_search; D columns.
-  /// @param rows which of them, no two equal.
+  /// @param points plain points, see can_search; D columns.
+  /// @param rows the rows to use; no two of these points may be equal.
   PointTree(PointsView points, std::span<const std::uint32_t> rows, const RunContext& context)
       : tree_(points, rows, context),
         coordinates_(tree_.points().row(0)),
         cells_(std::size_t{tree_.node_count()} * 2 * D, &context.memory) {
-    // The rounding of (a + b) / 2 on each axis, twice as much as it can be.
+    // Twice the largest possible rounding error of (a + b) / 2 on each axis.
     midpoint_error_ = 2 * std::sqrt(D) * std::numeric_limits<double>::epsilon() *
                       largest_coordinate(tree_.points());
     make_cells();
@@ -108,7 +109,7 @@ class PointTree {
   }
   double square(Position p, Position q) const { return S::between(point(p), point(q)); }
 
-  /// How far a computed midpoint may be from the true one.
+  /// An upper bound for the distance between a computed midpoint and the true one.
   double midpoint_error() const { return midpoint_error_; }
   static Point midpoint(const double* a, const double* b) {
     Point m;
@@ -121,12 +122,12 @@ class PointTree {
     for (int k = 0; k < D; ++k) m[static_cast<std::size_t>(k)] = 0.5 * (b[2 * k] + b[2 * k + 1]);
     return m;
   }
-  /// All points of a node are within it around the computed centre.
+  /// All points of a node are within this distance of the computed centre.
   double radius(Node node) const {
     return 0.5 * std::sqrt(S::extent(box(node))) * (1 + kBeyondTies) + midpoint_error_;
   }
 
-  /// The lowest node, from `node` up, that has all points of a ball.
+  /// The lowest node, from `node` up, that contains all points of a ball.
   Node holder_of_ball(Node node, const Point& centre, double radius) const {
     for (radius *= 1 + kBeyondTies; node > 1; node /= 2) {
       const double* cell = &cells_[std::size_t{node} * 2 * D];
@@ -140,8 +141,8 @@ class PointTree {
     return node;
   }
 
-  /// Calls `visit(position)` for the points below `start` until it returns true; passes over nodes
-  /// of which `is_hopeless(box, node)` says so. @return whether a visit returned true.
+  /// Calls `visit(position)` for the points below `start` until it returns true; skips nodes for
+  /// which `is_hopeless(box, node)` is true. @return true if a visit returned true.
   template <class IsHopeless, class Visit>
   bool search(Node start, IsHopeless&& is_hopeless, Visit&& visit) const {
     std::array<Node, 64> stack;
@@ -162,9 +163,9 @@ class PointTree {
     }
   }
 
-  /// The point nearest to x below `start` among those of a square less than `limit` that
-  /// `is_allowed`; the first found of a square less than `near_enough` will do. kNone: there is
-  /// none.
+  /// The point nearest to x below `start` among the points with a square below `limit` that
+  /// `is_allowed`; the first one found with a square below `near_enough` is accepted. kNone if
+  /// there is none.
   template <class IsAllowed>
   Position nearest(Node start, const Point& x, double limit, double near_enough,
                    IsAllowed&& is_allowed) const {
@@ -215,7 +216,7 @@ class PointTree {
       std::copy_n(cell, 2 * D, left);
       std::copy_n(cell, 2 * D, right);
       const double *below = box(2 * node), *above = box(2 * node + 1);
-      // Up to where the other side begins there is no point of it inside.
+      // The cell extends to the first point of the other side.
       for (int k = 0; k < D; ++k) {
         if (below[2 * k + 1] > above[2 * k]) continue;
         left[2 * k + 1] = above[2 * k];
@@ -227,7 +228,7 @@ class PointTree {
 
   KdTree tree_;
   const double* coordinates_;
-  std::pmr::vector<double> cells_;  // by node as the boxes
+  std::pmr::vector<double> cells_;  // by node, like the boxes
   double midpoint_error_ = 0;
 };
 

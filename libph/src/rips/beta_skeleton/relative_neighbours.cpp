@@ -9,7 +9,7 @@
 namespace ph::beta_skeleton {
 namespace {
 
-/// Looks at the pairs of points of pairs of nodes.
+/// Examines the pairs of points of pairs of nodes.
 template <int D>
 class Finder {
  public:
@@ -18,7 +18,7 @@ class Finder {
   Finder(const PointTree<D>& tree, double limit, const RunContext& context)
       : tree_(tree), lenses_(tree), limit_(limit), context_(context) {}
 
-  /// Replaces a pair by pairs of children, or looks at its points, or drops it.
+  /// Replaces a pair by pairs of children, examines its points, or drops it.
   template <class Push>
   void open(NodePair pair, Push&& push, std::pmr::vector<FoundEdge>& found) {
     const auto [a, b] = pair;
@@ -40,7 +40,7 @@ class Finder {
  private:
   double extent(Node node) const { return S::extent(tree_.box(node)); }
 
-  /// Whether one point is in the lenses of all pairs, or all are too long.
+  /// True if one point is in the lenses of all pairs, or all pairs are too long.
   bool is_hopeless(Node a, Node b) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b));
     if (std::sqrt(least) > limit_) return true;
@@ -52,7 +52,7 @@ class Finder {
     return w != kNone && S::largest(tree_.point(w), tree_.box(a)) < most &&
            S::largest(tree_.point(w), tree_.box(b)) < most;
   }
-  /// The same for the pairs of one point and a box.
+  /// The same for the pairs of one point with a box.
   bool is_hopeless(Position x, Node b, Node holder, Witnesses& witnesses) const {
     const double least = S::least(tree_.point(x), tree_.box(b)) * (1 - kBeyondTies);
     if (least == 0) return false;
@@ -93,7 +93,7 @@ class Finder {
       if (is_in_lens(p)) return witnesses.add(p);
     const Edge e = lenses_.edge(x, y, square);
     if (e.value > limit_) return;
-    // Whatever is within half of the length of the middle is in the lens.
+    // Every point whose distance to the middle is at most half the length is in the lens.
     const Position w = lenses_.middle(e, holder, 0.2 * square);
     if (w != kNone) return witnesses.add(w);
     found.push_back({e.value, x, y});
@@ -110,11 +110,12 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t few = 1 << 12;  // not worth a thread
+  constexpr std::size_t few = 1 << 12;  // too few for a thread
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
-  // From the root until there are enough pairs to share, then each of them with all below it.
+  // Starts at the root and splits until there are enough pairs to share; then threads take a pair
+  // with everything below it.
   std::pmr::vector<NodePair> pairs({{1, 1}}, memory), next(memory);
   Finder<D> finder(tree, limit, context);
   while (!pairs.empty() && pairs.size() < pieces) {

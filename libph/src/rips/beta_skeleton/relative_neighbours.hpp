@@ -8,7 +8,7 @@
 
 namespace ph::beta_skeleton {
 
-/// The last points that decided about a pair: pairs that are near each other have them in common.
+/// The last points that decided about a pair: nearby pairs share them.
 class Witnesses {
  public:
   void add(Position p) { last_[next_++ % kCount] = p; }
@@ -28,13 +28,13 @@ class Witnesses {
   std::size_t next_ = 0;
 };
 
-/// An edge found: little, for there are many.
+/// An edge found; small, because there are many.
 struct FoundEdge {
   double value;
   Position u, v;
 };
 
-/// The relative neighbourhood graph (Toussaint 1980): the edges whose lens is empty, up to a limit,
+/// The relative neighbourhood graph (Toussaint 1980): the edges with an empty lens, up to a limit,
 /// in their order.
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,

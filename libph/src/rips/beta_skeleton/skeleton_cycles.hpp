@@ -13,14 +13,15 @@
 
 namespace ph::beta_skeleton {
 
-/// The generators of H1, one for each edge of the relative neighbourhood graph that joins no
+/// The generators of H1, one for each edge of the relative neighbourhood graph that does not join
 /// components, and formal annotations of any edge: signed sums of generators.
 template <int D>
 class SkeletonCycles {
  public:
   static constexpr std::uint32_t kNoGenerator = UINT32_MAX;
 
-  /// @param edges of the relative neighbourhood graph. @param generators of each, or kNoGenerator.
+  /// @param edges of the relative neighbourhood graph. @param generators the generator of each
+  /// edge, or kNoGenerator.
   SkeletonCycles(const Lenses<D>& lenses, std::span<const FoundEdge> edges,
                  std::span<const std::uint32_t> generators, std::pmr::memory_resource* memory)
       : lenses_(lenses),
@@ -37,14 +38,14 @@ class SkeletonCycles {
       ends_[--begin_[u + 1]] = {v, generators[i]};
       ends_[--begin_[v + 1]] = {u, generators[i]};
     }
-    // What began at p + 1 begins at p now.
+    // Shifts the starts: the entry for p + 1 becomes the entry for p.
     std::copy(begin_.begin() + 1, begin_.end(), begin_.begin());
     begin_.back() = static_cast<std::uint32_t>(ends_.size());
   }
 
   /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y: zero or
-  /// a generator if the lens of the edge is empty, else the sum over two edges to a point of the
-  /// lens. Any point will do, and each of the two edges comes before; see the proof.
+  /// a generator if the lens of the edge is empty, otherwise the sum over two edges to a point of
+  /// the lens. Any point of the lens is allowed, and both edges come before x -> y; see the proof.
   template <class Visit>
   void annotate(Position x, Position y, Visit&& visit) {
     stack_.assign(1, {x, y});
@@ -77,7 +78,7 @@ class SkeletonCycles {
   }
 
   const Lenses<D>& lenses_;
-  std::pmr::vector<std::uint32_t> begin_;  // by position: of its ends
+  std::pmr::vector<std::uint32_t> begin_;  // by position: its first entry in the list of ends
   std::pmr::vector<End> ends_;
   std::pmr::vector<std::pair<Position, Position>> stack_;  // scratch
 };

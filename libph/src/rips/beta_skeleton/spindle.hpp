@@ -8,20 +8,21 @@
 
 namespace ph::beta_skeleton {
 
-// The spindle of an edge (u, v) has the points p that see u and v under an angle of more than 150
-// degrees. If there is one, p is in the lens of the edge and nearer than |uv| to all of the lens:
-// the edge does nothing. Proof, also of what follows: docs/explanation/engines/beta-skeleton.md.
+// The spindle of an edge (u, v) consists of the points p that see u and v under an angle of more
+// than 150 degrees. If there is such a point p, it lies in the lens of the edge and is nearer than
+// |uv| to the entire lens: the edge changes nothing. For the proof, also of the following, see
+// docs/explanation/engines/beta-skeleton.md.
 //
-// Rounding. The lens is that of the rounded distances. With rounded squares of a relative error
+// Rounding. The lens is defined by the rounded distances. With rounded squares of a relative error
 // below 1e-15 each, (u,q) not after (u,v) means |uq| <= (1 + e) |uv|, and |pq| < (1 - e) |uv| means
 // that (p,q) comes before (u,v), whatever the ties, for e = 2e-15. Write c for -(u - p).(v - p).
 // The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2; the margin below, 1e-12
 // |uv|^2, leaves a hundred times that for the errors of the few operations of the test.
 
-/// How much of |uv|^2 a point must be inside the spindle.
+/// The margin, as a multiple of |uv|^2, by which a point must be inside the spindle.
 inline constexpr double kSpindleMargin = 1e-12;
 
-/// Whether p is in the spindle of u and v for certain. @param square that of |uv|.
+/// True if p is certainly in the spindle of u and v. @param square the square of |uv|.
 template <int D>
 bool is_in_spindle(const double* p, const double* u, const double* v, double square) {
   double dot = 0, a = 0, b = 0;
@@ -35,9 +36,10 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
   return inside > 0 && inside * inside > 0.75 * (a * b);
 }
 
-/// Whether p is for certain in the spindle of all pairs of a point of one ball and one of another.
-/// In the proof |up| |vp| >= 1e-7 |uv|^2 follows from the first test, and a margin of 1e-6 in the
-/// angle is then worth 5e-14 |uv|^2, more than 3 e; it also is more than the rounding of acos.
+/// True if p is certainly in the spindle of all pairs of a point in one ball and a point in
+/// another. In the proof |up| |vp| >= 1e-7 |uv|^2 follows from the first test, and a margin of 1e-6
+/// in the angle is then worth 5e-14 |uv|^2, more than 3 e; it also is more than the rounding of
+/// acos.
 template <int D>
 bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
                     const double* centre_v, double radius_v, double distance) {

@@ -9,8 +9,8 @@
 
 namespace ph::beta_skeleton {
 
-/// Looks at pairs of nodes and of points. Of distances alone, so in any order; which classes live
-/// must not change meanwhile.
+/// Examines pairs of nodes and of points. The result depends on distances alone, which allows any
+/// order; the set of living classes must not change meanwhile.
 template <int D>
 class SplitLenses<D>::Opener {
  public:
@@ -21,7 +21,7 @@ class SplitLenses<D>::Opener {
         classes_(of.classes_),
         context_(of.context_) {}
 
-  /// Replaces a pair by pairs of children, or looks at its points, or drops it.
+  /// Replaces a pair by pairs of children, examines its points, or drops it.
   void open(NodePair pair, Found& found) {
     const auto [a, b] = pair;
     if (a == b) {
@@ -44,14 +44,14 @@ class SplitLenses<D>::Opener {
   using Point = typename PointTree<D>::Point;
 
   double extent(Node node) const { return S::extent(tree_.box(node)); }
-  /// A node that has all lenses of the pairs of two nodes.
+  /// A node that contains all lenses of the pairs of two nodes.
   Node holder_of_lenses(Node a, Node b, const Point& middle, double largest) const {
     const double away = 0.5 * (tree_.radius(a) + tree_.radius(b));
     return tree_.holder_of_ball(
         a, middle, std::sqrt(lenses_.reach(largest * (1 + kBeyondTies))) * (1 + 1e-9) + away);
   }
 
-  /// Whether no pair of points of two nodes has to be looked at.
+  /// True if no pair of points of two nodes must be examined.
   /// @param witness receives a point near the middle.
   bool is_hopeless(Node a, Node b, Position& witness) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b)),
@@ -70,7 +70,7 @@ class SplitLenses<D>::Opener {
     if (is_in_spindles<D>(w, u.data(), ru, v.data(), rv, distance)) return true;
     return sees_all_lenses(w, a, b, holder_of_lenses(a, b, middle, largest));
   }
-  /// Whether w is in the lenses of all pairs, and sees all that is in any of them.
+  /// True if w is in the lenses of all pairs, and sees every point in any of them.
   bool sees_all_lenses(const double* w, Node a, Node b, Node holder) const {
     const double *u = tree_.box(a), *v = tree_.box(b);
     const double least = S::least_of_boxes(u, v) * (1 - kBeyondTies),
@@ -118,7 +118,7 @@ class SplitLenses<D>::Opener {
     if (a != b)
       for (Position p = tree_.begin(b); p < tree_.end(b); ++p)
         if (is_witness(p)) return witnesses.add(p);
-    // The ball of 0.134 |uv| around the middle is in the spindle.
+    // The ball of radius 0.134 |uv| around the middle is in the spindle.
     const Position w = lenses_.nearest_to_middle(e, holder, 0.0179 * square);
     if (w == kNone) return;  // the lens is empty
     if (is_witness(w)) return witnesses.add(w);
@@ -189,7 +189,7 @@ void SplitLenses<D>::sweep_below(double bound, const OnSplit& on_split) {
     on_split(e, lenses_.holder_of(e));
     context_.poll();
   }
-  // Those whose classes are born by then live from now on.
+  // Classes born by then live from now on.
   while (classes_.born < classes_.births.size() && classes_.births[classes_.born] < bound) {
     ++classes_.born;
     ++classes_.living;

@@ -11,27 +11,28 @@
 
 namespace ph::beta_skeleton {
 
-/// The classes of H1, as far as that decides what has to be looked at.
+/// The classes of H1, as far as they decide which pairs must be examined.
 struct Classes {
-  std::span<const double> births;  ///< of all that there will be, ascending
+  std::span<const double> births;  ///< births of all classes that there will be, ascending
   std::size_t born = 0, living = 0;
 
-  /// Whether none lives from now on up to a value.
+  /// True if no class lives from now on up to a value.
   bool are_none_up_to(double value) const {
     return living == 0 && (born == births.size() || births[born] > value);
   }
   bool are_over() const { return living == 0 && born == births.size(); }
 };
 
-/// Finds the edges whose lens falls apart, in their order, for as long as there are classes.
+/// Finds the edges whose lens has several components, in their order, as long as there are classes.
 template <int D>
 class SplitLenses {
  public:
   using S = Squares<D>;
-  /// Is told each of them, and brings the classes up to date.
+  /// Receives each of these edges, and updates the classes.
   using OnSplit = std::function<void(const Edge&, Node holder)>;
 
-  /// @param classes those born and alive change while edges come. @param limit of the edges.
+  /// @param classes the sets of born and living classes change while edges come. @param limit of
+  /// the edges.
   SplitLenses(const PointTree<D>& tree, double limit, Classes& classes, const RunContext& context)
       : tree_(tree),
         lenses_(tree),
@@ -71,7 +72,7 @@ class SplitLenses {
   Classes& classes_;
   const RunContext& context_;
   NodePairQueue queue_;
-  std::pmr::vector<FoundEdge> split_;  // a heap: the first edge on top
+  std::pmr::vector<FoundEdge> split_;  // a heap with the first edge on top
 };
 
 extern template class SplitLenses<2>;

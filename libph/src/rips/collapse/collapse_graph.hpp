@@ -5,22 +5,23 @@
 
 #include "ph/detail/rips/rips_graph.hpp"
 
-/// What an edge collapse asks of a graph whose edges may move to later values. Two classes answer,
-/// RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template over them.
+/// The interface that an edge collapse needs of a graph whose edges may move to later values. Two
+/// classes implement it, RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template
+/// over them.
 ///
-/// Values are known by keys: each edge enters with the last edge of its value, at the key of that
-/// edge. A vertex or an edge that has entered by key `now` is there; `now` is never less than the
-/// key of the edge at hand.
+/// Keys represent values: each edge enters with the last edge of its value, at the key of that
+/// edge. A vertex or an edge is present if it has entered by key `now`, which is never less than
+/// the key of the current edge.
 ///
 ///   Set                           a set of vertices, made by make_set()
-///   enter_until(key)              edges up to that key enter; before anything else
-///   find_link(e, now, link)       the common neighbours by now of the ends of e, the edge at hand
-///   find_arrivals(e, now, out)    those that come later, each with the key at which it does
-///   are_joined(a, b, now)         whether two vertices are joined by now
+///   enter_until(key)              edges up to that key enter; called before everything else
+///   find_link(e, now, link)       the common neighbours of the ends of e, the current edge, by now
+///   find_arrivals(e, now, out)    those that come later, each with its key
+///   are_joined(a, b, now)         true if two vertices are joined by `now`
 ///   first_apart(link, c, now)     a vertex of the link other than c not joined to c, or kNone
-///   keep_neighbours(set, w, now)  takes out of a set what is not joined to w
+///   keep_neighbours(set, w, now)  removes vertices from a set that are not joined to w
 ///   move(e, key)                  e enters at a later key, or never
-///   leave(e, now)                 all edges of its value are done: from now on e comes later
+///   leave(e, now)                 all edges of its value are done: from now on e enters later
 namespace ph::collapse {
 
 using Key = RipsGraph::Key;

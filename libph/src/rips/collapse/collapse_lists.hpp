@@ -9,7 +9,7 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse where few pairs are near: for each vertex its neighbours, sorted,
+/// The graph of an edge collapse if few pairs are near: for each vertex its neighbours, sorted,
 /// each with the key at which the edge enters.
 class ListGraph {
  public:
@@ -39,7 +39,7 @@ class ListGraph {
     for (Vertex v = 0; v < sizes_.size(); ++v) std::ranges::sort(list(v), {}, &Neighbour::vertex);
   }
 
-  /// Bytes it takes.
+  /// Bytes that it takes.
   static double bytes(const RipsGraph& graph) {
     return 16 * static_cast<double>(graph.edge_count()) + 12 * static_cast<double>(graph.size());
   }
@@ -108,7 +108,7 @@ class ListGraph {
     return std::span(neighbours_).subspan(begins_[v], sizes_[v]);
   }
 
-  /// Calls `visit(vertex, key)` for each vertex joined to both ends sooner or later.
+  /// Calls `visit(vertex, key)` for each vertex that is ever joined to both ends.
   template <class Visit>
   void for_each_common(const FlagEdge& e, Visit&& visit) const {
     const auto of_u = list(e.u), of_v = list(e.v);
@@ -132,7 +132,7 @@ class ListGraph {
   }
 
   std::pmr::vector<std::size_t> begins_;   // by vertex
-  std::pmr::vector<std::uint32_t> sizes_;  // by vertex: neighbours left
+  std::pmr::vector<std::uint32_t> sizes_;  // by vertex: number of neighbours left
   std::pmr::vector<Neighbour> neighbours_;
 };
 

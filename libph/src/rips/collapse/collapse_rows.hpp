@@ -10,8 +10,8 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse where most pairs are near: the edges that have entered when the
-/// edge at hand does are rows of bits; those kept so far that come later are sorted lists.
+/// The graph of an edge collapse if most pairs are near: edges that entered before the current edge
+/// are rows of bits; later edges that were kept are sorted lists.
 class RowGraph {
  public:
   using Set = std::pmr::vector<BitMatrix::Word>;
@@ -23,7 +23,7 @@ class RowGraph {
         later_(static_cast<std::size_t>(graph.size()), memory),
         also_(memory) {}
 
-  /// Bytes it takes, but for what comes later.
+  /// Bytes that it takes, without the later edges.
   static double bytes(const RipsGraph& graph) {
     const auto n = static_cast<double>(graph.size());
     return n * n / 8 + 32 * n;
@@ -110,7 +110,7 @@ class RowGraph {
     insert_later(e.u, {e.v, to});
     insert_later(e.v, {e.u, to});
   }
-  /// The present turns to what is before the edge: it comes later from now on.
+  /// Moves the present to just before the edge: from now on the edge enters later.
   void leave(const FlagEdge& e, Key now) { move(e, now); }
 
  private:
@@ -121,7 +121,7 @@ class RowGraph {
 
   std::span<const FlagEdge> edges_;
   Key entered_ = 0;
-  Key present_key_ = 0;  // of the edge at hand: what is kept in lists comes after it
+  Key present_key_ = 0;  // key of the current edge: edges in lists come after it
   BitMatrix present_;
   std::pmr::vector<std::pmr::vector<Neighbour>> later_;  // by vertex, each sorted by vertex
   std::pmr::vector<Vertex> also_;

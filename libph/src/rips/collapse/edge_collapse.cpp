@@ -13,7 +13,7 @@ namespace ph {
 namespace collapse {
 namespace {
 
-/// The collapse of one graph, kept as a `Graph` says; see collapse_graph.hpp.
+/// The collapse of one graph, stored as `Graph`; see collapse_graph.hpp.
 template <class Graph>
 class EdgeCollapse {
  public:
@@ -48,7 +48,8 @@ class EdgeCollapse {
     return collapsed(std::move(kept));
   }
 
-  /// The share of edges dominated when they enter, of `sample` edges spread evenly over the order.
+  /// The share of edges that are dominated when they enter, among `sample` edges spread evenly over
+  /// the order.
   double dominated_share(std::size_t sample) {
     const std::size_t count = input_.edge_count();
     sample = std::min(sample, count);
@@ -73,12 +74,12 @@ class EdgeCollapse {
     friend auto operator<=>(const Move&, const Move&) = default;
   };
 
-  /// The first key from `now` on at which the edge is not dominated; kNever if there is none.
+  /// The first key from `now` on at which the edge is not dominated, or kNever.
   Key first_key_not_dominated(const FlagEdge& e, Key now, Ticker& ticker) {
     graph_.find_link(e, now, link_);
     Vertex dominator = find_dominator(e, now, ticker);
     if (dominator == kNone) return now;
-    // A dominator stays one until a vertex comes to the link that is not joined to it.
+    // A dominator remains one until a vertex enters the link that is not joined to it.
     graph_.find_arrivals(e, now, arrivals_);
     std::ranges::make_heap(arrivals_, std::greater{});
     while (!arrivals_.empty()) {
@@ -98,7 +99,7 @@ class EdgeCollapse {
     return kNever;
   }
 
-  /// A vertex of the link that is joined to all others by now; kNone if there is none.
+  /// A vertex of the link that is joined to all others by `now`, or kNone.
   Vertex find_dominator(const FlagEdge& e, Key now, Ticker& ticker) {
     Vertex& last = last_dominator_[e.u];
     Vertex c = graph_.contains(link_, last) ? last : graph_.first(link_);
@@ -107,7 +108,8 @@ class EdgeCollapse {
       ticker.work();
       const Vertex apart = graph_.first_apart(link_, c, now);
       if (apart == kNone) return last = c;
-      // A dominator is joined to `apart`, which rules out c, `apart` itself and as a rule most.
+      // A dominator is joined to `apart`, which rules out c, `apart` itself and usually most
+      // candidates.
       graph_.keep_neighbours(candidates_, apart, now);
       c = graph_.first(candidates_);
     }
@@ -115,7 +117,7 @@ class EdgeCollapse {
   }
 
   RipsGraph collapsed(std::pmr::vector<Move>&& kept) const {
-    std::ranges::sort(kept);  // among those of one value, the ones moved there come first
+    std::ranges::sort(kept);  // among edges of equal value, edges that were moved there come first
     FlagEdges edges(&context_.memory);
     edges.reserve(kept.size());
     for (const auto& [to, key] : kept) {
@@ -129,17 +131,18 @@ class EdgeCollapse {
   const RunContext& context_;
   Graph graph_;
   typename Graph::Set link_, candidates_;
-  std::pmr::vector<Arrival> arrivals_;       // a heap, the next one first
-  std::pmr::vector<Vertex> last_dominator_;  // by vertex: of its last edge; a good guess
+  std::pmr::vector<Arrival> arrivals_;  // a heap with the next one on top
+  // By vertex: the dominator of its last edge, a good guess.
+  std::pmr::vector<Vertex> last_dominator_;
 };
 
-constexpr double kAlwaysAffordable = 1 << 25;  // bytes
-constexpr std::size_t kSample = 500;           // edges
-// A pass follows another that dropped at least one in so many of its edges. Measured: where fewer
-// go, the next pass takes longer than the reduction saves.
+constexpr double kAlwaysAffordable = 1 << 25;  // in bytes
+constexpr std::size_t kSample = 500;           // in edges
+// Another pass follows if a pass dropped at least one in this many edges. Measured: if fewer are
+// dropped, the next pass takes longer than the reduction saves.
 constexpr std::size_t kWorthAnotherPass = 8;
 
-// Measured: rows are faster, 2 to 15 times, wherever they are affordable.
+// Measured: rows are 2 to 15 times as fast, wherever they are affordable.
 bool are_rows_affordable(const RipsGraph& graph) {
   return RowGraph::bytes(graph) <= std::max(kAlwaysAffordable, ListGraph::bytes(graph));
 }
@@ -157,8 +160,8 @@ auto with_collapse(const RipsGraph& graph, const RunContext& context, CollapseLa
 }  // namespace collapse
 
 RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context, CollapseLayout layout) {
-  // An edge stays at a value for what is there when it is looked at; shorter edges go later and may
-  // leave it dominated. So the next pass finds more.
+  // The decision about an edge depends on the edges present at that time; shorter edges are moved
+  // later, and the edge may become dominated. The next pass therefore finds more.
   const auto pass = [&](const RipsGraph& input) {
     return collapse::with_collapse(input, context, layout, [](auto&& c) { return c.run(); });
   };

@@ -46,14 +46,14 @@ auto EchelonRelations::eliminate(Word* row, std::size_t words, Relation* of) -> 
         row[i] ^= other[i];
       }
       if (count >= relation.count) continue;
-      for (std::size_t i = 0; i <= k; ++i) other[i] ^= row[i];  // what the row was
+      for (std::size_t i = 0; i <= k; ++i) other[i] ^= row[i];  // the former content of the row
       relation.count = static_cast<std::uint32_t>(count);
     }
   return kNone;
 }
 
 auto EchelonRelations::store(Generator youngest) -> Relation {
-  constexpr std::size_t few = 8, sparse = 16;  // terms; words a term
+  constexpr std::size_t few = 8, sparse = 16;  // terms; words per term
   const std::size_t words = words_to(youngest);
   Relation result;
   result.count = static_cast<std::uint32_t>(bits::count_common(row_.data(), row_.data(), words));
@@ -71,7 +71,7 @@ auto EchelonRelations::store(Generator youngest) -> Relation {
 }
 
 void EchelonRelations::substitute(Word* vectors, std::size_t generators, std::size_t words) const {
-  // The others of a relation are older.
+  // The other generators of a relation are older.
   for (Generator g = 0; g < generators; ++g) {
     if (!is_dead(g)) continue;
     const auto add = [=, to = vectors + g * words](std::size_t h) {

@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// Sums of generators over Z/2 as lists, as if no generator had died, and the relations between
-/// generators by which they died. 0 is the empty sum.
+/// Sums of generators over Z/2 as lists, as if no generator had died, together with the relations
+/// by which generators died. 0 is the empty sum.
 class FormalSums {
  public:
   using Generator = EchelonRelations::Generator;
@@ -28,7 +28,7 @@ class FormalSums {
   Sum insert(std::span<const Generator> terms);
   Sum add(Sum a, Sum b);
 
-  /// The sum of these is zero from now on. @return the generator that dies of it, or
+  /// The sum of these becomes zero. @return the generator that this kills, or
   /// EchelonRelations::kNone.
   Generator add_relation(std::span<const Sum> sums) {
     for (const Sum a : sums) relations_.add((*this)[a]);
@@ -37,10 +37,10 @@ class FormalSums {
   const EchelonRelations& relations() const { return relations_; }
 
  private:
-  /// Of what was put at the end of terms_.
+  /// Makes a sum of the terms at the end of terms_.
   Sum end_sum();
 
-  std::pmr::vector<std::size_t> ends_;  // where each begins, and where the last one ends
+  std::pmr::vector<std::size_t> ends_;  // start of each sum, and the end of the last one
   std::pmr::vector<Generator> terms_;
   EchelonRelations relations_;
 };

@@ -7,7 +7,7 @@
 
 namespace ph {
 
-/// Numbers of pairs of vertices, as a matrix: 16 bits each while they suffice.
+/// Numbers of pairs of vertices, as a matrix: 16 bits each as long as they are enough.
 class PairLabels {
  public:
   using Vertex = std::uint32_t;
@@ -31,7 +31,7 @@ class PairLabels {
       else
         long_[i] = label;
   }
-  /// Asks for a label that will be needed soon.
+  /// Prefetches a label that will be needed soon.
   void prefetch(Vertex u, Vertex v) const {
     const std::size_t i = u * vertices_ + v;
     if (long_.empty())
@@ -43,7 +43,7 @@ class PairLabels {
  private:
   std::size_t vertices_;
   std::pmr::vector<std::uint16_t> short_;
-  std::pmr::vector<Label> long_;  // of all pairs, once there is one that is not short
+  std::pmr::vector<Label> long_;  // for all pairs, once a number needs more than 16 bits
 };
 
 }  // namespace ph

@@ -13,12 +13,13 @@ using Word = bits::Word;
 using Row = RelationMatrix::Row;
 
 struct Reduced {
-  std::size_t column;  // SIZE_MAX if nothing is left
+  std::size_t column;  // SIZE_MAX if the row is empty
   std::size_t added;
 };
 
-// Adds rows of a matrix to `row` until its first column is nobody's.
-// @param words of a row, whole cache lines. @param row_of by column. @param added takes the rows.
+// Adds rows of a matrix to `row` until its first column belongs to no row.
+// @param words of a row, in complete cache lines. @param row_of by column. @param added receives
+// the rows that were added.
 PH_FOR_EACH_TARGET
 Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* row_of,
                    Row* added) {
@@ -43,7 +44,7 @@ Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* 
 // Eight squares of 64 x 64 bits side by side.
 using Squares = std::array<std::array<Word, 8>, 64>;
 
-// Swaps the blocks of bits above and below the diagonals, from 32 x 32 down to single bits.
+// Swaps the blocks above and below the diagonals, from blocks of 32 x 32 down to single bits.
 PH_FOR_EACH_TARGET
 void transpose(Squares& squares) {
   Word mask = 0x00000000FFFFFFFF;
@@ -105,7 +106,7 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
 }
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
-  // A living row is a sum of rows that is zero, and what it stands for goes to each of them.
+  // A living row is zero as a sum of rows; its vector is passed on to each of these rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
       bits::add(vectors + added_[i] * words, vectors + steps_[s].to * words, words);

@@ -10,17 +10,17 @@
 
 namespace ph {
 
-/// Relations between generators over Z/2 that came one after the other, and the generator that each
-/// of them killed: the youngest one left when those that died before are put in.
+/// Relations between generators over Z/2, one after the other, and the generator that each of them
+/// killed: the youngest one left after substitution of the generators that died before.
 ///
-/// A row for each generator, from the oldest to the youngest, a column for each relation. Rows are
-/// reduced from the youngest up: younger rows are added to a row until its first column is that of
-/// no younger row; that relation killed the generator. These are the pairs that columns would have
-/// (de Silva, Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology), but a relation
-/// that follows from those before costs nothing: here most do.
+/// There is a row for each generator, from the oldest to the youngest, and a column for each
+/// relation. Rows are reduced from the youngest up: younger rows are added to a row until its first
+/// column is the first column of no younger row; that relation killed the generator. These are the
+/// same pairs as with a reduction of columns (de Silva, Morozov, Vejdemo-Johansson, Dualities in
+/// persistent (co)homology), but a relation that follows from earlier ones costs nothing: here,
+/// most do.
 ///
-/// Relations come in blocks. What was added to what is kept for the blocks to come, and for
-/// `substitute`.
+/// Relations come in blocks. All additions are stored for later blocks, and for `substitute`.
 class RelationMatrix {
  public:
   using Word = bits::Word;
@@ -36,26 +36,27 @@ class RelationMatrix {
         added_(memory),
         more_(memory) {}
 
-  /// Solves a block of relations. @param rows at least as many as before: the new ones are those of
-  /// younger generators. @param relations the columns, each of so many words: a bit for each
-  /// generator. @return by column the generator it killed, or kNone; valid until the next call.
+  /// Solves a block of relations. @param rows at least as many as before: new rows belong to
+  /// younger generators. @param relations the columns, each of `words` words with one bit per
+  /// generator. @return by column, the generator that it killed, or kNone; valid until the next
+  /// call.
   std::span<const Row> reduce(std::size_t rows, std::size_t columns, const Word* relations,
                               std::size_t words);
 
   std::size_t row_count() const { return is_dead_.size(); }
   bool is_dead(Row row) const { return is_dead_[row] != 0; }
   std::size_t living_count() const { return living_; }
-  /// How many additions are kept.
+  /// Number of additions that are stored.
   std::size_t additions() const { return added_.size(); }
-  /// Puts in what became of the dead generators. @param vectors of so many words for each
-  /// generator: on entry what the living ones are, and zero for the dead.
+  /// Substitutes the dead generators. @param vectors one per generator, each of `words` words: on
+  /// entry the vectors of the living ones, and zero for the dead.
   void substitute(Word* vectors, std::size_t words) const;
 
  private:
   struct alignas(64) Line {
     std::array<Word, 8> words{};
   };
-  /// Rows were added to `to`: those from `begin` on, up to the next step, in this order.
+  /// Rows were added to `to`: the rows from `begin` on, up to the next step, in this order.
   struct Step {
     Row to;
     std::size_t begin;
@@ -67,7 +68,7 @@ class RelationMatrix {
     return step + 1 < steps_.size() ? steps_[step + 1].begin : added_.size();
   }
 
-  std::size_t lines_ = 0;  // of a row
+  std::size_t lines_ = 0;  // cache lines per row
   std::pmr::vector<Line> cells_;
   std::pmr::vector<Row> row_of_;  // by column
   std::pmr::vector<std::uint8_t> is_dead_;

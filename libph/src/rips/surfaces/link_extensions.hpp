@@ -18,10 +18,9 @@
 
 namespace ph {
 
-/// The living classes of H2 near a new edge (u,v), and what they become on its star: for each class
+/// The living classes of H2 near a new edge (u,v), and their extension to its star: for each class
 /// h a potential p on the link, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
-/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the link. Vertices have their numbers in the
-/// link.
+/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the link. Vertices are numbered within the link.
 template <Field K>
 class LinkExtensions {
  public:
@@ -36,16 +35,16 @@ class LinkExtensions {
 
   struct Extension {
     Generator generator;
-    const Cochain* cocycle;  ///< null: of a loop
-    /// A cocycle on the link that stands for gamma and belongs to no class.
+    const Cochain* cocycle;  ///< null for a loop
+    /// A cocycle on the link that replaces gamma and belongs to no class.
     LinkPairs<K>* loop = nullptr;
     /// The lists of u and v, unless the cocycle is dense.
     typename Cochain::Terms at_u = {}, at_v = {};
     typename RowPool<K>::Id potential = 0;
-    /// p(x) + gamma(x,y) - p(y) where y is the vertex that came last; zero between vertices. Only
-    /// for those obstructed.
+    /// p(x) + gamma(x,y) - p(y), where y is the last vertex added; zero between vertices. Only for
+    /// obstructed classes.
     typename RowPool<K>::Id mismatch = 0;
-    std::size_t first = 0, last = 0;  ///< its part of terms_
+    std::size_t first = 0, last = 0;  ///< its range in terms_
     bool is_obstructed = false;       ///< no potential fits
     bool is_flat = true;              ///< the potential is zero so far
     bool is_mismatched = false;
@@ -61,19 +60,19 @@ class LinkExtensions {
         gamma_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
-  /// Loops, then classes by ascending generator.
+  /// Loops first, then classes by ascending generator.
   std::pmr::vector<Extension>& all() { return all_; }
-  /// Cocycles of the link that no potential fits. They outlive the edge.
+  /// Adds cocycles of the link that have no potential. They outlive the edge.
   void add_loops(std::span<LinkPairs<K>* const> loops);
   void clear();
   void remove(Extension* x);
 
-  /// Finds the classes whose gamma is not zero on the link, with potentials. Calls `prepare` before
-  /// the first one for a cover of the link. @return whether there are some without a potential; of
-  /// these potentials and mismatches are zero.
+  /// Finds the classes whose gamma is not zero on the link, with potentials. Calls `prepare` for a
+  /// cover of the link before the first such class. @return true if some have no potential; their
+  /// potentials and mismatches are zero.
   template <class Prepare>
   bool find(const FlagEdge& e, Prepare&& prepare);
-  /// Cocycles have changed: finds gamma anew for those obstructed.
+  /// After a change of cocycles: computes gamma again for obstructed classes.
   void refresh(const FlagEdge& e);
 
   Unit* potential(const Extension& x) { return rows_[x.potential]; }
@@ -81,21 +80,21 @@ class LinkExtensions {
   /// loop += scale * gamma.
   void add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e, Element scale);
   /// Extends a class to the next vertex of a forest: the first edge to each part decides.
-  /// @return whether another edge asks for something else; then see `mismatch`.
+  /// @return true if another edge requires a different value; then see `mismatch`.
   bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
 
  private:
   using Term = typename Cochain::Term;
 
-  /// to += scale * a cocycle's row on the link, in the first words.
+  /// to += scale * the row of a cocycle on the link, in the first words.
   void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
   /// Finds the potential on a link with an apex.
   void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);
   /// Finds the potential in the order of a cover. @return false if there is none.
   bool extend_over(Extension& x, const FlagEdge& e, const LinkCover& cover);
-  /// Copies what lists say of gamma on the link into terms_, from both ends of each pair.
+  /// Copies the terms of gamma on the link from lists into terms_, from both ends of each pair.
   void collect_terms(Extension& x);
-  /// gamma_ = gamma(., y) on a set, in the first words. @return whether that is not zero.
+  /// gamma_ = gamma(., y) on a set, in the first words. @return true if that is not zero.
   bool find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
                   std::size_t words);
 
@@ -105,7 +104,7 @@ class LinkExtensions {
   std::pmr::vector<Extension> all_;
   RowPool<K> rows_;
   std::pmr::vector<Unit> gamma_;
-  std::pmr::vector<Term> terms_;  // of a pair (y,x) of either order: gamma(x,y)
+  std::pmr::vector<Term> terms_;  // for a pair (y,x) in either order: gamma(x,y)
 };
 
 template <Field K>

@@ -21,12 +21,13 @@ namespace ph {
 
 /// H2 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H1.
 ///
-/// An edge e = (u,v) enters with its star, glued to what is there along the suspension of its link,
-/// the flag complex of the link. So a class of H2 is born with each component of the link but one
-/// (if that component kills no class of H1) and dies with a loop of the link. Each living class h
-/// is held by a cocycle phi_h. It extends to the new triangles by a potential, p(w) = phi_h(u,v,w):
-/// p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the link. Where
-/// there is none, a class dies. See docs/explanation/engines/edge-links-h2.md.
+/// An edge e = (u,v) enters with its star, which is glued to the present complex along the
+/// suspension of e's link, a flag complex. A class of H2 is therefore born with each component of
+/// the link except one (if that component kills no class of H1), and dies with a loop of the link.
+/// Each living class h is represented by a cocycle phi_h. It extends to the new triangles by a
+/// potential, p(w) = phi_h(u,v,w): p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each
+/// edge xy of the link. Where no potential exists, a class dies. See
+/// docs/explanation/engines/edge-links-h2.md.
 template <Field K>
 class LinkSurfaces {
  public:
@@ -37,7 +38,7 @@ class LinkSurfaces {
   using Observer = SweepObserver<K>;
   using Triangle = typename Observer::Triangle;
 
-  /// @param graph the edges so far, which outlive this.
+  /// @param graph the edges so far; it must outlive this object.
   LinkSurfaces(LinkGraph& graph, const K& field, SweepRequest wanted, Observer& observer,
                const RunContext& context)
       : graph_(graph),
@@ -56,23 +57,23 @@ class LinkSurfaces {
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// A cocycle of a link that kills no class of H2, and the first tetrahedron where it is none: a
-  /// class of H3 is born.
+  /// A cocycle of a link that kills no class of H2, and the first tetrahedron where it stops being
+  /// a cocycle: a class of H3 is born.
   struct BirthAbove {
     typename Observer::Tetrahedron birth;
     LinkPairs<K>* loop;
   };
 
-  /// Extends the living classes to the star of an edge, the one of the graph's link; kills those
-  /// that cannot be.
-  /// @param loops a basis of H^1 of the link, if births of H3 are wanted; others are added to them.
+  /// Extends the living classes to the star of an edge (the edge of the graph's link) and kills
+  /// classes that cannot be extended.
+  /// @param loops a basis of H^1 of the link, if births of H3 are wanted; others are added to it.
   void extend(Position position, const FlagEdge& e, LinkComponents& components,
               std::span<LinkPairs<K>* const> loops = {});
-  /// Those of the last edge.
+  /// The births of the last edge.
   std::span<const BirthAbove> births_above() const { return births_above_; }
   /// A class is born with a component of an edge's link.
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
-  /// Reports what never dies.
+  /// Reports the classes that never die.
   void finish();
 
  private:
@@ -84,17 +85,17 @@ class LinkSurfaces {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Goes through a link in the order of its tetrahedra: classes that are obstructed die or become
-  /// others that are not.
-  /// @param is_extended whether nothing but pairs of length zero are to be found.
+  /// Goes through a link in the order of its tetrahedra: obstructed classes die or are changed into
+  /// unobstructed ones.
+  /// @param is_extended true if only pairs of length zero are left to find.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
-  /// What an extension asks for at w beyond what it has for the last vertex.
+  /// The value that an extension requires at w, minus the value that it has for the last vertex.
   Element mismatch_of(const Extension& x, Vertex w);
-  /// Adds younger classes to those mismatched at w, so that only the youngest of them, the dying
-  /// one, remains so. @param words of rows that are in use.
+  /// Adds younger classes to the classes mismatched at w, after which only the youngest of them,
+  /// the dying one, is mismatched. @param words of rows in use.
   void correct_others(std::size_t dying, const FlagEdge& e, Vertex w, std::size_t words);
-  /// @param tetrahedron joins two parts of the link, of which one has these vertices.
+  /// @param tetrahedron joins two parts of the link, one of which has these vertices.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
   void store(const Extension& x, const FlagEdge& e, const LinkComponents& components);
@@ -109,13 +110,13 @@ class LinkSurfaces {
   SweepRequest wanted_;
   Observer& observer_;
   Cocycles cocycles_;
-  std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
-  // While an edge is added.
+  std::pmr::vector<Triangle> births_;  // by generator; edge = kDead after its death
+  // Used while an edge is added:
   LinkCover cover_;
   LinkForest forest_;
   LinkExtensions<K> extensions_;
   std::pmr::vector<BirthAbove> births_above_;
-  std::pmr::vector<std::size_t> partners_;  // by extension: what is to be added to it
+  std::pmr::vector<std::size_t> partners_;  // by extension: the one to be added to it
   std::pmr::vector<Unit> star_;             // on the link
   std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
@@ -198,7 +199,7 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
   const std::size_t words = LinkForest::words_to(y);
   auto& all = extensions_.all();
   for (Vertex from = 0;;) {
-    // The first tetrahedron over which a class does not extend kills the youngest such class.
+    // The first tetrahedron across which some class does not extend kills the youngest such class.
     std::size_t first = bits::kNone;
     for (const Extension& x : all)
       if (x.is_mismatched)
@@ -232,7 +233,7 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
-  // Each of the others takes the smallest of the younger ones, all as they are now. Loops come
+  // Each of the others takes the smallest of the younger ones, in their present state. Loops come
   // before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
@@ -273,7 +274,7 @@ void LinkSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
 template <Field K>
 void LinkSurfaces<K>::store(const Extension& x, const FlagEdge& e,
                             const LinkComponents& components) {
-  // A constant on a component changes the class by younger ones at most: few values are stored.
+  // A constant on a component changes the class only by younger ones: few values are stored.
   Unit* p = extensions_.potential(x);
   const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
@@ -298,7 +299,7 @@ template <Field K>
 void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Function::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
-    // phi(u,v,w): an odd number of swaps away from (v,u,w)
+    // phi(u,v,w): true if it takes an odd number of swaps from (v,u,w)
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
     std::ranges::sort(vertices);
     cocycle_.push_back({vertices, is_odd ? field_.negate(a) : a});

@@ -15,8 +15,8 @@
 namespace ph {
 
 /// A 2-cochain phi of a flag complex, an alternating function of three vertices, stored where it is
-/// not zero: few triangles are sorted lists, each triangle in those of its three corners; many are
-/// rows, one for each edge (a,b), a < b, with the values phi(a,b,.).
+/// not zero. A few triangles are stored as sorted lists, each triangle in the lists of its three
+/// corners; many are stored as rows, one per edge (a,b), a < b, with the values phi(a,b,.).
 template <Field K>
 class TriangleCochain {
  public:
@@ -25,7 +25,7 @@ class TriangleCochain {
   using Function = VertexFunction<K>;
   using Unit = typename Function::Unit;
   using Word = bits::Word;
-  /// The other two vertices of a triangle are named by `pair`.
+  /// `pair` names the other two vertices of a triangle.
   using Lists = CochainLists<K, std::uint32_t>;
   using Term = typename Lists::Term;
   using Terms = typename Lists::Terms;
@@ -35,10 +35,10 @@ class TriangleCochain {
   static std::uint32_t pair(Vertex larger, Vertex smaller) { return larger << 16 | smaller; }
   static Vertex larger(const Term& t) { return t.cell >> 16; }
   static Vertex smaller(const Term& t) { return t.cell & 0xFFFF; }
-  /// 16 bits for each vertex.
+  /// 16 bits per vertex.
   static constexpr std::size_t kMostVertices = 1 << 16;
 
-  /// What all cochains of a complex share.
+  /// Data shared by all cochains of a complex.
   struct Shared : Lists::Shared {
     Shared(const K& field_, std::size_t vertices, std::size_t most_terms_,
            std::pmr::memory_resource* memory)
@@ -48,7 +48,8 @@ class TriangleCochain {
           rows(blocks, memory),
           star(memory) {}
     std::size_t blocks;
-    std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
+    // In lists; beyond that they become rows, later if rows take more than bits.
+    std::size_t most_terms;
     std::size_t living = 0;  // cochains in use
     RowPool<K> rows;
     std::pmr::vector<Term> star;
@@ -59,25 +60,26 @@ class TriangleCochain {
   bool is_dense() const { return !at_.empty(); }
   /// The list of a vertex, unless it is dense.
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
-  /// Whether a triangle at a, the other two vertices in a link, may have a value; no false "no".
-  /// @param terms those of a.
+  /// True if a triangle at a, with its other two vertices in a link, may have a value; it is never
+  /// false wrongly.
+  /// @param terms the terms of a.
   bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
-  /// If it is dense: phi(a,b,.) if a < b, -phi(a,b,.) otherwise; null if that is zero.
+  /// For a dense cochain: phi(a,b,.) if a < b, otherwise -phi(a,b,.); null if that is zero.
   const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
     return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
   }
-  /// What it costs to add it to another one, more or less.
+  /// The approximate cost of adding it to another one.
   std::size_t size() const { return is_dense() ? row_count_ * at_.size() : lists_.term_count(); }
 
-  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices of triangles, perhaps,
-  /// that were not, are no longer.
+  /// Adds scale * other. Calls `on_enter(a, list)` for new vertices of triangles, and `on_leave(a)`
+  /// for vertices that may have lost their last triangle.
   template <class OnEnter, class OnLeave>
   void add(TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
-  /// phi(u,v,w) += star(w) for all w; u > v, and no such triangle has a value yet.
+  /// phi(u,v,w) += star(w) for all w; u > v, and these triangles must have no values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
-  /// Makes it zero and gives back what it held. Calls `on_leave(a)` as `add` does.
+  /// Makes it zero and returns its memory. Calls `on_leave(a)` as `add` does.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave);
 
@@ -89,15 +91,15 @@ class TriangleCochain {
   /// The edges at a vertex that have a row.
   struct RowsAt {
     explicit RowsAt(std::pmr::memory_resource* memory) : present(memory), rows(memory) {}
-    std::pmr::vector<Word> present;                  // by the other end
-    std::pmr::vector<typename RowPool<K>::Id> rows;  // by the other end
+    std::pmr::vector<Word> present;                  // indexed by the other end
+    std::pmr::vector<typename RowPool<K>::Id> rows;  // indexed by the other end
   };
 
   bool has_row(Vertex a, Vertex b) const {
     const auto& present = at_[a].present;
     return !present.empty() && (present[b / 64] >> (b % 64) & 1) != 0;
   }
-  /// Of an edge.
+  /// The row of an edge, made if necessary.
   Unit* made_row(Vertex a, Vertex b, Shared& shared) {
     if (!has_row(a, b)) make_row(a, b, shared);
     return shared.rows[at_[a].rows[b]];
@@ -115,7 +117,7 @@ class TriangleCochain {
   }
   /// Makes it dense if it is large.
   void adapt(Shared& shared) {
-    // Rows of many cochains push each other out of the caches.
+    // Rows of many cochains displace each other from the caches.
     constexpr std::size_t many = 16;
     const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
     if (!is_dense() && lists_.term_count() > most) make_dense(shared);
@@ -124,7 +126,7 @@ class TriangleCochain {
   template <class OnEnter>
   void add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
   void drop_zero_rows(Shared& shared);
-  /// Calls `visit(a)` for the vertices of its triangles, ascending, and perhaps some more.
+  /// Calls `visit(a)` for the vertices of its triangles, ascending, and possibly some more.
   template <class Visit>
   void for_each_vertex(Visit&& visit) const;
   /// Calls `visit(a, b, row id)` for a < b.
@@ -210,7 +212,7 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
     if (!has_row(u, w)) make_row(u, w, shared);
     if (!has_row(v, w)) make_row(v, w, shared);
   });
-  // Rows are anywhere in memory: all are asked for before the first is waited for.
+  // Rows lie at random places in memory: all are prefetched before the first is used.
   const auto *of_u = at_[u].rows.data(), *of_v = at_[v].rows.data();
   Function::for_each(star, shared.blocks, [&](std::size_t w, Element) {
     __builtin_prefetch(of_u + w);

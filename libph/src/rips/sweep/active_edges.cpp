@@ -8,10 +8,10 @@
 namespace ph {
 namespace {
 
-// Where a number is, which occurs at most once; `count` if it is absent.
+// Position of a number that occurs at most once; `count` if it is absent.
 PH_FOR_EACH_TARGET
 std::size_t position_of(std::uint32_t number, const std::uint32_t* numbers, std::size_t count) {
-  constexpr std::size_t block = 64;  // looked at without branches
+  constexpr std::size_t block = 64;  // scanned without branches
   for (std::size_t begin = 0; begin < count; begin += block) {
     const std::size_t size = std::min(block, count - begin);
     std::uint32_t place = 0;  // counted from one

@@ -9,15 +9,14 @@
 
 namespace ph {
 
-/// Some edges of a graph, at each of their ends in no particular order, and a label for each end:
-/// what is known of the edge from there. Few at a vertex: a label is found by looking at all of
-/// them.
+/// Some edges of a graph, in no particular order at each of their ends, with a label per end: the
+/// data of the edge as seen from there. A vertex has few: a label is found by scanning all of them.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;
   using Label = std::uint32_t;
 
-  /// @param has_rows whether to keep them as rows of bits, too: a bit for each pair of vertices.
+  /// @param has_rows true to store them also as rows of bits, one bit per pair of vertices.
   ActiveEdges(std::size_t vertices, bool has_rows, std::pmr::memory_resource* memory)
       : at_(memory),
         degrees_(vertices, 0, memory),
@@ -26,20 +25,21 @@ class ActiveEdges {
   }
 
   std::size_t vertex_count() const { return at_.size(); }
-  /// The other ends of the edges at a vertex. Needs !has_rows().
+  /// The other ends of the edges at a vertex. Precondition: !has_rows().
   std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
   std::size_t degree(Vertex v) const { return degrees_[v]; }
   bool has_rows() const { return rows_.rows() != 0; }
-  /// The same as bits. Needs has_rows().
+  /// The same as bits. Precondition: has_rows().
   const bits::Word* row(Vertex v) const { return rows_.row(v); }
   std::size_t words() const { return rows_.words(); }  ///< of a row
-  /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
+  /// The label of the edge at u, or null if the edge is absent. The pointer is valid until the next
+  /// change.
   Label* find(Vertex u, Vertex v);
-  /// Adds an edge that never was there. @param at_u, at_v its labels.
+  /// Adds an edge that was never there. @param at_u, at_v its labels.
   void insert(Vertex u, Vertex v, Label at_u, Label at_v);
-  /// Takes all out.
+  /// Removes all edges.
   void clear();
-  /// Takes an edge out that is there.
+  /// Removes an edge that must be present.
   void erase(Vertex u, Vertex v);
 
  private:
@@ -55,10 +55,10 @@ class ActiveEdges {
   };
   void erase_at(Vertex u, Vertex v);
 
-  // By vertex. Where there are rows some of the ends may be those of edges that are gone: to look
-  // for each of them would take longer than to drop half of a list now and then.
+  // By vertex. With rows, some of the ends may belong to removed edges: searching for each of them
+  // would take longer than dropping half of a list now and then.
   std::pmr::vector<Ends> at_;
-  // By vertex: most have none, and that is asked for more often than anything else.
+  // By vertex: most have none, and this is the most frequent question.
   std::pmr::vector<std::uint32_t> degrees_;
   BitMatrix rows_;
 };

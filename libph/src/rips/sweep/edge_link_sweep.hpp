@@ -22,18 +22,18 @@
 
 namespace ph {
 
-/// H0 to H3 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
+/// H0 to H3 of a Vietoris-Rips filtration, edge by edge; triangles are never listed.
 ///
-/// The triangles that enter with an edge e = (u,v) are those over its link, the vertices joined to
-/// both u and v before. All over one connected component of the link say the same: one triangle a
-/// component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of degree-1 persistent
-/// homology using the reduced Vietoris-Rips filtration). An empty link lets e join two components
-/// or give birth to a class. Otherwise the first triangle determines the annotation of e, and each
-/// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
-/// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
-/// the link is active, that is, has an annotation, nothing can happen. Where a further component
-/// kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces, LinkVolumes and
-/// docs/explanation/engines/edge-links.md.
+/// The triangles that enter with an edge e = (u,v) are those over its link, the vertices already
+/// joined to both u and v. All triangles over one connected component of the link are equivalent:
+/// one triangle per component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of
+/// degree-1 persistent homology using the reduced Vietoris-Rips filtration). If the link is empty,
+/// e joins two components or gives birth to a class. Otherwise the first triangle determines the
+/// annotation of e, and for each further component w the sum a(u,w) + a(w,v) should be the same; if
+/// it is not, the youngest generator of the difference dies. Almost all edges end earlier: if no
+/// edge between u or v and the link is active, that is, has an annotation, nothing can happen. If a
+/// further component kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces, LinkVolumes
+/// and docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
  public:
@@ -41,8 +41,8 @@ class EdgeLinkSweep {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param births of the vertices; empty: all enter first. @param edges outlive the sweep; those
-  /// after which nothing happens are never sorted.
+  /// @param births of the vertices; if empty, all enter first. @param edges must outlive the sweep;
+  /// edges that cannot change anything are never sorted.
   EdgeLinkSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
                 const K& field, SweepRequest wanted, Observer& observer, const RunContext& context)
       : edges_(edges),
@@ -68,11 +68,11 @@ class EdgeLinkSweep {
   void run();
 
  private:
-  /// Whether an edge does something only if its link is empty.
+  /// True if an edge matters only if its link is empty.
   bool can_skip_bins() const {
     return !surfaces_ && !wanted_.zero_length && loops_.living_count() == 0;
   }
-  /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
+  /// True if nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool can_skip_bin(std::size_t bin);
   /// Adds the edges of skipped bins.
   void add_bins_until(std::size_t bin);
@@ -84,8 +84,8 @@ class EdgeLinkSweep {
   Observer& observer_;
   const RunContext& context_;
   const LinkLayout layout_;
-  ActiveEdges active_;         // of non-zero annotation
-  LinkGraph graph_;            // edges so far, but for the skipped bins from first_unadded_bin_ on
+  ActiveEdges active_;         // edges with a non-zero annotation
+  LinkGraph graph_;            // edges so far, without the skipped bins from first_unadded_bin_ on
   LinkComponents components_;  // of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;

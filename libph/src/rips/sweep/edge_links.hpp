@@ -13,9 +13,9 @@
 
 namespace ph {
 
-/// H0 to H3 of Vietoris-Rips filtrations by the sweep of edge links, see edge_link_sweep.hpp:
-/// the graph, as n^2 bits or as lists, and the classes alive, neither columns of triangles nor of
-/// tetrahedra.
+/// H0 to H3 of Vietoris-Rips filtrations by the sweep of edge links, see edge_link_sweep.hpp. It
+/// stores the graph, as n^2 bits or as lists, and the living classes, but no columns of triangles
+/// or tetrahedra.
 struct EdgeLinkEngine {
   static constexpr Engine id = Engine::edge_links;
   template <Filtration F>
@@ -36,7 +36,7 @@ struct EdgeLinkEngine {
   }
   static constexpr int listed_dim(int) { return 1; }
   static constexpr bool goes_by_edges = true;
-  /// It stops where nothing happens any more; lists are not full by then.
+  /// It stops once nothing more can happen; lists are not full by then.
   static constexpr bool stops_early = true;
   static double rips_bytes(std::size_t vertices, std::size_t edges) {
     return LinkGraph::bytes(vertices, edges);
@@ -64,7 +64,7 @@ struct EdgeLinkEngine {
   static constexpr std::size_t kMostVerticesOfSurfaces = TriangleCochain<Z2>::kMostVertices;
   static constexpr std::size_t kMostVerticesOfVolumes = TetrahedronCochain<Z2>::kMostVertices;
 
-  /// Turns what the sweep tells into bars.
+  /// Turns the events of the sweep into bars.
   template <class F, Field K>
   class Reporter final : public SweepObserver<K> {
    public:

@@ -29,7 +29,7 @@ void LinkComponents::find(const FlagEdge& e) {
     }
     start = guess;
   }
-  const bool is_guess = start != kNone;  // and no apex
+  const bool is_guess = start != kNone;  // without an apex
   if (!is_guess) start = graph_.first();
   rest_.assign(graph_.link(), graph_.link() + words);
   if (!take_component(start)) {
@@ -59,7 +59,7 @@ void LinkComponents::find_roots(const FlagEdge& e) {
   roots_.clear();
   sets_.clear();
   apex_ = kNone;
-  // Bits say which of them have been met, and which of these have yet to look around.
+  // Bits mark vertices that have been met, and vertices whose neighbours are still to be visited.
   for (std::uint32_t met = 0, left = 0, i = 0; i < count; ++i) {
     if ((met >> i & 1) != 0) continue;
     roots_.push_back(vertices[i]);
@@ -81,8 +81,8 @@ bool LinkComponents::take_component(Vertex first) {
   clear(rest_.data(), first);
   bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
-  // What is left is mostly few vertices, joined to one another: one that sees the component brings
-  // its neighbours along.
+  // The rest are usually few vertices, joined to one another: one that sees the component brings
+  // along its neighbours.
   for (bool grew = true; is_left && grew;) {
     grew = is_left = false;
     for (std::size_t k = 0; k < words; ++k) {
@@ -105,7 +105,7 @@ bool LinkComponents::take_component(Vertex first) {
 }
 
 void LinkComponents::sort_components() {
-  // All but the one that a guess began with ascend.
+  // All roots except the one that a guess began with ascend.
   const std::size_t words = graph_.words();
   for (std::size_t i = 1; i < count() && roots_[i] < roots_[i - 1]; ++i) {
     std::swap(roots_[i], roots_[i - 1]);
@@ -116,7 +116,7 @@ void LinkComponents::sort_components() {
 }
 
 bool LinkComponents::find_apex(const FlagEdge& e) {
-  // An apex sees every vertex, so also one that a candidate misses.
+  // An apex sees every vertex, including a vertex that a candidate does not see.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };
   rest_.assign(graph_.link(), graph_.link() + words);

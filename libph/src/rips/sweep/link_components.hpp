@@ -10,15 +10,16 @@
 
 namespace ph {
 
-/// The connected components of a link, in its own numbers of vertices. Most links are cones: one
-/// vertex, the apex, is joined to all others; it often serves the next edge at the same vertex too.
+/// The connected components of a link, with vertices numbered within the link. Most links are
+/// cones: one vertex, the apex, is joined to all others. It often also serves the next edge at the
+/// same vertex.
 class LinkComponents {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param graph outlives this.
+  /// @param graph must outlive this object.
   LinkComponents(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph),
         last_apex_(graph.vertex_count(), kNone, memory),
@@ -26,19 +27,19 @@ class LinkComponents {
         sets_(memory),
         rest_(memory) {}
 
-  /// Of the graph's link, which is not empty and that of e.
+  /// For the graph's link, which must be the non-empty link of e.
   void find(const FlagEdge& e);
-  /// Roots alone, of any link: soon if it has few vertices.
+  /// Finds only the roots, of any link; quick if the link has few vertices.
   void find_roots(const FlagEdge& e);
-  /// Looks for an apex where `find` has met none. @return whether there is one.
+  /// Looks for an apex if `find` has met none. @return true if there is one.
   bool find_apex(const FlagEdge& e);
 
-  /// Ascending roots.
+  /// Number of components; roots ascend.
   std::size_t count() const { return roots_.size(); }
   std::span<const Vertex> roots() const { return roots_; }
   /// A component's smallest vertex; any vertex if it is the only component.
   Vertex root(std::size_t i) const { return roots_[i]; }
-  /// A component's vertices, unless it is the only one.
+  /// The vertices of a component, unless it is the only one.
   const Word* vertices(std::size_t i) const { return sets_.data() + i * graph_.words(); }
   bool has_apex() const { return apex_ != kNone; }
   Vertex apex() const { return apex_; }
@@ -51,14 +52,14 @@ class LinkComponents {
     apex_ = apex;
     last_apex_[e.u] = last_apex_[e.v] = graph_.global(apex);
   }
-  /// Moves a vertex's component from rest_ to the end of sets_. @return whether more is left.
+  /// Moves a vertex's component from rest_ to the end of sets_. @return true if more is left.
   bool take_component(Vertex first);
   void sort_components();
 
   LinkGraph& graph_;
-  std::pmr::vector<Vertex> last_apex_;  // by end of an edge; its own number
+  std::pmr::vector<Vertex> last_apex_;  // by end of an edge, with its global number
   std::pmr::vector<Vertex> roots_;
-  std::pmr::vector<Word> sets_;  // a row for each component
+  std::pmr::vector<Word> sets_;  // one row per component
   std::pmr::vector<Word> rest_;
   Vertex apex_ = kNone;
 };

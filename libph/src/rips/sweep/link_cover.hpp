@@ -9,10 +9,10 @@
 
 namespace ph {
 
-/// An order in which potentials spread over a link: in each component first from a hub to all of
-/// its neighbours, then to the others one by one. The hub and its neighbours span a cone, on which
-/// every cocycle has a potential; each further vertex has to agree with all of its neighbours
-/// before it.
+/// An order in which potentials spread over a link: in each component, first from a hub to all of
+/// its neighbours, then to the other vertices one by one. The hub and its neighbours span a cone,
+/// on which every cocycle has a potential; each further vertex must agree with all of its
+/// neighbours before it.
 class LinkCover {
  public:
   using Vertex = std::uint32_t;
@@ -22,7 +22,7 @@ class LinkCover {
     bool is_hub;
   };
 
-  /// @param graph outlives this.
+  /// @param graph must outlive this object.
   LinkCover(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph),
         steps_(memory),
@@ -31,28 +31,28 @@ class LinkCover {
         reached_(memory),
         left_(memory) {}
 
-  /// Of the graph's link.
+  /// Covers the graph's link.
   void find(const LinkComponents& components);
-  /// Of a set of vertices of the link, which is not empty.
+  /// Covers a non-empty set of vertices of the link.
   void find(const Word* set);
 
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
-  /// The neighbours of a hub; of another vertex those that come before it, at least one.
+  /// The neighbours of a hub, or the neighbours of another vertex that come before it, at least
+  /// one.
   const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
 
  private:
-  /// Where to begin: among a few vertices of a set, the given one and a sample, the one with most
-  /// neighbours.
+  /// The start: the vertex with most neighbours among the given vertex and a small sample of a set.
   Vertex find_hub(const Word* set, Vertex first);
-  /// Covers the component of a hub. @return whether a part of the set is left, in rest_.
+  /// Covers the component of a hub. @return true if a part of the set is left, in rest_.
   bool cover(const Word* set, Vertex hub);
   /// Appends a step. @return its row: the neighbours in a set.
   Word* add_step(const Step& step, const Word* set);
 
   LinkGraph& graph_;
   std::pmr::vector<Step> steps_;
-  std::pmr::vector<Word> sets_;  // a row for each step
+  std::pmr::vector<Word> sets_;  // one row per step
   std::pmr::vector<Word> rest_, reached_, left_;
 };
 

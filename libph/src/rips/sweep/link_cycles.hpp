@@ -13,12 +13,12 @@
 
 namespace ph {
 
-/// Cycles for the classes of H1 in a sweep of edge links: to each generator of H^1 belongs the edge
-/// that gave birth to it, closed by a path of fewest older edges.
+/// Cycles for the classes of H1 in a sweep of edge links: each generator of H^1 has the edge that
+/// gave birth to it, closed by a path of as few older edges as possible.
 ///
-/// On this cycle z_g the generator g is one, younger ones are zero, and older ones may be anything;
-/// so a class of homology, given by its values under the generators, is a combination of the z_g
-/// that is found from the youngest down, and enters with its youngest. See
+/// On this cycle z_g, the generator g is one, younger generators are zero, and older ones have any
+/// value. A class of homology, given by its values under the generators, is therefore a combination
+/// of the z_g, which is found from the youngest down and enters with its youngest. See
 /// docs/explanation/engines/edge-links.md.
 template <Field K>
 class LinkCycles {
@@ -27,7 +27,7 @@ class LinkCycles {
   using Generator = typename Annotations<K>::Generator;
   using Element = typename K::Element;
 
-  /// @param graph, annotations outlive this.
+  /// @param graph, annotations must outlive this object.
   LinkCycles(const LinkGraph& graph, Annotations<K>& annotations, const K& field,
              std::pmr::memory_resource* memory)
       : graph_(graph),
@@ -40,14 +40,14 @@ class LinkCycles {
         values_(memory),
         terms_(memory) {}
 
-  /// Generators come in the order of their numbers. @param u, v the edge, which is not in the graph
-  /// yet, from where the generator is one to the other end; they are connected.
+  /// Generators must come in the order of their numbers. @param u, v the ends of the edge, which is
+  /// not in the graph yet; the generator is one from u to v. They must be connected.
   void add(Vertex u, Vertex v) { paths_.push_back(shortest_path(v, u)); }
-  /// A dead generator's cycle is not needed any more.
+  /// The cycle of a dead generator is no longer needed.
   void erase(Generator g) { paths_[g] = Path(paths_.get_allocator()); }
 
-  /// A cycle on which each generator has its value in `values`, not zero: calls
-  /// `visit(larger end, smaller end, coefficient)` once for each edge.
+  /// A cycle on which each generator has its non-zero value in `values`: calls `visit(larger end,
+  /// smaller end, coefficient)` once per edge.
   template <class Visit>
   void for_each_term(typename Annotations<K>::Class values, Visit&& visit);
   /// The cycle of one generator.
@@ -64,7 +64,7 @@ class LinkCycles {
   using Sums = std::pmr::map<Key, Element>;
 
   Path shortest_path(Vertex from, Vertex to);
-  /// @param from, to consecutive vertices of the cycle of g, which starts with its own edge.
+  /// @param from, to consecutive vertices of the cycle of g, which starts with g's own edge.
   template <class Visit>
   void for_each_step(Generator g, Visit&& visit) const {
     const Path& path = paths_[g];
@@ -94,9 +94,9 @@ class LinkCycles {
   const LinkGraph& graph_;
   Annotations<K>& annotations_;
   const K& field_;
-  std::pmr::vector<Path> paths_;  // by generator, from the end of its edge to the beginning
+  std::pmr::vector<Path> paths_;  // by generator, from the end of its edge to the start
   std::pmr::vector<LinkGraph::Word> unvisited_;
-  std::pmr::vector<Vertex> before_;  // by vertex: who was visited before
+  std::pmr::vector<Vertex> before_;  // by vertex: the vertex visited before it
   std::pmr::vector<Vertex> queue_;
   Sums<Generator> values_;
   Sums<std::pair<Vertex, Vertex>> terms_;

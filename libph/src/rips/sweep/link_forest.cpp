@@ -42,7 +42,7 @@ void LinkForest::unite(std::size_t from, std::size_t to) {
     set_of(to)[k] |= set_of(from)[k];
     set_of(from)[k] = 0;
   }
-  // A vertex is mostly the last part that began: it leaves no empty one behind.
+  // A vertex is usually the last part that began: removing it leaves no empty part behind.
   if (from + 1 == roots_.size()) {
     roots_.pop_back();
     parts_.resize(roots_.size() * graph_.words());

@@ -10,20 +10,20 @@
 namespace ph {
 
 /// The components of a growing graph: vertices come one by one, ascending, each with its edges to
-/// those that came before. In the order of the filtration these edges are the tetrahedra over an
-/// edge whose link the graph is.
+/// earlier vertices. In the order of the filtration, these edges are the tetrahedra over an edge
+/// whose link is the graph.
 class LinkForest {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
 
-  /// A part that the next vertex is joined to, first at a vertex.
+  /// A part that the next vertex is joined to, and the first vertex where this happens.
   struct Meeting {
     std::size_t part;
     Vertex at;
   };
 
-  /// @param graph outlives this.
+  /// @param graph must outlive this object.
   LinkForest(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph),
         roots_(memory),
@@ -36,27 +36,27 @@ class LinkForest {
     roots_.clear();
     parts_.clear();
   }
-  /// Finds which parts the next vertex of a set is joined to.
+  /// Finds the parts that the next vertex of a set is joined to.
   void meet(Vertex y, const Word* set);
-  /// In the order of the edges from y; until the next `meet`.
+  /// In the order of the edges from y; valid until the next `meet`.
   const std::pmr::vector<Meeting>& meetings() const { return meetings_; }
-  /// The neighbours of y in a part; words up to y's are valid.
+  /// The neighbours of y in a part; words up to the word of y are valid.
   const Word* neighbours(std::size_t meeting) const {
     return shared_.data() + meeting * graph_.words();
   }
-  /// The neighbours of y before y; words up to y's are valid.
+  /// The neighbours of y before y; words up to the word of y are valid.
   const Word* neighbours() const { return before_.data(); }
   const Word* part(const Meeting& m) const { return part(m.part); }
-  /// All parts; those that were united with others are empty.
+  /// Number of all parts; parts that were merged into others are empty.
   std::size_t part_count() const { return roots_.size(); }
   const Word* part(std::size_t i) const { return parts_.data() + i * graph_.words(); }
 
-  /// Takes the vertex in. Calls `on_join(younger root, its vertices, w)` for each edge wy that
-  /// joins two parts, y alone being one at first.
+  /// Adds the vertex. Calls `on_join(younger root, its vertices, w)` for each edge wy that joins
+  /// two parts; at first, y alone is one part.
   template <class OnJoin>
   void join(Vertex y, OnJoin&& on_join);
 
-  /// How many words hold the vertices up to y.
+  /// Number of words that hold the vertices up to y.
   static std::size_t words_to(Vertex y) { return y / 64 + 1; }
 
  private:
@@ -66,10 +66,10 @@ class LinkForest {
   void unite(std::size_t from, std::size_t to);
 
   LinkGraph& graph_;
-  std::pmr::vector<Vertex> roots_;  // of each part its smallest vertex
-  std::pmr::vector<Word> parts_;    // a row each; empty once united with another
+  std::pmr::vector<Vertex> roots_;  // smallest vertex of each part
+  std::pmr::vector<Word> parts_;    // one row each; empty once merged into another
   std::pmr::vector<Meeting> meetings_;
-  std::pmr::vector<Word> shared_;  // a row for each meeting
+  std::pmr::vector<Word> shared_;  // one row per meeting
   std::pmr::vector<Word> before_;
 };
 

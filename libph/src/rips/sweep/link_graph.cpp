@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-// Edges a thread takes at a time; for fewer it is not worth starting.
+// Edges per thread at a time; fewer are not worth a thread.
 constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours in a link of at most 64 vertices.
@@ -74,8 +74,8 @@ LinkGraph::LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLa
 }
 
 LinkLayout LinkGraph::choose_layout(std::size_t vertices, std::size_t edges) {
-  // Measured: rows are faster from a degree of n / 128 on. They take at most four times the memory
-  // of the edges then.
+  // Measured: rows are faster from a degree of n / 128 on. They then take at most four times the
+  // memory of the edges.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
   return 2 * m * 128 >= n * n ? LinkLayout::rows : LinkLayout::lists;
 }
@@ -104,7 +104,7 @@ void LinkGraph::add_all(std::span<const FlagEdge> edges, const RunContext& conte
     for (const FlagEdge& e : edges) add(e);
     return;
   }
-  // Each thread has rows of its own to write to.
+  // Each thread writes to its own rows.
   for_each_piece("edges", threads, 1, context, [&](std::size_t own, std::size_t) {
     for (const FlagEdge& e : edges) {
       if (e.u % threads == own) add_to_row(e.u, e.v);
@@ -160,20 +160,22 @@ bool LinkGraph::touches_active_in_rows(const FlagEdge& e) const {
 
 LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph) {
   const bool touches = touches_active_in_rows(e);
-  // One common neighbour says enough where nothing can happen.
+  // If nothing can happen, a single common neighbour is enough information.
   if (!touches && !wants_graph) return {!has_link(e.u, e.v), false};
   return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), link_.data(), words_), touches};
 }
 
 LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_graph) {
   for (const Vertex v : vertices_) local_[v] = kNone;
-  // Marks take three passes and no branch; which of two sorted lists comes first is anyone's guess.
+  // Marks take three passes and no branch; which of two sorted lists comes first cannot be
+  // predicted.
   constexpr std::uint8_t of_one = 1, of_both = 2;
   std::size_t count = 0;
   const bool touches = with_lists([&](const auto& lists) {
     auto few = lists[e.u], many = lists[e.v];
     if (many.size() < few.size()) std::swap(few, many);
-    // Who has many neighbours has many edges, too: all are not read for each of them.
+    // A vertex with many neighbours also has many edges: its neighbours are not all read for each
+    // edge.
     constexpr std::size_t times = 32;
     const bool is_hub = many.size() / times > few.size();
     vertices_.resize(few.size() + 1);

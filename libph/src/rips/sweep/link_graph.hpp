@@ -16,31 +16,31 @@
 
 namespace ph {
 
-/// How a sweep of edge links keeps the edges so far.
+/// The storage of the edges so far in a sweep of edge links.
 enum class LinkLayout {
-  automatic,  ///< whichever is faster and affordable
-  rows,       ///< two bits for each pair of vertices, one for each order
-  lists,      ///< the neighbours of each vertex: two or four bytes for each end of an edge
+  automatic,  ///< the faster one that is affordable
+  rows,       ///< two bits per pair of vertices, one for each order
+  lists,      ///< the neighbours of each vertex: two or four bytes per end of an edge
 };
 
 /// The edges so far of a flag filtration, and the link of a new edge: the common neighbours of its
-/// ends, with the graph on them as rows of bits. In that graph vertices have numbers of their own,
-/// in the same order: with lists the link is numbered 0, 1, …, so that a row is a word or two; with
-/// rows the numbers are those of all vertices and nothing is copied.
+/// ends, with the graph on them as rows of bits. In that graph, vertices have numbers of their own
+/// in the same order: with lists, the link is numbered 0, 1, …, which makes a row one or two words;
+/// with rows, the numbers are those of all vertices and nothing is copied.
 class LinkGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active edges that are there; outlives this. With lists it has no rows. @param edges
-  /// that may be added. @param layout rows or lists.
+  /// @param active edges that are present; it must outlive this object. With lists, it must have no
+  /// rows. @param edges that may be added. @param layout rows or lists.
   LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
             std::pmr::memory_resource* memory);
 
-  /// What is faster among what is affordable.
+  /// The faster layout among the affordable ones.
   static LinkLayout choose_layout(std::size_t vertices, std::size_t edges);
-  /// What it holds in the end in that layout, more or less.
+  /// The approximate memory that it finally holds in that layout.
   static double bytes(std::size_t vertices, std::size_t edges);
 
   std::size_t vertex_count() const { return active_.vertex_count(); }
@@ -48,8 +48,8 @@ class LinkGraph {
   /// Adds many edges, on several threads.
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);
 
-  /// Calls `visit(w)` for each neighbour in a set. @param set a bit for each vertex; `visit` may
-  /// take vertices out.
+  /// Calls `visit(w)` for each neighbour in a set. @param set one bit per vertex; `visit` may
+  /// remove vertices.
   template <class Visit>
   void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
     if (layout_ == LinkLayout::lists) {
@@ -64,35 +64,35 @@ class LinkGraph {
       for (Word rest = row[k] & set[k]; rest != 0; rest &= rest - 1)
         visit(static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest))));
   }
-  /// Whether two vertices have a common neighbour.
+  /// True if two vertices have a common neighbour.
   bool has_link(Vertex u, Vertex v) const {
     return (layout_ == LinkLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
            has_link_anywhere(u, v);
   }
-  /// Whether the ends of each edge have one; on several threads.
+  /// True if the ends of each edge have one; uses several threads.
   bool have_links(std::span<const FlagEdge> edges, const RunContext& context) const;
   struct Link {
     bool is_empty;
     bool touches_active;
   };
-  /// Looks at the link of an edge that is not there yet: whether it is empty, and whether an active
-  /// edge joins it to an end of the edge. What follows is about this link, if active edges touch it
-  /// or `wants_graph` is set.
+  /// Examines the link of an edge that is not present yet: finds out if it is empty, and if an
+  /// active edge joins it to an end of the edge. The members below refer to this link, if active
+  /// edges touch it or `wants_graph` is set.
   Link find_link(const FlagEdge& e, bool wants_graph);
 
   std::size_t words() const { return words_; }  ///< of a row
   const Word* link() const { return link_.data(); }
-  /// The neighbours of a vertex of the link; those outside of it may be among them.
+  /// The neighbours of a vertex of the link, possibly including vertices outside it.
   const Word* row(Vertex v) {
     if (keeps_numbers()) return joined_.row(v);
     if (!is_row_made_[v]) make_row(v);
     return local_rows_.data() + v * words_;
   }
-  /// Whether vertices have the same numbers in the link.
+  /// True if vertices have the same numbers in the link.
   bool keeps_numbers() const { return layout_ == LinkLayout::rows; }
-  /// From the number of a vertex in the link to its own.
+  /// Converts the number of a vertex in the link to its global number.
   Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
-  /// And back; kNone if it is not in the link.
+  /// The reverse; kNone if the vertex is not in the link.
   Vertex local(Vertex v) const {
     if (!keeps_numbers()) return local_[v];
     return link_[v / 64] >> (v % 64) & 1 ? v : kNone;
@@ -113,7 +113,7 @@ class LinkGraph {
   bool has_link_anywhere(Vertex u, Vertex v) const;
   Link find_link_in_rows(const FlagEdge& e, bool wants_graph);
   Link find_link_in_lists(const FlagEdge& e, bool wants_graph);
-  /// Whether `in_link(v, w)` for an active edge from u to w, or the other way round.
+  /// True if `in_link(v, w)` holds for an active edge from u to w, or the other way round.
   template <class InLink>
   bool touches_active(const FlagEdge& e, InLink&& in_link) const;
   bool touches_active_in_rows(const FlagEdge& e) const;
@@ -122,20 +122,20 @@ class LinkGraph {
 
   const ActiveEdges& active_;
   LinkLayout layout_;
-  // rows
+  // For rows:
   BitMatrix joined_;
-  // Landmarks are up to 64 vertices here and there: most links have one of them. By vertex: its
-  // bit if it is one, and the bits of those that are its neighbours.
+  // Landmarks are up to 64 spread vertices: most links contain one of them. By vertex: its bit if
+  // it is a landmark, and the bits of its neighbours that are landmarks.
   std::pmr::vector<Word> landmark_, landmarks_at_;
-  // lists: short numbers where they suffice
+  // For lists, with short numbers if these are enough:
   NeighbourLists<std::uint16_t> short_lists_;
   NeighbourLists<Vertex> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
-  // The link.
+  // For the link:
   std::size_t words_;
   std::pmr::vector<Word> link_;
   std::pmr::vector<Vertex> vertices_;  // by number in the link
-  std::pmr::vector<Vertex> local_;     // by own number; kNone outside of the link
+  std::pmr::vector<Vertex> local_;     // by global number; kNone outside the link
   std::pmr::vector<Word> local_rows_;
   std::pmr::vector<std::uint8_t> is_row_made_;
 };

@@ -22,8 +22,8 @@
 
 namespace ph {
 
-/// H1 of a Vietoris-Rips filtration edge by edge: the annotations of edges, and the births, deaths
-/// and representatives of classes. While thousands of classes live a RelationSolver does it.
+/// H1 of a Vietoris-Rips filtration, edge by edge: the annotations of edges, and the births, deaths
+/// and representatives of classes. A RelationSolver takes over while thousands of classes live.
 template <Field K>
 class LinkLoops {
  public:
@@ -31,8 +31,8 @@ class LinkLoops {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param graph, active, components the edges so far, those of non-zero annotation, and the
-  /// components of the graph's link; they outlive this.
+  /// @param graph, active, components the edges so far, the edges with a non-zero annotation, and
+  /// the components of the graph's link; they must outlive this object.
   LinkLoops(LinkGraph& graph, ActiveEdges& active, LinkComponents& components, const K& field,
             SweepRequest wanted, Observer& observer, const RunContext& context)
       : graph_(graph),
@@ -51,18 +51,18 @@ class LinkLoops {
   std::size_t living_count() const {
     return solver_ ? solver_->living_count() : annotations_->living_count();
   }
-  /// Whether edges must be annotated though no active edge touches their links.
+  /// True if edges must be annotated although no active edge touches their links.
   bool wants_all_links() const { return solver_.has_value(); }
 
   /// A class is born with an edge that closes a loop and has an empty link.
   void give_birth(Position position, const FlagEdge& e);
   /// The pair of an edge and the first triangle over it.
   void report_zero_length(Position position, const FlagEdge& e);
-  /// Annotates an edge, the one of the graph's link, which is not empty, and kills what further
-  /// components of the link kill. @param idle takes those that kill nothing, unless all links are
-  /// wanted.
+  /// Annotates an edge (the edge of the graph's link, which must not be empty), and kills the
+  /// classes that further components of the link kill. @param idle receives the components that
+  /// kill nothing, unless all links are wanted.
   void annotate(Position position, const FlagEdge& e, std::pmr::vector<std::size_t>& idle);
-  /// Reports what never dies.
+  /// Reports the classes that never die.
   void finish();
 
  private:
@@ -72,7 +72,7 @@ class LinkLoops {
   void begin_annotations() {
     annotations_.emplace(field_, active_, wanted_.cocycles, &context_.memory);
   }
-  /// Whether many classes live, and no more is wanted than when they die.
+  /// True if many classes live, and only the values of their deaths are wanted.
   bool wants_solver() const {
     return living_count() >= living_for_solver_ && active_.has_rows() && !wanted_.surfaces &&
            !wanted_.cycles && !wanted_.cocycles &&
@@ -81,8 +81,9 @@ class LinkLoops {
   void annotate_by_solver(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
-  /// representative_ = what a generator is on the edges before this one, if cocycles are wanted,
-  /// and the cycle with these values of the generators, or those of a class, if cycles are.
+  /// Sets representative_: the values of a generator on the edges before this one, if cocycles are
+  /// wanted, or the cycle with these values of the generators, or the values of a class, if cycles
+  /// are wanted.
   template <class Values>
   void find_representative(typename Annotations<K>::Generator g, Values of_cycle);
 
@@ -94,7 +95,7 @@ class LinkLoops {
   Observer& observer_;
   const RunContext& context_;
   std::optional<Annotations<K>> annotations_;
-  std::optional<RelationSolver> solver_;  // in place of annotations, while many classes live
+  std::optional<RelationSolver> solver_;  // replaces annotations while many classes live
   std::size_t living_for_solver_;
   std::optional<LinkCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;
@@ -119,7 +120,7 @@ void LinkLoops<K>::report_zero_length(Position position, const FlagEdge& e) {
   const Vertex apex = graph_.global(graph_.first());
   representative_.clear();
   if (wanted_.cocycles || wanted_.cycles) representative_.push_back({position, field_.from_int(1)});
-  if (wanted_.cycles)  // u to v to the apex to u, and u > v
+  if (wanted_.cycles)  // from u to v to the apex to u, with u > v
     for (const auto& [from, to] : {std::pair{e.v, apex}, std::pair{apex, e.u}})
       representative_.push_back(
           {observer_.position_of(from, to), field_.from_int(from > to ? 1 : -1)});

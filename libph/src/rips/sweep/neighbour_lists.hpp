@@ -15,12 +15,12 @@
 namespace ph {
 
 /// The neighbours of each vertex of a graph that grows edge by edge, ascending. Its edges are known
-/// beforehand, though not in order: each list has just the room that it will need.
-/// @tparam Vertex the smallest unsigned integer that numbers them.
+/// in advance, though not in order: each list has exactly the room that it will need.
+/// @tparam Vertex the smallest unsigned integer type that can number them.
 template <class Vertex>
 class NeighbourLists {
  public:
-  /// No vertices.
+  /// Without vertices.
   explicit NeighbourLists(std::pmr::memory_resource* memory)
       : begins_(memory), sizes_(memory), vertices_(memory) {}
   /// @param edges that may be added later.
@@ -39,7 +39,7 @@ class NeighbourLists {
   std::span<const Vertex> operator[](std::size_t v) const {
     return {vertices_.data() + begins_[v], sizes_[v]};
   }
-  /// One of the edges, which must not be there yet.
+  /// Adds one of these edges, which must not be present yet.
   void add(const FlagEdge& e) {
     insert(e.u, static_cast<Vertex>(e.v));
     insert(e.v, static_cast<Vertex>(e.u));
@@ -54,7 +54,7 @@ class NeighbourLists {
     *place = v;
   }
 
-  std::pmr::vector<std::size_t> begins_;  // by vertex: in vertices_
+  std::pmr::vector<std::size_t> begins_;  // by vertex: start in vertices_
   std::pmr::vector<std::uint32_t> sizes_;
   RawVector<Vertex> vertices_;
 };

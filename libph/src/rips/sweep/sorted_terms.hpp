@@ -12,8 +12,8 @@
 
 namespace ph {
 
-/// list += scale * terms, both by ascending cell, each cell once and none with zero.
-/// @param terms are not part of the list. @param merged scratch; what it holds is lost.
+/// list += scale * terms, both ascending by cell, with each cell once and no zeros.
+/// @param terms must not be part of the list. @param merged scratch; its content is lost.
 template <class Cell, Field K>
 void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
                       std::type_identity_t<std::span<const Entry<Cell, K>>> terms,
@@ -21,7 +21,7 @@ void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
                       std::pmr::vector<Entry<Cell, K>>& merged) {
   using Term = Entry<Cell, K>;
   using Element = typename K::Element;
-  if (8 * terms.size() < list.size()) {  // most of it stays where it is
+  if (8 * terms.size() < list.size()) {  // most of the list stays in place
     auto at = list.begin();
     for (const Term& t : terms) {
       at = std::lower_bound(at, list.end(), t.cell,
@@ -44,7 +44,7 @@ void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
   const Term *j = terms.data(), *const last = j + terms.size();
   Term* out = merged.data();
   while (i != end && j != last) {
-    if constexpr (std::same_as<K, Z2>) {  // which comes first is anyone's guess: no branches
+    if constexpr (std::same_as<K, Z2>) {  // which comes first cannot be predicted: no branches
       const Cell a = i->cell, b = j->cell;
       *out = a < b ? *i : *j;
       out += a != b ? 1 : 0;

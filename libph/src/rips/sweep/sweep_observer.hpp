@@ -10,34 +10,38 @@
 
 namespace ph {
 
-/// When a sweep of edge links takes which way; results do not depend on it.
+/// Thresholds at which a sweep of edge links changes its method; results do not depend on them.
 struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
-  std::size_t most_terms = 64;  ///< of a cocycle at a vertex, on average: more become rows
-  std::size_t vertices_of_active_rows = 1 << 11;  ///< at most: for more, lists of active edges do
-  std::size_t classes_for_formal = 1 << 9;        ///< of H1 alive, at least: for RelationSolver
-  std::size_t relations_for_formal = 1 << 10;     ///< solved together, at least
+  /// Average number of terms of a cocycle at a vertex: beyond it, rows are used.
+  std::size_t most_terms = 64;
+  /// Upper limit: with more vertices, lists of active edges are used.
+  std::size_t vertices_of_active_rows = 1 << 11;
+  /// Least number of living classes of H1 for RelationSolver.
+  std::size_t classes_for_formal = 1 << 9;
+  std::size_t relations_for_formal = 1 << 10;  ///< least number of relations solved together
 };
 
-/// What a sweep of edge links is to find.
+/// The output of a sweep of edge links.
 struct SweepRequest {
-  bool surfaces = false;  ///< H2 too
-  bool volumes = false;   ///< H3 too; with surfaces, bars alone, without those of length zero
-  bool cycles = false;    ///< of H1
+  bool surfaces = false;  ///< includes H2
+  /// Includes H3; needs surfaces, and gives only bars, without those of length zero.
+  bool volumes = false;
+  bool cycles = false;  ///< cycles of H1
   bool cocycles = false;
   bool zero_length = false;
   SweepTuning tuning = {};
 };
 
-/// Hears what happens in a sweep of edge links, as it happens. Representatives, cycles or cocycles,
-/// are empty unless they are wanted, and valid during the call.
+/// Receives the events of a sweep of edge links as they happen. Representatives (cycles or
+/// cocycles) are empty unless they are wanted, and valid only during the call.
 template <Field K>
 class SweepObserver {
  public:
   using Vertex = std::uint32_t;
-  using Position = std::uint32_t;  ///< of an edge in the order of the filtration
+  using Position = std::uint32_t;  ///< position of an edge in the order of the filtration
 
-  /// The triangle over an edge with one more vertex; the edge is its last.
+  /// The triangle over an edge with one more vertex; the edge is its last edge.
   struct Triangle {
     Position edge;
     Vertex apex;
@@ -64,7 +68,7 @@ class SweepObserver {
   };
 
   virtual ~SweepObserver() = default;
-  /// Where an edge so far is in the order; asked for the edges of cycles.
+  /// The position of a present edge in the order; called for the edges of cycles.
   virtual Position position_of(Vertex u, Vertex v) const = 0;
   /// Two components are joined, named by their oldest vertices.
   virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;

@@ -18,12 +18,12 @@ namespace ph {
 
 /// H3 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H2.
 ///
-/// An edge e = (u,v) enters with its star, glued to what is there along the suspension of its link
-/// complex M. So a class of H3 is born with each class of H^1(M), a *loop*, that kills no class of
-/// H2, and dies with a class of H_2(M). Each living class h is held by a cocycle phi_h. It extends
-/// to the new tetrahedra by a 1-cochain of M, psi(x,y) = phi_h(u,v,x,y), whose coboundary is
-/// gamma(x,y,z) := phi_h(u,x,y,z) - phi_h(v,x,y,z). Where there is none, a class dies. See
-/// docs/explanation/engines/edge-links-h3.md.
+/// An edge e = (u,v) enters with its star, which is glued to the present complex along the
+/// suspension of its link complex M. A class of H3 is therefore born with each class of H^1(M), a
+/// *loop*, that kills no class of H2, and dies with a class of H_2(M). Each living class h is
+/// represented by a cocycle phi_h. It extends to the new tetrahedra by a 1-cochain of M, psi(x,y) =
+/// phi_h(u,v,x,y), whose coboundary is gamma(x,y,z) := phi_h(u,x,y,z) - phi_h(v,x,y,z). Where there
+/// is no such cochain, a class dies. See docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkVolumes {
  public:
@@ -32,7 +32,7 @@ class LinkVolumes {
   using Observer = SweepObserver<K>;
   using Tetrahedron = typename Observer::Tetrahedron;
 
-  /// @param graph the edges so far, which outlive this.
+  /// @param graph the edges so far; it must outlive this object.
   LinkVolumes(LinkGraph& graph, const K& field, Observer& observer, const RunContext& context)
       : graph_(graph),
         field_(field),
@@ -45,16 +45,16 @@ class LinkVolumes {
         dead_(&context.memory),
         loops_(&context.memory) {}
 
-  /// Looks at an edge, the one of the graph's link: finds the loops, and how the living classes
-  /// extend. @param components those of the link.
+  /// Examines an edge, the edge of the graph's link: finds the loops, and the extensions of the
+  /// living classes. @param components of the link.
   void look(const FlagEdge& e, LinkComponents& components);
-  /// A basis of H^1(M), until the next edge. Others may add cocycles to them.
+  /// A basis of H^1(M), valid until the next edge. The caller may add cocycles to them.
   std::span<LinkPairs<K>* const> loops() const { return loops_; }
-  /// A class is born with a tetrahedron over the edge; the loop is one on it.
+  /// A class is born with a tetrahedron over the edge; the loop is one on that tetrahedron.
   void give_birth(Tetrahedron birth, const FlagEdge& e, const LinkPairs<K>& loop);
-  /// Extends the living classes to the star of the edge; kills those that cannot be.
+  /// Extends the living classes to the star of the edge, and kills classes that cannot be extended.
   void extend(Position position, const FlagEdge& e);
-  /// Reports what never dies.
+  /// Reports the classes that never die.
   void finish();
 
  private:
@@ -77,8 +77,8 @@ class LinkVolumes {
   const K& field_;
   Observer& observer_;
   Cocycles cocycles_;
-  std::pmr::vector<Tetrahedron> births_;  // by generator; edge = kDead once it died
-  // While an edge is added.
+  std::pmr::vector<Tetrahedron> births_;  // by generator; edge = kDead after its death
+  // Used while an edge is added:
   LinkCover cover_;
   LinkPrimitives<K> primitives_;
   std::pmr::vector<typename Cochain::PairValue> star_;

@@ -13,7 +13,7 @@
 namespace ph {
 
 /// A 3-cochain phi of a flag complex, an alternating function of four vertices, stored where it is
-/// not zero, each tetrahedron in the lists of its four corners.
+/// not zero: each tetrahedron is in the lists of its four corners.
 template <Field K>
 class TetrahedronCochain {
  public:
@@ -30,7 +30,7 @@ class TetrahedronCochain {
     return {static_cast<Vertex>(t.cell & 0xFFFF), static_cast<Vertex>(t.cell >> 16 & 0xFFFF),
             static_cast<Vertex>(t.cell >> 32)};
   }
-  /// 16 bits for each vertex.
+  /// 16 bits per vertex.
   static constexpr std::size_t kMostVertices = 1 << 16;
 
   /// A value on the tetrahedra over an edge, by their further vertices: phi(u,v,x,y).
@@ -39,7 +39,7 @@ class TetrahedronCochain {
     Element value;
   };
 
-  /// What all cochains of a complex share.
+  /// Data shared by all cochains of a complex.
   struct Shared : Lists::Shared {
     Shared(const K& field_, std::pmr::memory_resource* memory)
         : Lists::Shared(field_, memory), at_u(memory), at_v(memory), at_x(memory) {}
@@ -52,19 +52,19 @@ class TetrahedronCochain {
   static constexpr bool is_dense() { return false; }
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
 
-  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices of tetrahedra that
-  /// were not, are no longer.
+  /// Adds scale * other. Calls `on_enter(a, list)` for new vertices of tetrahedra, and
+  /// `on_leave(a)` for vertices that lost their last one.
   template <class OnEnter, class OnLeave>
   void add(TetrahedronCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave) {
     lists_.add(other.lists_, scale, shared, on_enter, on_leave);
   }
-  /// phi(u,v,x,y) += each value. Each pair comes in both orders, those of one x after each other.
-  /// No such tetrahedron has a value yet.
+  /// phi(u,v,x,y) += each value. Each pair comes in both orders; the pairs of one x are
+  /// consecutive. These tetrahedra must have no values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, std::span<const PairValue> star, Shared& shared,
                 OnEnter&& on_enter);
-  /// Makes it zero and gives back what it held. Calls `on_leave(a)` as `add` does.
+  /// Makes it zero and returns its memory. Calls `on_leave(a)` as `add` does.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave) {
     for (const auto& at : lists_.lists()) on_leave(at.vertex);
