@@ -17,7 +17,8 @@
 namespace ph {
 namespace {
 
-/// Points of one subsample and the others, as the search in a k-d tree wants them.
+/// The points of one subsample and all other points, in the form that the search in a k-d tree
+/// needs.
 class Subsample {
  public:
   static constexpr std::uint32_t kOthers = 0, kChosen = 1;
@@ -81,7 +82,7 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
   const auto n = static_cast<std::size_t>(points.rows());
   check(n, options);
   const PointMetric checked(points, PointDistance::euclidean, 2);
-  if (points.cols() == 0) return 0;  // all points are one
+  if (points.cols() == 0) return 0;  // all points are equal
   std::pmr::vector<std::uint32_t> rows(n, &context.memory);
   std::iota(rows.begin(), rows.end(), 0U);
   const KdTree tree(checked.points(), rows, context);
@@ -89,7 +90,7 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
   const auto search = NeighbourSearch::make(tree, metric, PointDistance::euclidean, 2);
   const std::size_t size = options.size == 0 ? usual_size(n) : options.size;
 
-  // Of each subsample its Hausdorff distance from all points.
+  // For each subsample, its Hausdorff distance from all points.
   std::vector<double> distances(options.subsamples);
   for_each_piece(
       "subsamples", options.subsamples, 1, context, [&](std::size_t begin, std::size_t end) {

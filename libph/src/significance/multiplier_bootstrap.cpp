@@ -13,7 +13,7 @@
 namespace ph {
 namespace {
 
-constexpr double kLargest = 1e300;  // sums are finite
+constexpr double kLargest = 1e300;  // keeps sums finite
 
 void check(std::span<const double> functions, std::size_t samples, const BandOptions& options) {
   significance::check_alpha(options.alpha, "multiplier_bootstrap");
@@ -51,7 +51,7 @@ ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size
 
   std::pmr::vector<double> residuals(functions.begin(), functions.end(), &context.memory);
   for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] -= band.mean[i % length];
-  // Of each repetition the largest deviation of its mean.
+  // For each repetition, the largest deviation of its mean.
   std::pmr::vector<double> deviations(options.repetitions, &context.memory);
   for_each_piece("bootstrap", options.repetitions, 1, context,
                  [&](std::size_t begin, std::size_t end) {

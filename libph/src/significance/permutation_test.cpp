@@ -14,7 +14,7 @@
 namespace ph {
 namespace {
 
-/// Groups by number 0, 1, …, and how many are in each.
+/// Groups numbered 0, 1, …, with the size of each.
 struct Groups {
   std::vector<std::uint32_t> of;
   std::vector<std::size_t> sizes;
@@ -57,17 +57,17 @@ void check(const DistanceMatrix& distances, std::size_t labels, const Permutatio
                             labels, distances.size()));
 }
 
-/// A unit in which powers of the largest distance neither overflow nor vanish: 1, if it is one.
+/// A unit in which powers of the largest distance neither overflow nor underflow: 1 if possible.
 double unit_of(const DistanceMatrix& distances, double power) {
   double largest = 0;
   for (Index i = 0; i < distances.size(); ++i)
     for (Index j = 0; j < i; ++j) largest = std::max(largest, distances(i, j));
-  const double least = 1e-280, most = 1e280;  // of sums, too
+  const double least = 1e-280, most = 1e280;  // also for sums
   const double of_largest = std::pow(largest, power);
   return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;
 }
 
-/// The strict lower triangle row by row, to the power.
+/// The strict lower triangle, row by row, raised to the power.
 std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power, double unit,
                                    const RunContext& context) {
   const Index n = distances.size();
@@ -86,7 +86,7 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
   return powers;
 }
 
-/// Σ over groups of the mean over pairs within, halved: 1 / (2 n (n - 1)) of the sum over ordered
+/// Σ over groups of half the mean over pairs within: 1 / (2 n (n - 1)) times the sum over ordered
 /// pairs.
 double loss_of(std::span<const double> powers, std::span<const std::uint32_t> groups,
                std::span<const std::size_t> sizes, std::vector<double>& sums) {
@@ -115,7 +115,8 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
   const double loss = loss_of(powers, observed.of, observed.sizes, sums);
   result.loss =
       unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
-  // Sums in another order differ by rounding: groups that are the same in other words are a tie.
+  // Sums in a different order differ by rounding: groups that only have other labels count as a
+  // tie.
   const double as_low = loss * (1 + 1e-12);
   std::atomic<std::size_t> as_low_count = 0;
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {

@@ -11,7 +11,7 @@
 
 namespace ph::significance {
 
-/// @throws Error (usage) unless it is above 0 and below 1. @param function the name for messages.
+/// @throws Error (usage) unless it is above 0 and below 1. @param function its name, for messages.
 inline void check_alpha(double alpha, std::string_view function) {
   if (!(alpha > 0 && alpha < 1))
     throw Error(
@@ -19,7 +19,7 @@ inline void check_alpha(double alpha, std::string_view function) {
         fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
 }
 
-/// The least of the numbers, which it sorts, that at most the part alpha of them exceeds.
+/// Sorts the numbers and returns the least one that at most a share alpha of them exceeds.
 inline double upper_quantile(std::span<double> numbers, double alpha) {
   std::ranges::sort(numbers);
   const auto may_exceed =

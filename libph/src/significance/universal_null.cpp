@@ -24,7 +24,7 @@ void check(const Bar& bar) {
                             bar.birth));
 }
 
-/// log log (death / birth), the inner logarithm as of 1 + x where it is small.
+/// log log (death / birth); for small x, the inner logarithm is taken of 1 + x.
 double loglog(const Bar& bar) {
   const double growth = (bar.death - bar.birth) / bar.birth;
   return std::log(std::isinf(growth) ? std::log(bar.death) - std::log(bar.birth)
@@ -49,7 +49,7 @@ BarPValues universal_p_values(std::span<const Bar> bars, DistanceFiltration filt
   const double a = filtration == DistanceFiltration::rips ? 1 : 0.5;
   const double mean = sum / static_cast<double>(std::max<std::size_t>(result.tested, 1));
   for (std::size_t i = 0; i < bars.size(); ++i)
-    // 1 - F of the left-skewed Gumbel law, F(x) = 1 - exp(-exp x), whose mean is -egamma.
+    // 1 - F for the left-skewed Gumbel law, F(x) = 1 - exp(-exp x), whose mean is -egamma.
     if (!bars[i].is_infinite() && bars[i].birth < bars[i].death)
       result.p[i] = std::exp(-std::exp(a * (result.p[i] - mean) - std::numbers::egamma));
   const auto tests = static_cast<double>(result.tested);

@@ -22,13 +22,13 @@ double square_between(const Place& a, const Place& b) {
 }
 double between(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// A place of the plane, and how many bars are there.
+/// A place in the plane, and the number of bars there.
 struct Heap {
   Place place;
   double count = 0;
 };
 
-/// The bars of all diagrams as places in order, each once.
+/// The bars of all diagrams as sorted places, each once.
 std::vector<Heap> heaps_of(std::span<const std::span<const Bar>> diagrams) {
   std::vector<Place> places;
   for (const auto& bars : diagrams)
@@ -72,14 +72,14 @@ class KMeans {
         high[k] = std::max(high[k], other.high[k]);
       }
     }
-    /// That of one place is this place, however it is rounded.
+    /// The mean of a single place is exactly this place, regardless of rounding.
     Place mean() const {
       return {std::clamp(x / count, low[0], high[0]), std::clamp(y / count, low[1], high[1])};
     }
   };
 
-  /// k-means++: the next centre is a place by chance, in proportion to the square of how far it is
-  /// from those before.
+  /// k-means++: the next centre is a random place, with a probability proportional to its squared
+  /// distance from earlier centres.
   void seed_centres(std::size_t count, std::uint64_t seed) {
     Random random(seed);
     std::ranges::fill(squares_, 1);
@@ -93,8 +93,7 @@ class KMeans {
         chosen = i;
         if ((rest -= heaps_[i].count * squares_[i]) < 0) break;
       }
-      if (chosen == heaps_.size())
-        chosen = first_free();  // squares that are too small for a double
+      if (chosen == heaps_.size()) chosen = first_free();  // the squares are too small for a double
       const bool is_first = centres_.empty();
       centres_.push_back(heaps_[chosen].place);
       for (std::size_t i = 0; i < heaps_.size(); ++i) {
@@ -110,8 +109,9 @@ class KMeans {
     return 0;
   }
 
-  /// Finds the nearest centre of each place, the first among equals, and what comes together there.
-  /// @return whether any has changed.
+  /// Finds the nearest centre of each place, the first among equals, and sums up the places of each
+  /// centre.
+  /// @return true if any assignment has changed.
   bool assign() {
     const std::size_t pieces = (heaps_.size() - 1) / kPiece + 1, count = centres_.size();
     std::vector<Sum> sums(pieces * count);
@@ -129,7 +129,7 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count, {});  // piece by piece in order: rounding does not depend on threads
+    sums_.assign(count, {});  // in the order of pieces: rounding does not depend on threads
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }
@@ -146,7 +146,8 @@ class KMeans {
     squares_[i] = least;
     return nearest;
   }
-  /// Centres go to the mean; one without places to the place that is farthest from its centre.
+  /// Moves centres to the mean; a centre without places moves to the place farthest from its
+  /// centre.
   void move() {
     for (std::size_t k = 0; k < centres_.size(); ++k) {
       if (sums_[k].count > 0) {
@@ -168,7 +169,7 @@ class KMeans {
   bool is_new_ = true;
 };
 
-/// Half the way to the nearest other centre; of a single one the mean distance.
+/// Half the distance to the nearest other centre; for a single centre, the mean distance.
 std::vector<double> widths_of(const std::vector<Place>& centres, const std::vector<Heap>& heaps) {
   std::vector<double> widths;
   for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -213,7 +214,7 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
         ErrorKind::bad_data,
         fmt::format("{}: different bars: found {}, expected at least {}, the number of centres",
                     mark_place("fit_atol"), heaps.size(), options.centres));
-  // In a unit in which all numbers are less than 1: squares of small ones would be 0.
+  // Uses a unit in which all numbers are below 1, because squares of small numbers would be 0.
   double largest = 0;
   for (const auto& heap : heaps)
     largest = std::max({largest, std::abs(heap.place[0]), std::abs(heap.place[1])});

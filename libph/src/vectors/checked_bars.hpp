@@ -8,22 +8,22 @@
 
 namespace ph::vectors {
 
-/// Beyond it squares and sums could overflow.
+/// Larger numbers could overflow in squares and sums.
 inline constexpr double kLargest = 1e100;
-/// What frames fitted to such bars reach.
+/// The limit for frames fitted to such bars.
 inline constexpr double kLargestPixel = 4 * kLargest;
 
 /// @throws Error (bad_data) on a NaN, a death before its birth, or a finite number that is too
-///         large. @param function the name for messages.
+///         large. @param function its name, for messages.
 void check_bar(const Bar& bar, std::string_view function);
 
 enum class Ends { finite, any_death, any };
 
-/// The bars that count: those longer than 0.
-/// @throws Error (bad_data) as `check_bar`, and on a bar with other ends than are allowed.
+/// The bars that count: bars longer than 0.
+/// @throws Error (bad_data) as `check_bar`, and on a bar with ends that are not allowed.
 std::vector<Bar> checked_bars(std::span<const Bar> bars, Ends allowed, std::string_view function);
 
-/// @throws Error (usage) if an output has another size than expected.
+/// @throws Error (usage) if an output does not have the expected size.
 void check_size(std::span<const double> out, std::size_t expected, std::string_view function);
 
 /// @throws Error (usage) unless it is finite and at least 0.

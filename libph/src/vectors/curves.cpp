@@ -10,12 +10,13 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// Sums over the bars that live at the values of a grid: changes by place, then one walk.
+/// Sums over the bars alive at the values of a grid: changes are stored by place and added up in a
+/// single pass.
 class LivingBars {
  public:
   explicit LivingBars(const GridCells& cells) : changes_(cells.size() + 1) {}
 
-  /// From a place to another the sum is larger by x.
+  /// Adds x to the sum from one place up to another.
   void add(std::size_t from, std::size_t to, double x) {
     ++changes_[from].bars;
     --changes_[to].bars;
@@ -81,8 +82,8 @@ void silhouette(std::span<const Bar> given, const Grid& grid, double power, std:
   if (bars.empty()) return;
   double longest = 0;
   for (const Bar& bar : bars) longest = std::max(longest, bar.persistence());
-  // Growing tents are w t - w b, falling ones w d - w t: slopes and constants are summed. Numbers
-  // are counted from the middle of the grid: small ones are rounded less.
+  // Growing tents are w t - w b, falling tents w d - w t: slopes and constants are summed. Numbers
+  // are measured from the middle of the grid, because smaller numbers have smaller rounding errors.
   const double middle = grid.lo / 2 + grid.hi / 2;
   vectors::LivingBars slopes(cells), constants(cells);
   vectors::LongSum weights;

@@ -20,11 +20,12 @@ struct Range {
   }
 };
 
-/// The range; of one number `width` around it, of none [0, width].
+/// The range; for a single number, `width` around it; if there is none, [0, width].
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;
-  const double half = std::max(width / 2, std::ldexp(std::abs(range.lo), -40));  // not rounded away
+  // Large enough not to be rounded away.
+  const double half = std::max(width / 2, std::ldexp(std::abs(range.lo), -40));
   return {range.lo - half, range.hi + half};
 }
 
@@ -46,7 +47,7 @@ GridCells::GridCells(const Grid& grid, std::string_view function) {
   values_ = grid.values();
   const double width = values_.back() - values_.front();
   per_step_ = width > 0 ? static_cast<double>(size() - 1) / width : 0;
-  if (!(per_step_ < kInfinity)) per_step_ = 0;  // then places are searched for
+  if (!(per_step_ < kInfinity)) per_step_ = 0;  // places are then found by search
 }
 
 }  // namespace vectors
@@ -65,7 +66,7 @@ Grid fit_grid(std::span<const std::span<const Bar>> diagrams, std::size_t points
   for (const auto& bars : diagrams)
     for (const Bar& bar : bars) {
       vectors::check_bar(bar, "fit_grid");
-      if (bar.birth == bar.death) continue;  // it counts for no vector
+      if (bar.birth == bar.death) continue;  // such a bar counts for no vector
       range.take(bar.birth);
       range.take(bar.death);
     }

@@ -9,36 +9,36 @@
 
 namespace ph::vectors {
 
-/// @throws Error (usage) on a grid that is none.
+/// @throws Error (usage) on an invalid grid.
 void check(const Grid& grid, std::string_view function);
 
-/// The values of a grid, and where numbers lie among them.
+/// The values of a grid, with a search for the place of a number.
 class GridCells {
  public:
-  /// @throws Error (usage) on a grid that is none.
+  /// @throws Error (usage) on an invalid grid.
   GridCells(const Grid& grid, std::string_view function);
 
   const std::vector<double>& values() const { return values_; }
   std::size_t size() const { return values_.size(); }
   double operator[](std::size_t i) const { return values_[i]; }
 
-  /// The first place whose value is x or more; size() if there is none. x is not NaN. O(1).
+  /// The first place whose value is at least x; size() if there is none. x must not be NaN. O(1).
   std::size_t first_from(double x) const {
     return first(x, [x](double t) { return t >= x; });
   }
-  /// The first place where the tent of a bar falls: death - t < t - birth, as rounded. O(1).
+  /// The first place where the tent of a bar falls: death - t < t - birth, with rounding. O(1).
   std::size_t first_falling(const Bar& bar) const {
     return first(bar.birth / 2 + bar.death / 2,
                  [&](double t) { return bar.death - t < t - bar.birth; });
   }
 
  private:
-  /// The first place where `is_behind` holds, which holds from there on; near x.
+  /// The first place where `is_behind` holds (it holds from there on), searched near x.
   template <class IsBehind>
   std::size_t first(double x, const IsBehind& is_behind) const {
     const double steps = per_step_ > 0 ? (x - values_.front()) * per_step_ : 0;
     auto guess = static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(size())));
-    // Right as it is, or one too low, but for rounding.
+    // Correct, or one too low, apart from rounding.
     for (int i = 0; i < 2 && guess < size() && !is_behind(values_[guess]); ++i) ++guess;
     const bool is_end = guess == size() || is_behind(values_[guess]);
     if (is_end && (guess == 0 || !is_behind(values_[guess - 1]))) return guess;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastExponent = 40;  // exp(-40) is 4e-18
 
-/// Σ exp(-|p - q|² / width²) · factor(p, q) over pairs of bars that are near.
+/// Σ exp(-|p - q|² / width²) · factor(p, q) over pairs of nearby bars.
 template <class Factor>
 double sum_over_pairs(const std::vector<Bar>& a, std::vector<Bar> b, double width,
                       const RunContext& context, const Factor& factor) {
@@ -79,7 +79,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
     std::uint32_t row, column;
   };
   const std::size_t count = diagrams.size();
-  // Half of what is sorted once more: the room in which it is merged.
+  // The claim counts half of the sorted list once more, for the buffer of the merge.
   const MemoryClaim claim(context.memory, count * count * sizeof(double) +
                                               3 * (count * (count + 1) / 2) * sizeof(Pair) / 2);
   std::vector<double> matrix(count * count);
@@ -87,7 +87,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
   pairs.reserve(count * (count + 1) / 2);
   for (std::uint32_t i = 0; i < count; ++i)
     for (std::uint32_t j = 0; j <= i; ++j) pairs.push_back({i, j});
-  // What takes longest first: no thread is left with it at the end.
+  // The longest tasks come first, which keeps a thread from starting one at the end.
   std::ranges::stable_sort(pairs, std::greater<>(), [&](const Pair& pair) {
     return diagrams[pair.row].size() * diagrams[pair.column].size();
   });

@@ -14,7 +14,7 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// The best few of all numbers that were offered, in order.
+/// The best few among all numbers that were offered, in order.
 template <class Better>
 class Best {
  public:
@@ -66,8 +66,8 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
   const std::size_t points = grid.points, most = std::min(layers, bars.size());
   const vectors::SortedByTop sorted(bars, cells, context);
   Ticker ticker(context, "landscape", 2 * points);
-  // Of the bars that grow at t those born first are highest, of those that fall those that die
-  // last.
+  // Among the bars that grow at t, the first born are highest; among the bars that fall, the last
+  // to die are highest.
   vectors::Best<std::less<>> births(most);
   for (std::size_t i = points; i-- > 0;) {
     for (const Bar& bar : sorted.at(i + 1)) births.offer(bar.birth);
@@ -126,14 +126,16 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
   while (!tents.empty() && landscapes.size() < layers) {
     PiecewiseLinear& layer = landscapes.emplace_back();
     const auto add = [&](double t, double value) {
-      if (!layer.at.empty() && layer.at.back() == t) return;  // two that rounding makes one
+      // Two points that rounding makes equal.
+      if (!layer.at.empty() && layer.at.back() == t) return;
       layer.at.push_back(t);
       layer.value.push_back(value);
     };
     const auto add_top = [&](const Bar& bar) {
       add(bar.birth / 2 + bar.death / 2, (bar.death - bar.birth) / 2);
     };
-    // Along the upper hull. A tent that comes out of another one leaves below it what both share.
+    // Follows the upper hull. Where one tent emerges from another, the part that both share remains
+    // below.
     below.clear();
     Bar now = tents.front(), shared;
     bool has_shared = false;

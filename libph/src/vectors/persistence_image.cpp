@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kReach = 8;  // standard deviations
 
-/// What normal distributions have in the pixels of an interval.
+/// The masses of normal distributions in the pixels of an interval.
 class Masses {
  public:
   Masses(const PixelRange& range, double sigma)
@@ -25,7 +25,7 @@ class Masses {
         width_(sigma * std::numbers::sqrt2),
         masses_(range.pixels) {}
 
-  /// Finds the pixels near a centre, and what each has of the distribution around it.
+  /// Finds the pixels near a centre, and the mass in each of the distribution around it.
   void go_to(double centre) {
     first_ = pixel_at(centre - reach_);
     const std::size_t end = std::min(pixel_at(centre + reach_) + 1, masses_.size());
@@ -43,7 +43,8 @@ class Masses {
   const double* data() const { return masses_.data() + first_; }
 
  private:
-  /// The pixel that a number lies in; the first one below all, none (their number) above.
+  /// The pixel that contains a number; the first pixel if the number is below all, and their number
+  /// if it is above.
   std::size_t pixel_at(double x) const {
     const auto count = static_cast<double>(masses_.size());
     const double part = (x - edges_.front()) / (edges_.back() - edges_.front());

@@ -23,12 +23,12 @@ double deviation_of(const std::vector<double>& numbers, double mean) {
   double largest = 0;
   for (const double x : numbers) largest = std::max(largest, std::abs(x - mean));
   if (largest == 0) return 0;
-  LongSum sum;  // of what lies in [0, 1]: squares of small numbers would be 0
+  LongSum sum;  // for numbers in [0, 1], because squares of small numbers would be 0
   for (const double x : numbers) sum.add((x - mean) / largest * ((x - mean) / largest));
   return largest * std::sqrt(sum.value() / static_cast<double>(numbers.size()));
 }
 
-/// Between two neighbours, from the nearer one.
+/// Interpolates between two neighbours, from the nearer one.
 double percentile_of(const std::vector<double>& sorted, double percent) {
   const double place = percent / 100 * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -51,7 +51,7 @@ void describe(std::vector<double> numbers, std::span<double> out) {
   out[8] = percentile_of(numbers, 90);
 }
 
-/// Of lengths > 0.
+/// For lengths > 0.
 double entropy_of(const std::vector<Bar>& bars) {
   LongSum total, sum;
   for (const Bar& bar : bars) total.add(bar.persistence());

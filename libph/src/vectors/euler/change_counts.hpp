@@ -13,8 +13,8 @@
 #include "vectors/euler/layers.hpp"
 #include "vectors/grid_cells.hpp"
 
-// Where changes of the Euler characteristic at voxels go. Each kind has a part for a thread, which
-// takes rows of keys and changes, and is added at its end.
+// The destination of changes of the Euler characteristic at voxels. Each kind has a part per
+// thread, which takes rows of keys and changes and adds them to the whole at its end.
 namespace ph::vectors {
 
 /// Calls use(i) for voxels that change something, and for some that do not.
@@ -52,11 +52,12 @@ class CurveBuilder {
   StepFunction curve_;
 };
 
-/// Of integers: a sum for each value.
+/// For integers: one sum per value.
 template <class T>
 class Histogram {
   static constexpr std::size_t kBins = std::size_t{1} << 8 * sizeof(T);
-  static constexpr std::size_t kCopies = sizeof(T) == 1 ? 4 : 1;  // the next one need not wait
+  // So that consecutive additions need not wait for each other.
+  static constexpr std::size_t kCopies = sizeof(T) == 1 ? 4 : 1;
   static std::size_t bin_of(T key) {
     return static_cast<std::size_t>(key - std::numeric_limits<T>::min());
   }
@@ -100,7 +101,7 @@ class Histogram {
   std::pmr::vector<std::int64_t> sums_;
 };
 
-/// All changes, sorted at the end.
+/// Stores all changes and sorts them at the end.
 template <class T>
 class ChangeList {
   struct Change {
@@ -163,8 +164,8 @@ class ChangeList {
   }
 
  private:
-  /// All parts, each given back as soon as it is copied. Their order, which threads decide, does
-  /// not matter: equal keys are summed.
+  /// Joins all parts, freeing each as soon as it is copied. Their order, which depends on threads,
+  /// does not matter: equal keys are summed.
   RawVector<Change> joined() {
     std::size_t count = 0;
     for (const auto& part : parts_) count += part.size();
@@ -183,7 +184,7 @@ class ChangeList {
   std::vector<RawVector<Change>> parts_;
 };
 
-/// Sums by the first value of a grid that is not below.
+/// Sums by the first value of a grid that is not below the key.
 template <class T>
 class GridCounts {
  public:

@@ -11,17 +11,17 @@
 
 namespace ph::vectors {
 
-/// By how much the Euler characteristic changes at each voxel of a row.
+/// The change of the Euler characteristic at each voxel of a row.
 ///
-/// V-construction: a voxel decides the values of the cells of which it is the last vertex. Such a
-/// cell lies in one of 3^d - 1 directions, -1, 0 or 1 along each axis, and its other vertices in
-/// the directions with some of these set to 0. So a cell is decided here if the neighbour in its
-/// own direction precedes the voxel and its facets at the voxel are decided here. Of equal vertices
-/// the one in the larger direction is last: each cell is decided once, also where an axis has one
-/// or two voxels and is periodic.
+/// V-construction: a voxel decides the values of the cells whose last vertex it is. Such a cell
+/// lies in one of 3^d - 1 directions, -1, 0 or 1 along each axis; its other vertices lie in the
+/// directions with some of these set to 0. A cell is therefore decided here if the neighbour in its
+/// own direction precedes the voxel and the facets of the cell at the voxel are decided here. Among
+/// equal vertices, the one in the larger direction is last: each cell is decided once, even if an
+/// axis has one or two voxels and is periodic.
 ///
-/// T-construction: the same with all that is between top cubes. A face in a direction is decided
-/// here if all cubes around it come later, or are not there; its dimension is d less the number of
+/// T-construction: the same for the faces between top cubes. A face in a direction is decided here
+/// if all other cubes around it come later or do not exist; its dimension is d minus the number of
 /// axes along which the direction leads.
 class DecidedCells {
  public:
@@ -50,12 +50,12 @@ class DecidedCells {
       direction.adds = (steps + (has_own_ ? 0 : 1)) % 2 == 0;
     }
     masks_.resize(count * kBlock);
-    std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // no direction: no condition
+    std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // no direction means no condition
   }
 
-  /// @param rows 3^(d-1) rows of keys by direction, the voxels' own one first; null where there is
-  ///        none.
-  /// @param begin, end of a part of the row, kBlock at most.
+  /// @param rows 3^(d-1) rows of keys by direction, first the voxels' own row; null for missing
+  ///        rows.
+  /// @param begin, end a part of the row, at most kBlock long.
   template <class T, class Sum>
   void count(const T* const* rows, std::size_t begin, std::size_t end, Sum* sums) {
     const std::size_t size = end - begin;
@@ -92,8 +92,8 @@ class DecidedCells {
 
   std::size_t axes_, length_;
   bool is_circle_;
-  Mask outside_;  // what is outside precedes nothing (V), comes after all (T)
-  bool has_own_;  // whether the cell in no direction counts 1, or -1
+  Mask outside_;  // voxels outside precede nothing (V), or come after all (T)
+  bool has_own_;  // true if the cell in no direction counts 1, otherwise it counts -1
   std::vector<Direction> directions_;
   RawVector<Mask> masks_;
 };

@@ -11,8 +11,8 @@
 
 namespace ph::vectors {
 
-/// An image as layers along its first axis, which are rows along its last one; it has two axes at
-/// least: an axis of one voxel makes no difference to the Euler characteristic.
+/// An image as layers along its first axis, which consist of rows along its last axis. It has at
+/// least two axes, because an axis of one voxel does not change the Euler characteristic.
 struct Layered {
   CubicalImage image;
   std::vector<std::size_t> extents;
@@ -34,7 +34,8 @@ struct Layered {
   std::size_t rows_each() const { return voxels_each() / row_length(); }
 };
 
-/// The number by which a voxel enters, of the type of the image: voxels are compared by it.
+/// The number by which voxels are compared: it determines when a voxel enters, and has the type of
+/// the image.
 template <class T>
 T entry_key(T voxel, bool superlevel) {
   if constexpr (std::floating_point<T>) {
@@ -50,16 +51,16 @@ template <class T>
 double entry_value(T key, bool superlevel) {
   if constexpr (std::floating_point<T>)
     return static_cast<double>(key);
-  else  // as integers: there is one zero
+  else  // integers have only one zero
     return static_cast<double>(superlevel ? -std::int64_t{static_cast<T>(~key)} : key);
 }
 
-/// Three layers next to each other, as keys. Rows have one key more at both ends: what lies there
-/// if the axis is periodic.
+/// Three adjacent layers, as keys. Rows have one more key at each end: the neighbour there if the
+/// axis is periodic.
 template <class T>
 class ThreeLayers {
  public:
-  /// The first `go_up` brings layer `first` into the middle.
+  /// The first `go_up` moves layer `first` into the middle.
   ThreeLayers(const Layered& of, std::size_t first, std::pmr::memory_resource* memory)
       : of_(of),
         padded_(of.row_length() + 2),
@@ -88,7 +89,7 @@ class ThreeLayers {
   std::size_t wrapped(std::size_t layer) const {
     if (layer < of_.layers()) return layer;
     if (!of_.periodic.front()) return kNone;
-    return layer == kNone ? of_.layers() - 1 : 0;  // before the first one, behind the last
+    return layer == kNone ? of_.layers() - 1 : 0;  // before the first layer, or after the last
   }
   void load(std::size_t layer, int to) {
     present_[to] = layer != kNone;

@@ -3,7 +3,8 @@
 
 #include "core/for_each_target.hpp"
 
-// A template has no targets; so each type has a function, into which one is copied.
+// A template cannot have targets; each type therefore has its own function, into which a common one
+// is inlined.
 namespace ph::vectors {
 namespace {
 
@@ -21,7 +22,7 @@ template <class T>
 template <class Sum>
 [[gnu::always_inline]] inline void join(Mask* masks, const Mask* a, const Mask* b, const Mask* c,
                                         std::size_t count, bool adds, Sum* sum) {
-  // A mask as a number is -1.
+  // As a number, a mask is -1.
   if (adds)
     for (std::size_t i = 0; i < count; ++i) {
       masks[i] = static_cast<Mask>(masks[i] & a[i] & b[i] & c[i]);
