@@ -82,13 +82,13 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     const Index rows = npy.shape[1], columns = npy.shape[2];
     if (npy.kind == 'f' && columns > 0 && columns <= kMostCoordinates && rows >= kSlender * columns)
       return {ArrayMeaning::image,
-              fmt::format("an array of three axes: read as a volume; points are an array of two, "
-                          "a[i] of these {} sets of {} x {}?",
+              fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
+                          "{} x {} points, take one, a[i]",
                           npy.shape[0], rows, columns)};
     if (npy.kind == 'u' && npy.array.type.size == 1 && (columns == 3 || columns == 4))
       return {ArrayMeaning::image,
-              fmt::format("an array of three axes: read as a volume; of a picture with {} channels "
-                          "take one, a[..., 0]",
+              fmt::format("an array of three axes: read as a volume; if it is a picture with {} "
+                          "channels, take one, a[..., 0]",
                           columns)};
   }
   if (npy.shape.size() != 2 || npy.count == 0 || !o.columns.empty()) return otherwise;
@@ -113,8 +113,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     const bool is_nearly =
         kind == SquareKind::nearly_correlations || kind == SquareKind::nearly_symmetric;
     const std::string_view symmetric = is_nearly ? "nearly symmetric" : "symmetric";
-    const std::string instead = is_rips ? mark(Setting::format, "points") + " reads a point a row"
-                                        : mark(Setting::complex, "cubical") + " reads an image";
+    const std::string instead = is_rips
+                                    ? mark(Setting::format, "points") + " reads one point per row"
+                                    : mark(Setting::complex, "cubical") + " reads an image";
     if (n < 3) {
       const bool either = kind == SquareKind::distances || kind == SquareKind::correlations;
       if (!either) return otherwise;
@@ -141,15 +142,16 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
       input.fail({"correlations, points or an image",
                   fmt::format("a {} {} from -1 to 1 with ones on its diagonal", symmetric, shape),
                   "an option that says which",
-                  fmt::format("{} takes distances 1 - r; {} reads an image, {} a point a row",
+                  fmt::format("{} takes distances 1 - r; {} reads an image, {} one point per row",
                               mark(Setting::from_correlation), mark(Setting::complex, "cubical"),
                               mark(Setting::format, "points"))});
     }
     if (kind == SquareKind::distances || kind == SquareKind::symmetric ||
         kind == SquareKind::nearly_symmetric) {
-      return {otherwise.meaning, fmt::format("{}, {}: read as {}; {} reads distances", shape,
-                                             symmetric, is_rips ? "points, one a row" : "an image",
-                                             way_to_distances(kind == SquareKind::distances))};
+      return {otherwise.meaning,
+              fmt::format("{}, {}: read as {}; {} reads distances", shape, symmetric,
+                          is_rips ? "points, one per row" : "an image",
+                          way_to_distances(kind == SquareKind::distances))};
     }
   }
   if (is_rips) return otherwise;
@@ -158,15 +160,15 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
   if (!is_slender) {
     if (is_of_pixels || rows < 2 || columns < 2) return otherwise;
-    return {ArrayMeaning::image, fmt::format("{}: read as an image; {} reads a point a row", shape,
-                                             mark(Setting::complex, "rips"))};
+    return {ArrayMeaning::image, fmt::format("{}: read as an image; {} reads one point per row",
+                                             shape, mark(Setting::complex, "rips"))};
   }
   if (is_of_pixels)
     return {ArrayMeaning::image,
-            fmt::format("{} of small integers: read as an image; {} reads a point a row", shape,
+            fmt::format("{} of small integers: read as an image; {} reads one point per row", shape,
                         mark(Setting::complex, "rips"))};
-  return {ArrayMeaning::points, fmt::format("{}: read as a point a row; {} reads an image", shape,
-                                            mark(Setting::complex, "cubical"))};
+  return {ArrayMeaning::points, fmt::format("{}: read as one point per row; {} reads an image",
+                                            shape, mark(Setting::complex, "cubical"))};
 }
 
 }  // namespace ph::detail

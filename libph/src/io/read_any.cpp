@@ -61,7 +61,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::points) return Format::points;
   using detail::SquareKind;
   if (guess.columns == 1 && guess.table.rows > 1 && options.array == ArrayMeaning::automatic)
-    detail::note(options, fmt::format("a number a line: points of a line; {} reads a signal",
+    detail::note(options, fmt::format("one number per line: points on a line; {} reads a signal",
                                       mark(Setting::complex, "cubical")));
   const std::string size = fmt::format("{} x {} numbers", guess.table.rows, guess.columns);
   const bool is_nearly = guess.table.square == SquareKind::nearly_correlations ||
@@ -72,7 +72,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   const std::string as_points = mark(Setting::format, "points");
   const std::string correlations = mark(Setting::from_correlation);
   const std::string choices = fmt::format(
-      "{} reads distances{}, {} a point a row",
+      "{} reads distances{}, {} one point per row",
       detail::way_to_distances(is_of_ones || guess.table.square == SquareKind::distances),
       is_of_ones ? fmt::format(", {} correlations", correlations) : "", as_points);
   if (guess.format == Format::distance) {
@@ -84,7 +84,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
         {"correlations or points",
          fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
          "an option that says which",
-         fmt::format("{} takes distances 1 - r, {} a point a row", correlations, as_points)});
+         fmt::format("{} takes distances 1 - r, {} one point per row", correlations, as_points)});
   } else if (guess.table.same_names && (guess.table.square == SquareKind::symmetric ||
                                         guess.table.square == SquareKind::nearly_symmetric)) {
     input.fail({"distances, correlations or points",

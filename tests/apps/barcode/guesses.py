@@ -170,7 +170,7 @@ class Arrays(GuessTest):
         self.pairs = distances_of(self.points)
 
     def test_points(self):
-        self.check(self.pairs, "x.npy", note="24 x 3 array: read as a point a row; --complex cubical")
+        self.check(self.pairs, "x.npy", note="24 x 3 array: read as one point per row; --complex cubical")
         for options in (["--format", "npy", "--complex", "rips"], ["--format", "points"]):
             self.check(self.pairs, "x.npy", *options, silent=["--complex cubical"])
         self.check({(i, j): math.dist(self.points[i][:2], self.points[j][:2])
@@ -181,7 +181,7 @@ class Arrays(GuessTest):
         self.refused(64, ["--columns", "from 1 to 3"], "x.npy", "--columns", "4")
 
     def test_images(self):
-        image = self.h0("x.npy", "--complex", "cubical", silent=["a point a row"])
+        image = self.h0("x.npy", "--complex", "cubical", silent=["one point per row"])
         self.assertNotEqual(image, components(self.pairs))
         small = files.array((24, 3), [int(50 * abs(x)) % 256 for x in flat(self.points)], "|u1")
         self.write("u.npy", small)

@@ -35,8 +35,8 @@ def lzf_lies():
             ("less data", lzf_cloud(lzf(raw[:-1]), len(lzf(raw[:-1])), count), "less data than declared"),
             ("a match before the data", lzf_cloud(b"\x20\xff" + packed[2:], size, count),
              "a match starts before the data"),
-            ("a match behind the data", lzf_cloud(b"\0\0\xe0", 3, count), "a match ends behind"),
-            ("literals behind the data", lzf_cloud(b"\x1f\0", 2, count), "literals end behind"),
+            ("a match behind the data", lzf_cloud(b"\0\0\xe0", 3, count), "a match ends after"),
+            ("literals behind the data", lzf_cloud(b"\x1f\0", 2, count), "literals end after"),
             ("more data", lzf_cloud(b"\0\0\xe0\x80\0", 5, count), "more data than declared"),
             ("no sizes", PACKED + b"\1\0", "truncated")):
         yield refused(39, "pcd", f"LZF, {name}", content, message)
@@ -60,9 +60,9 @@ def zip_lies():
             ("size of 4e9, deflated", central(deflated, 24, struct.pack("<I", 4_000_000_000)),
              "do not fit|expand too much"),
             ("size, one more, deflated", central(deflated, 24, struct.pack("<I", len(GRID) + 1)),
-             "sizes of compressed data do not hold"),
+             "wrong sizes of compressed data"),
             ("size, one less, deflated", central(deflated, 24, struct.pack("<I", len(GRID) - 1)),
-             "sizes of compressed data do not hold"),
+             "wrong sizes of compressed data"),
             ("deflate data", with_bytes(deflated, 40, b"\xff\xff\xff"), "deflate|checksum|sizes"),
             ("method", central(stored, 10, b"\x0c\0"), "compression method, found 12"),
             ("encryption", central(stored, 8, b"\1\0"), "encrypted"),

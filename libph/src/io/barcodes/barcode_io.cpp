@@ -13,13 +13,14 @@ namespace ph {
 namespace {
 
 constexpr std::array kFormats{
-    BarcodeFormatInfo{BarcodeFormat::csv, "csv", "a header, then a bar a line", "1,0.5,2.25"},
+    BarcodeFormatInfo{BarcodeFormat::csv, "csv", "a header, then one bar per line", "1,0.5,2.25"},
     BarcodeFormatInfo{BarcodeFormat::json, "json",
-                      "bars with their cells, representatives and where they come from",
+                      "bars with their cells, representatives and origin",
                       "{\"dim\": 1, \"birth\": 0.5, \"death\": 2.25, …}"},
     BarcodeFormatInfo{BarcodeFormat::ripser, "ripser",
-                      "what Ripser prints: intervals by dimension, 6 digits", " [0.5,2.25)"},
-    BarcodeFormatInfo{BarcodeFormat::pers, "pers", "GUDHI's dim birth death a line", "1 0.5 2.25"},
+                      "Ripser's output: intervals by dimension, 6 digits", " [0.5,2.25)"},
+    BarcodeFormatInfo{BarcodeFormat::pers, "pers", "GUDHI's dim birth death, one bar per line",
+                      "1 0.5 2.25"},
     BarcodeFormatInfo{BarcodeFormat::dipha, "dipha", "DIPHA's persistence diagram, binary", ""},
     BarcodeFormatInfo{BarcodeFormat::npy, "npy", "a NumPy array of rows dim, birth, death", ""},
     BarcodeFormatInfo{BarcodeFormat::none, "none", "nothing", ""},

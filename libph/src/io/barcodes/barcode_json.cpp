@@ -81,7 +81,7 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
     throw Error(ErrorKind::usage, fmt::format("loops: found {}, expected {}", found, expected));
   };
   if (loops.size() != barcode.size())
-    fail(fmt::format("those of {} bars", loops.size()), fmt::format("{}, or none", barcode.size()));
+    fail(fmt::format("loops of {} bars", loops.size()), fmt::format("{}, or none", barcode.size()));
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].loops.empty()) continue;
     const std::string bar = fmt::format("bar {} ", i);
@@ -93,7 +93,7 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
     for (const Loop& loop : loops[i].loops)
       if (loop.numbers.empty() || loop.numbers.size() % arity != 0)
         fail(bar + fmt::format("with a loop of {} numbers", loop.numbers.size()),
-             fmt::format("{} a vertex", arity));
+             fmt::format("{} per vertex", arity));
   }
 }
 

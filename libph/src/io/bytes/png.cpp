@@ -231,7 +231,7 @@ void write_png(std::ostream& out, const Raster& raster) {
   raster.check();
   if (raster.width < 1 || raster.height < 1 || raster.width > kMaxSide || raster.height > kMaxSide)
     throw Error(ErrorKind::bad_data,
-                fmt::format("{}: found {} x {} pixels, expected 1 to {} a side", raster.name,
+                fmt::format("{}: found {} x {} pixels, expected 1 to {} per side", raster.name,
                             raster.width, raster.height, kMaxSide));
   std::vector<png_byte> bytes(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
   if (raster.bits == 16) {

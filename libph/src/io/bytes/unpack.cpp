@@ -205,7 +205,7 @@ std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::
     if (inflater.ended() || done < wanted || bytes.size() > size) break;
   }
   if (!inflater.ended() || bytes.size() != size || inflater.used() != packed_size) {
-    input.fail_at_byte(offset, {"sizes of compressed data do not hold",
+    input.fail_at_byte(offset, {"wrong sizes of compressed data",
                                 fmt::format("{} bytes from {}", bytes.size(), inflater.used()),
                                 fmt::format("{} bytes from {}", size, packed_size),
                                 {}});

@@ -166,7 +166,7 @@ void YamlWords::take_list(Value& value, std::string_view rest, std::size_t colum
     if (!ends) continue;
     list_ = nullptr;
     if (!trimmed(rest).empty())
-      fail(column, {"something behind a list", quoted(trimmed(rest)), "the end of the line", {}});
+      fail(column, {"something after a list", quoted(trimmed(rest)), "the end of the line", {}});
     return;
   }
 }

@@ -173,7 +173,8 @@ void Cloud::set_uint32(std::size_t field, const std::vector<std::uint32_t>& valu
   check();
   if (field >= fields.size() || fields[field].type != FieldType::uint32 ||
       values.size() != static_cast<std::size_t>(size())) {
-    throw Error(ErrorKind::internal, "cloud: set_uint32 needs a uint32 field and a value a point");
+    throw Error(ErrorKind::internal,
+                "cloud: set_uint32 needs a uint32 field and one value per point");
   }
   const std::size_t offset = fields[field].offset;
   for (std::size_t i = 0; i < values.size(); ++i)

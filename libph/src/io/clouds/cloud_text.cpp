@@ -54,7 +54,7 @@ std::vector<std::string> column_names(PointsView rows, const std::vector<std::st
     return names;
   }
   if (columns < 3) {
-    input.fail({"too few columns", fmt::format("{}", columns), "x y z at least", {}});
+    input.fail({"too few columns", fmt::format("{}", columns), "at least x y z", {}});
   }
   names = {"x", "y", "z"};
   // PTS has an intensity before the colours, or only an intensity.
@@ -86,7 +86,7 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
     if (!options.allow_empty) {
       input.fail({"no points",
                   {},
-                  "one point a line",
+                  "one point per line",
                   mark(Setting::allow_empty) + " accepts an empty cloud"});
     }
     for (const std::string_view name : kCoordinates) {

@@ -18,7 +18,7 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
   const bool is_npy = detail::is_npy(input);
   if (!is_npy && !detail::is_png(input) && !detail::is_pgm(input)) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
-                "numpy.save writes arrays of any other"});
+                "numpy.save writes an array from any other format"});
   }
   // Readers of pictures accept colours if an option says which; a depth image has no such option.
   const auto read_grey = [&] {

@@ -200,7 +200,7 @@ class PcdHeaderParser {
       if (!bytes || *bytes > kMostRecordsPointBytes - stride) {
         input_.fail({"points too large",
                      fmt::format("COUNT {}", field.count),
-                     fmt::format("at most {} bytes a point", kMostRecordsPointBytes),
+                     fmt::format("at most {} bytes per point", kMostRecordsPointBytes),
                      {}});
       }
       stride += *bytes;

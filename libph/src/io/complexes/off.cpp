@@ -66,7 +66,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
   if (vertices > rest / 6 || faces > rest / 2) {
     lines.fail(lines.line().data(), {"truncated: the counts do not fit the file",
                                      fmt::format("{} vertices and {} faces", vertices, faces),
-                                     fmt::format("no more than {} bytes hold", rest),
+                                     fmt::format("no more than fit into {} bytes", rest),
                                      {}});
   }
   input.require_memory(vertices * 3 * sizeof(double) + faces * sizeof(std::size_t));

@@ -104,7 +104,7 @@ class Header {
                                     "integers or floats of at most 8 bytes: 2, 4, 8, 16, 64, 256, "
                                     "512, 768, 1024 or 1280",
                                     code == 32 || code == 128 || code == 2304
-                                        ? "colours and complex numbers are no filtration values"
+                                        ? "colours and complex numbers are not filtration values"
                                         : ""});
   }
 

@@ -87,9 +87,9 @@ Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
   const bool is_one = std::abs(doubt.value - 1) <= kRounding;
   return {"non-zero diagonal", fmt::format("{}", doubt.value), "0" + slack,
           is_one            ? read_correlations()
-          : doubt.value > 0 ? fmt::format("{} takes it for 0, {} for the births of the points",
-                                          zero, mark(Setting::diagonal, "births"))
-                            : zero + " takes it for 0"};
+          : doubt.value > 0 ? fmt::format("{} takes it as 0, {} as the births of the points", zero,
+                                          mark(Setting::diagonal, "births"))
+                            : zero + " takes it as 0"};
 }
 
 void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const {
@@ -104,13 +104,13 @@ void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fau
       note(options_,
            fmt::format("{} for rounding, at most {:.2g}: taken as 0", what, worst_[kind].size));
   };
-  tell(kNegative, "distances are 0 or more but");
+  tell(kNegative, "distances are 0 or more except");
   const Doubt& diagonal = worst_[kDiagonal];
   if (diagonal.size > rounding())
     note(options_, fmt::format("{}: the diagonal has entries up to {:.2g}, taken as 0",
                                mark(Setting::diagonal, "zero"), diagonal.size));
   else
-    tell(kDiagonal, "the diagonal is 0 but");
+    tell(kDiagonal, "the diagonal is 0 except");
 }
 
 void fail_in_text(const Input& input, std::size_t byte, const Fault& fault) {

@@ -41,7 +41,7 @@ DistanceMatrix from_one_line(const TextLines& lines, std::size_t line, std::vect
     lines.input().fail_at(line, 1,
                           {"not a triangle",
                            fmt::format("one line of {} cells", values.size()),
-                           "a row a line, or n(n-1)/2 cells",
+                           "one row per line, or n(n-1)/2 cells",
                            {}});
   }
   const std::size_t n = *points;
@@ -78,9 +78,10 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
   bool are_zero = true;
   for (std::size_t i = 1; i < n; ++i) are_zero = are_zero && values[triangle(i + 1) - 1] == 0;
   if (are_zero && n > 3)
-    detail::note(options,
-                 "each row ends in 0: two points at one place; if that is the diagonal, leave the "
-                 "zeros and the first row out");
+    detail::note(
+        options,
+        "each row ends in 0, which means equal points; if it is the diagonal, leave out the "
+        "zeros and the first row");
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
@@ -108,7 +109,7 @@ DistanceMatrix read_upper_rows(TextLines& lines, TextEntries& entries,
   } while (lines.next());
   if (row + 1 < n) {
     lines.input().fail({"truncated matrix", fmt::format("{} rows", row), fmt::format("{}", n - 1),
-                        "the upper triangle has n-1, …, 2, 1 cells a row"});
+                        "the upper triangle has n-1, …, 2, 1 cells per row"});
   }
   entries.finish();
   return DistanceMatrix(static_cast<Index>(n), std::move(pairs));
@@ -137,7 +138,7 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   if (first.size() != 1) {
     input.fail_at(first_line, 1,
                   {"row 1 of the matrix is too long", fmt::format("{} cells", first.size()), "1",
-                   "the lower triangle has 1, 2, 3, … cells a row"});
+                   "the lower triangle has 1, 2, 3, … cells per row"});
   }
   return read_lower_rows(lines, entries, std::move(first), options);
 }

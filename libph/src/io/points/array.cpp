@@ -145,7 +145,7 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     bool exact = true;
     const double value = layout.type.load(bytes + at, layout.order, exact);
     if (!exact) {
-      const std::string near = fmt::format("{:.0f} nearby", value);
+      const std::string near = fmt::format("one near {:.0f}", value);
       input.fail_at_byte(layout.offset + at,
                          {"integer that double cannot hold", near, "at most 2^53", {}});
     }

@@ -18,7 +18,7 @@ Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& o
   for (const Index extent : layout.extents)
     if (extent < 0) refuse("raw shape", fmt::format("{}", extent), "sizes of 0 or more");
   if (layout.skip > input.size()) {
-    input.fail_at_byte(input.size(), {"truncated in what is skipped",
+    input.fail_at_byte(input.size(), {"truncated in the skipped bytes",
                                       fmt::format("{} bytes", input.size()),
                                       fmt::format("at least {}", layout.skip),
                                       {}});

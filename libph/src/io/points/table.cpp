@@ -148,7 +148,7 @@ std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   rest.names_rows = true;
   const bool is_square = shape_of(input, rest).rows == rest.columns.size();
   return is_square ? ""
-                   : fmt::format("; {} takes {}, too",
+                   : fmt::format("; {} also takes {}",
                                  mark(Setting::columns, fmt::format("1-{}", layout.width)),
                                  layout.unnamed() > 1 ? "them" : "it");
 }

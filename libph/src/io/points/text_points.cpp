@@ -247,12 +247,13 @@ Points read_points(const Input& input, const ReadOptions& options) {
     const Image array = detail::read_npy_array(input);
     if (array.dim() != 2) {
       input.fail({"not a set of points", fmt::format("an array of {} dimensions", array.dim()),
-                  "2: a point a row", array.dim() == 1 ? "a[:, None] has a number a row" : ""});
+                  "2: one point per row",
+                  array.dim() == 1 ? "a[:, None] has one number per row" : ""});
     }
     if (array.values.empty() && array.extents[0] > 0) {
       input.fail({"points without coordinates",
                   fmt::format("shape ({}, 0)", array.extents[0]),
-                  "one column at least",
+                  "at least one column",
                   {}});
     }
     // Both arrays exist for a while, and the stored array is not counted in any budget.
@@ -281,7 +282,7 @@ Points read_points(const Input& input, const ReadOptions& options) {
   if (points.rows() == 0 && !options.allow_empty) {
     input.fail({"no points",
                 {},
-                "one point a line",
+                "one point per line",
                 mark(Setting::allow_empty) + " accepts an empty set"});
   }
   return points;

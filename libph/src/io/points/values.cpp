@@ -18,7 +18,7 @@ namespace {
 Fault wrong_count(std::size_t found, std::size_t count, std::string_view owner) {
   return {found < count ? "truncated: too few values" : "too many values",
           fmt::format("{}", found),
-          fmt::format("{}, one a {}", count, owner),
+          fmt::format("{}, one per {}", count, owner),
           {}};
 }
 
@@ -40,7 +40,7 @@ std::vector<double> of_text(const Input& input, std::size_t count, const ReadOpt
       if (values.size() == count) {
         lines.fail(cells.place(), {"too many values",
                                    fmt::format("more than {}", count),
-                                   fmt::format("{}, one a {}", count, owner),
+                                   fmt::format("{}, one per {}", count, owner),
                                    {}});
       }
       values.push_back(cells.number(Allow::infinite));
@@ -57,7 +57,7 @@ std::vector<double> of_array(const Input& input, std::string_view owner) {
   if (long_axes > 1) {
     input.fail({"not a list of values",
                 fmt::format("shape ({})", fmt::join(array.extents, ", ")),
-                fmt::format("one axis: a value a {}", owner),
+                fmt::format("one axis: one value per {}", owner),
                 {}});
   }
   input.require_memory(array.values.size() * sizeof(double));
@@ -73,7 +73,7 @@ std::vector<double> of_property(const Input& input) {
   for (const CloudField& field : cloud.fields) names.push_back(printable(field.name, 40));
   const CloudField* const field = input.member().empty() ? nullptr : cloud.find(input.member());
   if (field == nullptr || field->count != 1) {
-    input.fail({input.member().empty() ? "a PLY file has several values a vertex"
+    input.fail({input.member().empty() ? "a PLY file has several values per vertex"
                                        : "no such property of the vertices",
                 printable(input.member(), 40), fmt::format("one of {}", fmt::join(names, ", ")),
                 fmt::format("{}:NAME", input.name())});
@@ -94,7 +94,7 @@ std::vector<double> of_bytes(const Input& input, std::size_t count, std::string_
   if (input.size() % sizeof(double) != 0 || input.size() / sizeof(double) != count) {
     input.fail({"wrong number of values",
                 fmt::format("{} bytes", input.size()),
-                fmt::format("{} values of 8 bytes, one a {}", count, owner),
+                fmt::format("{} values of 8 bytes, one per {}", count, owner),
                 {}});
   }
   std::vector<double> values(count);

@@ -152,7 +152,7 @@ TEST(Camera, FaultsNameTheirPlace) {
       {good + "more: [1,, 2]\n", "empty element of a list"},
       {good + "more: &a 2\n", "anchor or alias"},
       {good + "more: {a: 2,\n", "mapping in braces"},
-      {good + "more: [1, 2] 3\n", "something behind a list, found \"3\""},
+      {good + "more: [1, 2] 3\n", "something after a list, found \"3\""},
       {good + "\tmore: 2\n", "a tab before a key"},
       {"- 1\n", "c.yaml:1:1: list, found \"- 1\", expected a key before it"},
       {"", "c.yaml: no image_width"},

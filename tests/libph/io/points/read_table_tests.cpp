@@ -240,7 +240,7 @@ TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
   };
   EXPECT_EQ(distances("0,1e-9,2\n2e-9,0,3\n2,3,0\n")(0, 1), 2e-9);
   EXPECT_EQ(distances("0,-2e-16,1\n-2e-16,0,1\n1,1,0\n")(0, 1), 0);
-  EXPECT_TRUE(says(any("0,-2e-16,1\n-2e-16,0,1\n1,1,0\n"), "0 or more but for rounding"));
+  EXPECT_TRUE(says(any("0,-2e-16,1\n-2e-16,0,1\n1,1,0\n"), "0 or more except for rounding"));
   for (const auto& [text, words] : std::vector<std::pair<const char*, const char*>>{
            {"0,1e-5,2\n2e-5,0,3\n2,3,0\n", "t.csv:2:1: asymmetric"},
            {"0,1,2\n1,0,-3e-5\n2,-3e-5,0\n", "t.csv:2:5: negative"},
