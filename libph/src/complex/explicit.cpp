@@ -90,7 +90,7 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     const auto vertices = simplices.simplex(i);
     const auto [it, is_new] = position.emplace(vertices, i);
-    if (!is_new) fail(name, i, fmt::format("simplex {} is there twice", vertex_list(vertices)));
+    if (!is_new) fail(name, i, fmt::format("simplex {} occurs twice", vertex_list(vertices)));
     matrix.dims.push_back(static_cast<int>(vertices.size()) - 1);
   }
   std::vector<Index> facet;

@@ -48,7 +48,7 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
     Edge edge = edge_between(e);
     if (!(e.value >= edge.value)) {
       throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): found the value {}, expected at "
-                                                   "least that of its ends, {}",
+                                                   "least the value of its ends, {}",
                                                    e.u, e.v, e.value, edge.value));
     }
     edge.value = e.value + 0.0;

@@ -74,7 +74,8 @@ void check(PointsView points, double voxel, Index margin) {
     throw Error(ErrorKind::usage, fmt::format("points: found {} coordinates, expected 1 to {}",
                                               points.cols(), Cubical::kMaxDim));
   }
-  if (points.rows() == 0) throw Error(ErrorKind::bad_data, "an image of no points");
+  if (points.rows() == 0)
+    throw Error(ErrorKind::bad_data, "points: found none, expected at least one");
   for (Index i = 0; i < points.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k)
       if (!std::isfinite(points(i, k)))

@@ -151,8 +151,8 @@ void pair_by_slabs(const CubicalImage& voxels, const K& field, const BarRequest&
                 "bars of dimension 1: found " + std::to_string(voxels.size()) +
                     " voxels, expected fewer than about 2^31; dimension 0 (max_dim 0)" +
                     (image.shape().any_periodic() ? "" : " and dimension 2 (min_dim 2)") +
-                    " may have more, and parts of the image on several machines or in several "
-                    "processes have all dimensions");
+                    " allow more, and parts of the image, on several machines or in several "
+                    "processes, allow all dimensions");
   PairSink pairs(image.shape(), wanted.cells, sink);
   Slabs slabs(image, Slabs::layers_that_fit(image, context), context);
   pair_in_slabs(slabs, field, wanted, context, pairs);

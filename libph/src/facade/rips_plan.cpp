@@ -27,7 +27,7 @@ constexpr int kHighestByEdges = 3;
 std::string_view obstacle_to_collapse(const Options& options) {
   if (options.min_persistence < 0) return "bars of length zero are asked for";
   if (options.representatives == Representatives::cocycles)
-    return "cocycles are asked for, and those of fewer edges say nothing of the others";
+    return "cocycles are asked for, and those of the remaining edges say nothing about the others";
   return {};
 }
 
@@ -48,7 +48,7 @@ CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options
     return {true, "asked for"};
   }
   if (!spoilt.empty()) return {false, std::string(spoilt)};
-  if (engine.goes_by_edges) return {false, "the engine goes by edges alone"};
+  if (engine.goes_by_edges) return {false, "the engine looks only at edges"};
   if (engine.is_oracle) return {false, "the reference engine takes the complex as it is"};
   const double share = dominated();
   return {share >= kWorthwhileShare,
@@ -68,10 +68,11 @@ int max_dim_of(const Rips& rips, const Options& options) {
   check(options);
   const int max_dim = options.max_dim.value_or(is_forest ? 0 : 1);
   if (is_forest && max_dim > 0) {
-    throw Error(ErrorKind::usage,
-                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
-                            "the components are there",
-                            max_dim));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("highest dimension: found {}, expected 0: this Rips filtration has only "
+                    "components",
+                    max_dim));
   }
   if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
@@ -102,7 +103,7 @@ RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice
   plan.form = choice.form;
   plan.options.collapse = collapse.collapses ? Collapse::on : Collapse::off;
   plan.collapse_reason = std::move(collapse.reason);
-  if (choice.form == RipsForm::forest) plan.reason += "; a spanning forest knows them";
+  if (choice.form == RipsForm::forest) plan.reason += "; a spanning forest gives them";
   return plan;
 }
 

@@ -113,7 +113,7 @@ class Parts(ProgramTest):
         p = self.parts(image, 4)
         refused = {
             "missing": (p[:3], "parts 1 to 3 of 4"),
-            "a gap": ([p[0], p[2], p[3]], "part 3 behind part 1"),
+            "a gap": ([p[0], p[2], p[3]], "part 3 after part 1"),
             "twice": ([*p, p[1]], "twice"),
             "another image": ([p[0], self.parts(other, 4, prefix="o")[1], *p[2:]], "o2.ph"),
             "other options": ([p[0], self.parts(image, 4, "--superlevel", prefix="s")[1], *p[2:]],

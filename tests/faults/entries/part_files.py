@@ -68,17 +68,17 @@ def roots(items=((1., 0, 0, 0),), outside=(0, 0), before=(), after=(), bridges=(
 
 WHOLE_INPUTS = inputs()
 DAMAGED = [
-    ("nothing", b"", "found something else in 0 bytes"),
+    ("nothing", b"", "found 0 bytes that begin differently"),
     ("the magic alone", b"ph part\n", "part"),
-    ("a barcode", b"dim,birth,death\n0,0,1\n", "found something else"),
-    ("another magic", b"PH PART\n" + WHOLE_INPUTS[8:], "found something else"),
+    ("a barcode", b"dim,birth,death\n0,0,1\n", "that begin differently"),
+    ("another magic", b"PH PART\n" + WHOLE_INPUTS[8:], "that begin differently"),
     ("an unknown kind", WHOLE_INPUTS[:8] + b"potato  " + WHOLE_INPUTS[16:], "damaged"),
     ("version 2", with_bytes(WHOLE_INPUTS, 16, b"\2"), "version"),
-    ("without its last byte", WHOLE_INPUTS[:-1], "not whole"),
-    ("without its checksum", WHOLE_INPUTS[:-4], "not whole"),
+    ("without its last byte", WHOLE_INPUTS[:-1], "incomplete"),
+    ("without its checksum", WHOLE_INPUTS[:-4], "incomplete"),
     ("a byte behind its end", WHOLE_INPUTS + b"\0", "part"),
-    ("a length of 2^64 - 1", with_bytes(WHOLE_INPUTS, 20, b"\xff" * 8), "not whole"),
-    ("a length of 0", with_bytes(WHOLE_INPUTS, 20, b"\0" * 8), "not whole"),
+    ("a length of 2^64 - 1", with_bytes(WHOLE_INPUTS, 20, b"\xff" * 8), "incomplete"),
+    ("a length of 0", with_bytes(WHOLE_INPUTS, 20, b"\0" * 8), "incomplete"),
     ("a bit that fell over", with_bytes(WHOLE_INPUTS, 40, bytes([WHOLE_INPUTS[40] ^ 1])), "checksum|damaged"),
     ("another checksum", WHOLE_INPUTS[:-1] + bytes([WHOLE_INPUTS[-1] ^ 128]), "damaged"),
 ]
@@ -169,8 +169,8 @@ MIXED = [
      {"a.ph": inputs(parts=2), "b.ph": inputs(part=1, parts=2, options=[b"--max-dim 2"])}, "other inputs"),
     ("inputs, one of two parts", {"a.ph": inputs(parts=2)}, "found 1 of 2 parts"),
     ("inputs, a part twice", {"a.ph": inputs(parts=2), "b.ph": inputs(parts=2)}, "twice"),
-    ("a part and a table", {"a.ph": cloud(), "b.ph": SQUARE}, "found something else"),
-    ("a part and nothing", {"a.ph": cloud(), "b.ph": b""}, "found something else"),
+    ("a part and a table", {"a.ph": cloud(), "b.ph": SQUARE}, "that begin differently"),
+    ("a part and nothing", {"a.ph": cloud(), "b.ph": b""}, "that begin differently"),
 ]
 
 

@@ -32,8 +32,8 @@ void refuse(std::initializer_list<Entry> entries, const std::string& what) {
 }
 
 TEST(ExplicitComplexes, RefuseBrokenSimplexLists) {
-  refuse({{{0}, 0}, {{0}, 1}}, "cell 1: simplex (0) is there twice");
-  refuse({{{0}, 0}, {{1}, 0}, {{0, 1}, 0}, {{1, 0}, 0}}, "cell 3: simplex (0 1) is there twice");
+  refuse({{{0}, 0}, {{0}, 1}}, "cell 1: simplex (0) occurs twice");
+  refuse({{{0}, 0}, {{1}, 0}, {{0, 1}, 0}, {{1, 0}, 0}}, "cell 3: simplex (0 1) occurs twice");
   refuse({{{0}, 0}, {{0, 0}, 1}}, "cell 1: vertex 0 occurs twice");
   refuse({{{0}, 0}, {{0, 1}, 1}}, "facet (1) is missing");
   refuse({{{0}, 0}, {{1}, 2}, {{0, 1}, 1}}, "cell 2");

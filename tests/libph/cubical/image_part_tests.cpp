@@ -173,8 +173,8 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
     }
   };
   ImagePart first(image, 0, 3);
-  refused(first, ImagePart(image, 2, 3), "found part 3 behind part 1");
-  refused(first, ImagePart(image, 0, 3), "found part 1 behind part 1");
+  refused(first, ImagePart(image, 2, 3), "found part 3 after part 1");
+  refused(first, ImagePart(image, 0, 3), "found part 1 after part 1");
   refused(first, ImagePart(image, 1, 4), "other extents, types or options");
   refused(first, ImagePart(image, 1, 3, {.max_dim = 0}), "other extents, types or options");
   ImagePart of_image(image, 0, 3);

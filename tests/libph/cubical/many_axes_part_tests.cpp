@@ -113,7 +113,7 @@ TEST(ManyAxesPart, SaysWhatCanBeHad) {
           "dimensions "
           "0 to 3 wanted");
   refused({2, 2, 2, 2}, {.max_dim = 1},
-          "found dimensions 0 to 1 wanted, expected dimension 0 alone, or 3 alone");
+          "found dimensions 0 to 1 asked for, expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2}, {.min_dim = 2, .loops = true}, "expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2, 2}, {.min_dim = 3}, "dimension 0 alone, or 4 alone");
   refused({2, 2, 2, 2}, {.cubical = {.periodic = {false, true, false, false}}, .min_dim = 3},

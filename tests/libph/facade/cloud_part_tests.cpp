@@ -338,7 +338,7 @@ TEST(CloudPart, FindsEdgesThatAreMissing) {
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::bad_data);
       const std::string what = error.what();
-      const bool is_about_edges = what.find("not joined as the parts say") != std::string::npos;
+      const bool is_about_edges = what.find("not joined as the parts claim") != std::string::npos;
       EXPECT_TRUE(is_about_edges || what.find("more points than the 60") != std::string::npos);
       ++(is_about_edges ? found : counted);
     }

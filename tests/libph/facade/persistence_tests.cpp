@@ -249,7 +249,7 @@ TEST(Estimates, SayWhetherEdgesAreCollapsed) {
   says(ring, {.max_dim = 2, .engine = Engine::cohomology}, false, "% of a sample");
   says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
   says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");
-  says(solid, {}, false, "by edges alone");
+  says(solid, {}, false, "looks only at edges");
   says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "reference engine");
   says(solid, {.max_dim = 2, .engine = Engine::cohomology, .min_persistence = -1}, false,
        "length zero");

@@ -135,8 +135,8 @@ TEST(Components, NothingElseIsThere) {
   const Points points = to_points(PointMatrix::Random(9, 2));
   const Rips rips(RipsGraph::forest_of_metric(PointMetric(points), {}, default_context()));
   EXPECT_EQ(persistence(rips).size(), 9U);
-  expect_error(ErrorKind::usage, "only the components", [&] { persistence(rips, {.max_dim = 1}); });
-  expect_error(ErrorKind::usage, "only the components", [&] { estimate(rips, {.max_dim = 2}); });
+  expect_error(ErrorKind::usage, "has only components", [&] { persistence(rips, {.max_dim = 1}); });
+  expect_error(ErrorKind::usage, "has only components", [&] { estimate(rips, {.max_dim = 2}); });
   EXPECT_EQ(estimate(rips).cells, (std::vector<double>{9, 8}));
   EXPECT_EQ(rips.graph(RipsForm::forest).threshold(), kInf);
   for (const RipsForm form : {RipsForm::edges, RipsForm::distinct_edges, RipsForm::points})

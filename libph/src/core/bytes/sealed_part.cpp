@@ -50,8 +50,8 @@ bool is_sealed_part(std::span<const std::byte> bytes) { return text_of(bytes).st
 
 std::string_view kind_of_part(std::span<const std::byte> bytes) {
   if (!is_sealed_part(bytes))
-    refuse(
-        fmt::format("found something else in {} bytes, expected \"ph part\" first", bytes.size()));
+    refuse(fmt::format("found {} bytes that begin differently, expected \"ph part\" first",
+                       bytes.size()));
   if (bytes.size() < kHeaderSize + kChecksumSize)
     refuse(fmt::format("found {} bytes, expected {} or more", bytes.size(),
                        kHeaderSize + kChecksumSize));
@@ -60,7 +60,7 @@ std::string_view kind_of_part(std::span<const std::byte> bytes) {
     refuse(fmt::format("found version {}, expected {}", version, kVersion));
   const auto size = reader.get<std::uint64_t>("size");
   if (const std::size_t rest = bytes.size() - kHeaderSize - kChecksumSize; size != rest)
-    refuse(fmt::format("found {} bytes of content, expected {}: it is not whole", rest, size));
+    refuse(fmt::format("found {} bytes of content, expected {}: it is incomplete", rest, size));
   ByteReader end(bytes.last(kChecksumSize), "part");
   const auto expected = end.get<std::uint32_t>("checksum");
   if (const std::uint32_t found = crc32(bytes.first(bytes.size() - kChecksumSize));

@@ -109,7 +109,7 @@ void PartLoops<K>::check(const Message& message) {
   constexpr std::uint64_t most_ahead = 1 << 20;
   std::vector<bool>& heard = heard_[message.header.from];
   const std::uint64_t number = message.header.number;
-  if (number >= heard.size() + most_ahead) refuse("loops of another part: found a message missing");
+  if (number >= heard.size() + most_ahead) refuse("loops of another part: a message is missing");
   if (number >= heard.size()) heard.resize(number + 1);
   if (heard[number]) refuse("loops of another part: found a message that has come before");
   heard[number] = true;

@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void refuse_loops(const GridShape& shape) {
   throw Error(ErrorKind::resource,
-              std::string("bars of dimension 1: what their critical cells take exceeds the memory "
+              std::string("bars of dimension 1: their critical cells exceed the memory "
                           "limit; ") +
                   (wants_loops(shape, {.min_dim = 2, .max_dim = 2})
                        ? "bars of dimension 0 take less (max_dim 0)"

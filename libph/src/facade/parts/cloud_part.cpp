@@ -141,7 +141,7 @@ std::vector<int> CloudPart::missing() const {
 void CloudPart::join(CloudPart other, const RunContext& context) {
   if (other.state_->whole != state_->whole)
     throw Error(ErrorKind::bad_data,
-                "parts of clouds: found other points or options, expected parts of one");
+                "parts of clouds: found other points or options, expected parts of one cloud");
   const std::vector<int>& others = other.state_->present;
   std::vector<int> present, twice;
   std::ranges::set_intersection(state_->present, others, std::back_inserter(twice));
@@ -175,7 +175,7 @@ void CloudPart::State::check_joined() const {
       forest.edges.size() + 1 == static_cast<std::size_t>(std::max<Index>(whole.points, 1));
   if (size != whole.points || !forest.claims.empty() || !is_spanning)
     throw Error(ErrorKind::bad_data,
-                "parts of a cloud: found points that are not joined as the parts say they are; "
+                "parts of a cloud: found points that are not joined as the parts claim; "
                 "expected parts of one cloud that did not change meanwhile");
 }
 

@@ -122,8 +122,8 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const int highest = std::min(whole.max_dim, top - 1);
   if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of {}: {} need all layers at once, found {} wanted, expected "
-                            "dimension 0 alone{}",
+                fmt::format("parts of {}: {} need all layers at once, found {} asked for, "
+                            "expected dimension 0 alone{}",
                             top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
                             top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
                             whole.min_dim == highest
@@ -164,7 +164,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   if (state_->whole.loops && !cubical::GridFrame::can_hold(voxels))
     throw Error(ErrorKind::resource,
                 fmt::format("part of an image: found {} voxels, expected fewer than about 2^31 for "
-                            "loops; more parts have fewer",
+                            "loops; with more parts, each has fewer",
                             voxels.size()));
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
@@ -215,11 +215,12 @@ bool ImagePart::is_of(const Image& image, int part, int parts,
 
 void ImagePart::join(ImagePart next, const RunContext& context) {
   if (next.state_->whole != state_->whole)
-    throw Error(ErrorKind::bad_data,
-                "parts of images: found other extents, types or options, expected parts of one");
+    throw Error(
+        ErrorKind::bad_data,
+        "parts of images: found other extents, types or options, expected parts of one image");
   if (next.first() != last() + 1)
     throw Error(ErrorKind::bad_data,
-                fmt::format("parts of an image: found part {} behind part {}, expected part {}",
+                fmt::format("parts of an image: found part {} after part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
   // The T-construction counts from the other end.

@@ -151,7 +151,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   if (size >= UINT32_MAX)
     throw Error(ErrorKind::resource,
                 fmt::format("block of a cloud: found {} points in it and near it, expected fewer "
-                            "than 2^32 - 1; more blocks have fewer",
+                            "than 2^32 - 1; with more blocks, each has fewer",
                             size));
   result.edges = spanning_forest(
       PointsView(members.coordinates.data(), static_cast<Index>(size), points_.cols()),
