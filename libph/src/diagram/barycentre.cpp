@@ -33,10 +33,11 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
   const diagram::DiagramParts first(diagrams.front(), "barycentre");
   for (std::size_t i = 1; i < diagrams.size(); ++i)
     if (!diagram::have_as_many_infinite(first, {diagrams[i], "barycentre"}))
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("barycentre: found other numbers of infinite bars in diagram {} than "
-                              "in diagram 0, expected as many of each kind; leave them out",
-                              i));
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("barycentre: found different numbers of infinite bars in diagram {} and "
+                      "in diagram 0, expected as many of each kind; leave them out",
+                      i));
 }
 
 /// For numbers whose squares may be too large for doubles.

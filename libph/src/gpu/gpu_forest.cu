@@ -107,7 +107,7 @@ FlagEdges spanning_forest(const PointMetric& metric, double limit, const RunCont
   if (!metric.is_plain_euclidean())
     throw Error(ErrorKind::usage,
                 "device gpu: found coordinates whose squares leave the range of doubles, expected "
-                "the largest of a size from 1e-140 to 1e150; scale them, or use the CPU");
+                "the largest between 1e-140 and 1e150 in size; scale them, or use the CPU");
   const PointsView points = metric.points();
   require_device(static_cast<std::size_t>(points.rows()), static_cast<std::size_t>(points.cols()));
   try {

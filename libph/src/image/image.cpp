@@ -76,7 +76,7 @@ Image image_of_array(VoxelType type, const void* data, std::vector<Index> extent
                      std::span<const std::ptrdiff_t> strides, std::shared_ptr<const void> owner) {
   const std::size_t bytes = bytes_of(type), count = voxels_of(extents, bytes);
   if (!strides.empty() && strides.size() != extents.size())
-    throw Error(ErrorKind::usage, fmt::format("image: found {} strides, expected {}, one an axis",
+    throw Error(ErrorKind::usage, fmt::format("image: found {} strides, expected {}, one per axis",
                                               strides.size(), extents.size()));
   if (count == 0) return {std::move(extents), {}};
   const bool is_aligned = reinterpret_cast<std::uintptr_t>(data) % bytes == 0;

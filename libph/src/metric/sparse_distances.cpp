@@ -41,8 +41,7 @@ SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges) : 
       edges.begin(), edges.end(),
       [](const WeightedEdge& a, const WeightedEdge& b) { return a.u == b.u && a.v == b.v; });
   if (twice != edges.end()) {
-    throw Error(ErrorKind::bad_data,
-                fmt::format("edge ({}, {}) is there twice", twice->u, twice->v));
+    throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}) occurs twice", twice->u, twice->v));
   }
   edges_ = std::make_shared<const std::vector<WeightedEdge>>(std::move(edges));
 }

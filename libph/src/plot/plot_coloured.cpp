@@ -44,8 +44,9 @@ Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options
   const Raster& raster = picture.raster;
   raster.check();
   if (raster.samples.empty())
-    throw Error(ErrorKind::bad_data, fmt::format("{}: found {} x {} pixels, expected some",
-                                                 raster.name, raster.width, raster.height));
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: found {} x {} pixels, expected at least 1 x 1", raster.name,
+                            raster.width, raster.height));
   // Pixels of the raster become pixels of a PNG, unless there are too many.
   const double pixel = kWidth / static_cast<double>(std::max(kPixels, raster.width));
   const double width = pixel * static_cast<double>(raster.width);

@@ -94,7 +94,7 @@ void check(std::span<const Branch> tree) {
       seen_from[at] = i;
       if (tree[at].is_infinite()) break;
       if (seen_from[static_cast<std::size_t>(tree[at].elder)] == i)
-        refuse(i, "elder branches that go round in a circle", "an end");
+        refuse(i, "a cycle of elder branches", "a branch that never dies");
     }
   }
 }

@@ -183,7 +183,7 @@ void check_device(const RipsData& data, const RipsOptions& options) {
 void check_approximation(const RipsData& data, const RipsOptions& options) {
   if (!options.approximation) return;
   if (std::holds_alternative<SparseDistances>(data))
-    throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found some of them");
+    throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found only some");
   const auto* matrix = std::get_if<DistanceMatrix>(&data);
   if (!options.births.empty() || options.dtm_neighbours || (matrix && !matrix->births().empty()))
     throw Error(ErrorKind::usage, "sparse Rips filtrations have no births of vertices");
@@ -210,7 +210,7 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
   if (std::holds_alternative<SparseDistances>(data) &&
       (options.subsample || options.dtm_neighbours))
     throw Error(ErrorKind::usage,
-                "distances: found some of them, expected all for a subsample or "
+                "distances: found only some, expected all for a subsample or "
                 "a distance to a measure");
   if (options.subsample) detail::check(*options.subsample, size);
   if (options.dtm_neighbours && size > 0) detail::check_neighbours(*options.dtm_neighbours, size);

@@ -174,9 +174,7 @@ struct Rips::State {
     if (given)
       throw Error(ErrorKind::usage,
                   "Rips: found a filtration of a graph, expected one of points or distances");
-    if (!input)
-      throw Error(ErrorKind::usage,
-                  "Rips: the input was given back; what is asked for now needs it");
+    if (!input) throw Error(ErrorKind::usage, "Rips: the input was freed, and this call needs it");
     return input->data;
   }
   const VertexChoice& choice(const RunContext& call) const {

@@ -70,7 +70,7 @@ RipsGraph RipsGraph::of_points_alone(PointsView points, std::shared_ptr<const Po
 
 void RipsGraph::throw_no_edges() {
   throw Error(ErrorKind::usage,
-              "this Rips filtration holds the points alone; what was asked for needs edges");
+              "this Rips filtration holds only the points; this call needs edges");
 }
 
 RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,

@@ -193,10 +193,11 @@ void check(const Atol& fitted) {
     for (const double x : centre) is_right = is_right && std::abs(x) <= kLargest;
   for (const double width : fitted.widths) is_right = is_right && width > 0 && width < kInfinity;
   if (!is_right)
-    throw Error(ErrorKind::usage,
-                fmt::format("atol_vector: found {} centres and {} widths, expected as many, at "
-                            "least 1, finite; widths > 0",
-                            fitted.centres.size(), fitted.widths.size()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("atol_vector: found {} centres and {} widths, expected equal numbers, at "
+                    "least 1, finite; widths > 0",
+                    fitted.centres.size(), fitted.widths.size()));
 }
 
 }  // namespace

@@ -100,9 +100,10 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
 
 double PiecewiseLinear::operator()(double t) const {
   if (at.size() != value.size())
-    throw Error(ErrorKind::usage,
-                fmt::format("PiecewiseLinear: found {} places and {} values, expected as many",
-                            at.size(), value.size()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("PiecewiseLinear: found {} places and {} values, expected equal numbers",
+                    at.size(), value.size()));
   const auto behind = std::ranges::upper_bound(at, t);
   if (behind == at.begin()) return 0;
   const auto i = static_cast<std::size_t>(behind - at.begin());

@@ -355,10 +355,10 @@ TEST(RipsInputs, ForgottenTheyLeaveWhatWasMade) {
     EXPECT_TRUE(left->has_form(RipsForm::distinct_edges));
     EXPECT_FALSE(left->has_form(RipsForm::forest));
     for (const RipsForm form : {RipsForm::edges, RipsForm::forest, RipsForm::points})
-      expect_error(ErrorKind::usage, "the input was given back", [&] { left->graph(form); });
-    expect_error(ErrorKind::usage, "the input was given back", [&] { left->sample(); });
-    expect_error(ErrorKind::usage, "the input was given back", [&] { left->with({}); });
-    expect_error(ErrorKind::usage, "the input was given back", [&] { run(*left, components); });
+      expect_error(ErrorKind::usage, "the input was freed", [&] { left->graph(form); });
+    expect_error(ErrorKind::usage, "the input was freed", [&] { left->sample(); });
+    expect_error(ErrorKind::usage, "the input was freed", [&] { left->with({}); });
+    expect_error(ErrorKind::usage, "the input was freed", [&] { run(*left, components); });
   }
   // Points alone keep the points.
   Rips alone(some_points());

@@ -128,7 +128,7 @@ TEST_F(GpuForest, RefusesSquaresOutOfRange) {
   RipsOptions options;
   options.device = Device::gpu;
   for (const double x : {1e151, 1e-141})
-    expect_error(ErrorKind::usage, "from 1e-140 to 1e150", [&] {
+    expect_error(ErrorKind::usage, "between 1e-140 and 1e150", [&] {
       Rips(Points{{x}, {0.0}}, options).graph(RipsForm::forest);
     });
 }

@@ -145,8 +145,8 @@ TEST(SparseDistanceSets, RefuseWhatIsNoEdge) {
   refuse({INT64_MAX, 0, 0}, "below 3");
   refuse({0, 2, -1}, "found distance -1");
   refuse({0, 2, kNan}, "found distance nan");
-  refuse({1, 0, 5}, "(0, 1) is there twice");
-  refuse({0, 1, 1}, "(0, 1) is there twice");
+  refuse({1, 0, 5}, "(0, 1) occurs twice");
+  refuse({0, 1, 1}, "(0, 1) occurs twice");
 }
 
 std::vector<WeightedEdge> all_pairs_within(const PointMetric& metric, double radius) {

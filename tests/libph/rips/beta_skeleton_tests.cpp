@@ -165,8 +165,8 @@ TEST(BetaSkeleton, Refuses) {
   refused("points of 1 to 4 coordinates", Rips(Points(3, 5)));
   refused("vertices that all enter at 0", Rips(points, {.births = {0.0, 0.5, 1.0}}));
   refused("vertices that all enter at 0", Rips(points, {.dtm_neighbours = 2}));
-  refused("the whole filtration, no sparse one", Rips(points, {.approximation = 0.5}));
-  refused("coordinates that are 0 or from 1e-120", Rips(Points{{0, 1e-130}, {0, 0}}));
+  refused("the full filtration, not a sparse one", Rips(points, {.approximation = 0.5}));
+  refused("coordinates that are 0 or between 1e-120", Rips(Points{{0, 1e-130}, {0, 0}}));
   const Rips distances(DistanceMatrix(2, std::vector<double>{1}));
   refused("points", distances);
   expect_error(ErrorKind::usage, "of distances", [&] { distances.graph(RipsForm::points); });
@@ -174,7 +174,7 @@ TEST(BetaSkeleton, Refuses) {
   refused("H0 and H1", rips, {.max_dim = 2});
   refused("bars of positive length", rips, {.min_persistence = -1});
   refused("bars without representatives", rips, {.representatives = Representatives::cycles});
-  refused("what needs no edges to collapse", rips, {.collapse = Collapse::on});
+  refused("a task without an edge collapse", rips, {.collapse = Collapse::on});
   refused("points", Rips(RipsGraph::of_edges(3, {}, {}, default_context())));
   const RipsGraph& alone = rips.graph(RipsForm::points);
   with_rips_filtration(alone, 1, [&](const auto& f) {

@@ -183,7 +183,8 @@ TEST(Atol, RefusesWhatMakesNoSenseAndStops) {
   });
   for (const Atol& wrong : {Atol{}, Atol{{{0, 1}, {0, 2}}, {1}}, Atol{{{0, 1}, {0, 2}}, {1, 0}},
                             Atol{{{0, 1}, {0, std::nan("")}}, {1, 1}}})
-    expect_error(ErrorKind::usage, "expected as many", [&] { atol_vector(bars, wrong, out); });
+    expect_error(ErrorKind::usage, "expected equal numbers",
+                 [&] { atol_vector(bars, wrong, out); });
   expect_error(ErrorKind::usage, "expected 1", [&] { atol_vector(bars, {{{0, 1}}, {1}}, out); });
   RunContext context;
   std::stop_source source;

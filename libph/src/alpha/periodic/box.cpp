@@ -64,7 +64,7 @@ Folded fold_points(PointsView points, std::span<const double> weights,
     box.size = std::hypot(box.size, period[axis] > 0 ? period[axis] : extent.size());
   }
   if (!std::isfinite(box.size))
-    throw Error(ErrorKind::bad_data, "alpha complex: found a box beyond what doubles can hold");
+    throw Error(ErrorKind::bad_data, "alpha complex: found a box larger than doubles can hold");
   const double unit = unit_of(box.size);
   for (std::size_t axis = 0; axis < axes; ++axis) {
     if (period[axis] == 0) continue;

@@ -22,7 +22,7 @@ Range periods_within(double x, double period, double margin) {
   if (!(before < most && behind < most))
     throw Error(ErrorKind::resource,
                 "alpha complex: found points so far apart along open axes that more than 2^18 "
-                "images of each are wanted along a closed one");
+                "images of each are needed along a closed axis");
   return {-static_cast<std::int64_t>(before), static_cast<std::int64_t>(behind)};
 }
 

@@ -25,7 +25,7 @@ void check_sizes(PointsView points, std::span<const double> weights) {
   if (points.rows() > 0 && (points.cols() < 1 || points.cols() > 3))
     throw Error(ErrorKind::usage,
                 fmt::format("alpha complex: found points of R^{}, expected R^1 to R^3; a Rips "
-                            "complex takes any",
+                            "complex takes points of any dimension",
                             points.cols()));
   if (points.rows() >= Index{kNone})
     throw Error(ErrorKind::resource, fmt::format("alpha complex: found {} points, expected at most "
@@ -61,7 +61,7 @@ double scaled(double x, int exponent, Index point) {
   const double result = times_power_of_two(x, -exponent) + 0.0;  // turns -0 into 0
   if (times_power_of_two(result, exponent) != x)
     throw Error(ErrorKind::bad_data,
-                fmt::format("point {}: found {:g} beside numbers about 2^{} as large, expected "
+                fmt::format("point {}: found {:g} beside numbers about as large as 2^{}, expected "
                             "magnitudes that doubles can square",
                             point, x, exponent));
   return result;

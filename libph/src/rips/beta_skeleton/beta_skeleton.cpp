@@ -37,7 +37,7 @@ std::string_view BetaSkeletonEngine::obstacle(const Task& task) {
   if (task.max_dim > 1) return "H0 and H1";
   if (task.representatives != Representatives::none) return "bars without representatives";
   if (task.zero_length) return "bars of positive length";
-  if (task.collapses) return "what needs no edges to collapse";
+  if (task.collapses) return "a task without an edge collapse";
   return {};
 }
 
@@ -49,9 +49,9 @@ std::string_view BetaSkeletonEngine::obstacle(const RipsInput& input, const Task
   if (input.points->cols() < 1 || input.points->cols() > kMostPointCoordinates)
     return "points of 1 to 4 coordinates";
   if (!options.births.empty() || options.dtm_neighbours) return "vertices that all enter at 0";
-  if (options.approximation) return "the whole filtration, no sparse one";
+  if (options.approximation) return "the full filtration, not a sparse one";
   if (!has_plain_coordinates(*input.points))
-    return "coordinates that are 0 or from 1e-120 to 1e150";
+    return "coordinates that are 0 or between 1e-120 and 1e150 in size";
   return {};
 }
 

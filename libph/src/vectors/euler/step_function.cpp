@@ -16,7 +16,7 @@ namespace {
 void check(const StepFunction& function) {
   if (function.at.size() != function.value.size())
     throw Error(ErrorKind::usage, fmt::format("StepFunction: found {} places and {} values, "
-                                              "expected as many",
+                                              "expected equal numbers",
                                               function.at.size(), function.value.size()));
 }
 

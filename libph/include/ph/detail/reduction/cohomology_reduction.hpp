@@ -67,7 +67,8 @@ class CohomologyReduction {
     to_reduce_.clear();
     collect_columns();
     if (to_reduce_.size() >= PivotTable<F, K>::kNone)
-      throw Error(ErrorKind::resource, "cohomology: more columns of one dimension than 2^32 - 2");
+      throw Error(ErrorKind::resource,
+                  "cohomology: found more than 2^32 - 2 columns of one dimension");
     pivots_.emplace(f_, to_reduce_.size(), &context_.memory);
     if (gives_cocycles_)
       reduce_one_by_one();
