@@ -163,8 +163,8 @@ class Barcode {
     std::size_t begin = 0, end = 0;
   };
   struct Cells {
-    std::size_t birth = 0, death = 0, end = 0;  // where their numbers begin
-    std::size_t chain = kNone;                  // in chains_
+    std::size_t birth = 0, death = 0, end = 0;  // start of their numbers
+    std::size_t chain = kNone;                  // index into chains_
   };
   struct Chain {
     Range numbers, coefficients;

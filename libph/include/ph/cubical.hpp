@@ -120,11 +120,11 @@ class Cubical {
 
   int dim_ = 0;
   std::array<Axis, kMaxDim> axes_;  // in the order of the input, fastest axis last
-  std::size_t cells_ = 0;           // of the doubled grid
+  std::size_t cells_ = 0;           // number of cells of the doubled grid
   Voxels voxels_;
-  CubicalImage grid_;  // points into voxels_
+  CubicalImage grid_;  // points to voxels_
   const RunContext* context_;
-  std::shared_ptr<const MemoryClaim> claim_;  // of the voxels
+  std::shared_ptr<const MemoryClaim> claim_;  // counts the voxels
   std::shared_ptr<Lazy> lazy_;
 };
 

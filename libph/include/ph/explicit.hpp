@@ -147,7 +147,7 @@ class ExplicitComplex {
   std::pmr::vector<std::uint32_t> id_of_;           // the inverse, for all cells of the input
   // Positions of the vertices in the input, ascending.
   std::pmr::vector<std::uint32_t> vertices_;
-  std::pmr::vector<std::size_t> first_of_dim_;  // ranges of of_dim_
+  std::pmr::vector<std::size_t> first_of_dim_;  // ranges in of_dim_
   std::pmr::vector<std::uint32_t> of_dim_;      // ids sorted by dimension, then order
   Incidence facets_, cofacets_;
   SimplexList simplices_;  // for kind `vertices`: the simplices of the input, vertices ascending

@@ -92,7 +92,7 @@ class FlatMap {
 
   std::pmr::vector<Slot> slots_;  // a power of two, at most half full
   std::size_t size_ = 0;          // number of keys in the slots
-  Value last_{};                  // the value of kFree,
+  Value last_{};                  // value of kFree,
   bool has_last_ = false;         // true if it is present
 };
 

@@ -8,7 +8,7 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kGap = 7;  // between dimensions
+constexpr double kGap = 7;  // gap between dimensions
 
 /// The drawing of one dimension.
 struct Panel {

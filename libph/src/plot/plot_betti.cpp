@@ -10,8 +10,8 @@ namespace ph::plot {
 namespace {
 
 constexpr double kLeft = 38, kRight = 242;
-constexpr double kHeight = 52, kGap = 9;  // of one dimension's curve
-constexpr double kColumn = 0.25;          // steps inside a column cannot be told apart
+constexpr double kHeight = 52, kGap = 9;  // height of one curve, and the gap between curves
+constexpr double kColumn = 0.25;          // steps inside a column are indistinguishable
 
 /// The value of the curve from a position on.
 struct Step {

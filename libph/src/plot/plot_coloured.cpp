@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kColumns = 3;
 constexpr double kLeft = 6, kRight = kWidth - 6;
-constexpr double kGap = 12;   // between columns
-constexpr double kRow = 9.5;  // height
+constexpr double kGap = 12;   // gap between columns
+constexpr double kRow = 9.5;  // height of a row
 constexpr double kSquare = 6;
 
 /// Draws the legend column by column. @return the top of the free space below it.

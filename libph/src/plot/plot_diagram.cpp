@@ -230,7 +230,7 @@ void draw_markers(Canvas& canvas, const Places& places, double left) {
 }
 
 void draw_density(Canvas& canvas, const std::vector<Bar>& bars, const Frame& frame) {
-  constexpr std::size_t most = 15000;  // squares: the file stays below 1 MB
+  constexpr std::size_t most = 15000;  // number of squares: the file stays below 1 MB
   std::optional<Squares> squares;
   for (int side = 6; !squares || squares->size() > most; ++side) {
     squares.emplace(side);

@@ -8,7 +8,7 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kStrip = 7;     // height of a density
+constexpr double kStrip = 7;     // height of a density strip
 constexpr double kColumn = 0.5;  // width of a part with constant darkness
 
 }  // namespace

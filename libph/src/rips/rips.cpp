@@ -119,7 +119,7 @@ std::unique_ptr<const VertexChoice> choose(const RipsData& data, const RipsOptio
   const auto choose_from = [&](const auto& set, const auto&... how) {
     if (options.dtm_neighbours) {
       choice->births = distance_to_measure(set, *options.dtm_neighbours, how..., context);
-      for (double& birth : choice->births) birth *= 2;  // diameters
+      for (double& birth : choice->births) birth *= 2;  // births are diameters
     }
     if (options.subsample) {
       const GreedyPermutation sample = greedy_permutation(set, *options.subsample, how..., context);

@@ -90,7 +90,7 @@ struct BarcodeInfo {
   std::optional<double> min_persistence;  ///< bars of this length or less were left out
   int min_dim = 0;                        ///< bars of lower dimensions were left out
   std::string engine;
-  std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
+  std::vector<std::pair<std::string, double>> timings;  ///< stages with seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0 if unknown
 };
 

@@ -38,7 +38,7 @@ struct ImagePartForecast {
     double low = 0, high = 0;
   };
   Bytes memory;  ///< of the part that takes most; includes voxels of a mapped file
-  Bytes file;    ///< of the largest part, as ImagePart::bytes
+  Bytes file;    ///< for the largest part, as ImagePart::bytes
   Bytes join;    ///< memory to join all parts
   Bytes sent;    ///< by all ranks together, if each has one part; with ImageLoops
 };

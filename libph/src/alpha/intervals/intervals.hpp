@@ -86,7 +86,7 @@ struct AlphaCells {
   }
 
   Sites sites;
-  bool is_periodic = false;                ///< the triangulation is a Delta-complex
+  bool is_periodic = false;                ///< true if the triangulation is a Delta-complex
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;           ///< by cell of the triangulation

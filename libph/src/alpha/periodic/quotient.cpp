@@ -121,7 +121,7 @@ class Quotient {
     if (dim == closed)
       return std::all_of(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count),
                          [&](const auto& p) { return p == seen[0]; });
-    return are_collinear(seen);  // dim 2, one closed axis
+    return are_collinear(seen);  // in dimension 2 with one closed axis
   }
 
   bool glue_facets() {

@@ -148,7 +148,7 @@ class ParallelReduction {
     std::optional<Term> pivot{};
     enum class Step : std::uint8_t { find_owner, read_owner, use_owner } next{};
     const Column** owner = nullptr;  // the entry for the column that has the pivot
-    const Column* older = nullptr;   // that column
+    const Column* older = nullptr;   // the column that has it
   };
 
   // The private data of a thread. Columns do not move, because other threads read them.

@@ -129,7 +129,7 @@ void TopNodes<Grid, most>::for_each_corner(std::uint32_t node, Use&& use) const 
         is_there = is_there && x >= 1 && x <= n;
         --x;
       } else if (x == n) {
-        x = 0;  // the axis is periodic
+        x = 0;  // because the axis is periodic
       }
       v = v * n + x;
     }

@@ -31,7 +31,7 @@ class LoopMessage {
     std::uint64_t number;  ///< among the messages from one part to the other
   };
   struct Layer {
-    std::uint64_t layer;  ///< of the stars' grid
+    std::uint64_t layer;  ///< layer in the stars' grid
     std::vector<std::uint32_t> stars;
   };
   struct Column {

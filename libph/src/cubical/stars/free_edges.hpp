@@ -63,7 +63,7 @@ class FreeEdges {
   static constexpr std::uint32_t kWord = 64;
   struct AtVoxel {
     std::uint32_t first;  // number of its first edge
-    std::uint8_t edges;   // as bits
+    std::uint8_t edges;   // edges as bits
   };
   std::size_t place(std::uint32_t voxel) const {
     const std::uint64_t before = (std::uint64_t{1} << (voxel % kWord)) - 1;

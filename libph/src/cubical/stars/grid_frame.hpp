@@ -47,7 +47,7 @@ class GridFrame {
   explicit GridFrame(const CubicalImage& grid);
 
   const GridShape& shape() const { return shape_; }
-  int top_dim() const { return shape_.top_dim(); }  ///< of the stars' grid
+  int top_dim() const { return shape_.top_dim(); }  ///< top dimension of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
   std::uint32_t size() const { return size_; }  ///< number of voxels
   int axis_count() const { return shape_.axis_count(); }

@@ -32,7 +32,7 @@ class GridShape {
   /// Precondition: count_axes(image) <= kMostAxes. Voxels are not read.
   explicit GridShape(const CubicalImage& image);
 
-  int top_dim() const { return top_dim_; }  ///< of the stars' grid
+  int top_dim() const { return top_dim_; }  ///< top dimension of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
   /// The number of axes, counted as at least three.
   int axis_count() const { return std::max(top_dim_, 3); }

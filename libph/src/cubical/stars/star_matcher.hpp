@@ -57,7 +57,7 @@ class StarMatcher {
     std::uint32_t to;          // offset to the next voxel, modulo 2^32
     std::uint32_t steps_back;  // the opposite step along the axis, as a bit
     std::uint16_t code;
-    std::uint8_t direction;  // 2 * axis + 1: up
+    std::uint8_t direction;  // 2 * axis, plus 1 for upwards
     bool is_outside;         // there is no voxel beyond it
   };
   using Place = std::uint16_t;  // index among the cells of the star
@@ -65,7 +65,7 @@ class StarMatcher {
   struct StarCell {
     std::uint32_t cell;
     std::uint32_t voxel;  // the farthest voxel that it touches; CellGrid::kNone if outside
-    std::uint32_t steps;  // as bits
+    std::uint32_t steps;  // steps as bits
     std::uint16_t code;
     Place partner = kNone;
     // Used while paths are counted:

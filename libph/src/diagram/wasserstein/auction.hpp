@@ -32,7 +32,7 @@ class Auction {
   Assignment& assignment_;
   Ticker ticker_;
   double increment_ = 0, most_increment_ = 0;
-  std::uint64_t bids_ = 0, most_bids_ = 0, next_step_ = 0;  // of this round
+  std::uint64_t bids_ = 0, most_bids_ = 0, next_step_ = 0;  // bids in this round
 };
 
 }  // namespace ph::diagram

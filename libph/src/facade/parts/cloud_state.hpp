@@ -26,7 +26,7 @@ struct CloudPart::State {
 
   WholeCloud whole;
   const RunContext& context;
-  std::vector<int> present;  // ascending
+  std::vector<int> present;  // ascending numbers
   Index size = 0;            // number of points of the parts that are present
   NumberedForest forest;
 };

@@ -135,7 +135,7 @@ StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeForma
       case BarcodeFormat::npy:
         return read_npy(input);
       case BarcodeFormat::pers:
-        return read_barcode_rows(input, true);  // an empty barcode is an empty file
+        return read_barcode_rows(input, true);  // an empty barcode is stored as an empty file
       case BarcodeFormat::csv:
       case BarcodeFormat::none:
         break;

@@ -67,7 +67,7 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
   } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C
     static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
-  } catch (...) {  // its bad bit is set
+  } catch (...) {  // its bad bit tells
   }
   if (!*out) png_error(png, "cannot write");
 }

@@ -20,7 +20,7 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   const double rounding = kRounding * largest;
   bool positive = true, in_one = true;
-  double most_apart = 0;   // the two entries of a pair
+  double most_apart = 0;   // largest difference between the entries of a pair
   std::size_t uneven = 0;  // number of such places, two per pair
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {

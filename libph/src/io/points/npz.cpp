@@ -19,7 +19,7 @@ constexpr std::string_view kEnd{"PK\x05\x06", 4};
 constexpr std::size_t kEndSize = 22, kMostComment = 65535;
 constexpr std::size_t kLocalSize = 30;
 constexpr std::uint32_t kIn64 = 0xFFFFFFFF;  // the number is in the zip64 record
-constexpr std::uint16_t kZip64 = 1;          // id of that record
+constexpr std::uint16_t kZip64 = 1;          // id of the zip64 record
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 
 struct Member {

@@ -226,7 +226,7 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;
-  const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes it
+  const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes a header
   if (is_full && layout.header[0].empty()) {
     const bool is_one = layout.unnamed() == 1;
     layout.notes.push_back(
@@ -320,7 +320,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {
     std::vector<std::string> names = layout.header;
-    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes it
+    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes a header
     if (names.size() != layout.width) names.clear();
     layout.columns = chosen_columns(options.columns, names, layout.width, input);
     if (!has_header && has_next && may_be_names(lines, next, layout))

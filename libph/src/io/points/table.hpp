@@ -18,8 +18,8 @@ struct TableLayout {
   std::vector<std::size_t> columns = {};  ///< the columns that hold numbers to be read, ascending
   bool names_rows = false;                ///< columns before them are an index of the rows
   std::vector<Message> notes = {};        ///< assumptions that were made
-  char separator = ' ';                   ///< of the first row: ',', ';', a tab, or blanks
-  bool keeps_tabs = false;                ///< each tab separates two cells
+  char separator = ' ';     ///< separator of the first row: ',', ';', a tab, or blanks
+  bool keeps_tabs = false;  ///< each tab separates two cells
 
   /// Number of leading columns that have no name although there is a header.
   std::size_t unnamed() const;

@@ -100,7 +100,7 @@ class CochainLists {
 
   std::pmr::vector<ListAt> lists_;
   std::size_t term_count_ = 0;
-  bool is_sorted_ = true;  // all lists
+  bool is_sorted_ = true;  // concerns all lists
 };
 
 template <Field K, class Others>

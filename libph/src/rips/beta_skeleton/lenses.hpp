@@ -15,7 +15,7 @@ namespace ph::beta_skeleton {
 /// (value, larger vertex, smaller vertex).
 struct Edge {
   double value = 0;
-  std::uint32_t larger = 0, smaller = 0;  ///< vertices
+  std::uint32_t larger = 0, smaller = 0;  ///< its vertices
   Position u = kNone, v = kNone;
 
   /// Squares below `certainly_before` have a smaller root, squares above `certainly_after` a larger

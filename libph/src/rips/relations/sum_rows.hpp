@@ -34,7 +34,7 @@ class SumRows {
         matrix_(generators, memory) {}
 
   std::size_t count() const { return rows_.size() / words_; }
-  std::size_t words() const { return words_; }  ///< of a row
+  std::size_t words() const { return words_; }  ///< words per row
   const Word* operator[](Sum a) const { return rows_.data() + a * words_; }
   /// Adds the next generator as a sum.
   Sum append_generator();

@@ -31,7 +31,7 @@ class ActiveEdges {
   bool has_rows() const { return rows_.rows() != 0; }
   /// The same as bits. Precondition: has_rows().
   const bits::Word* row(Vertex v) const { return rows_.row(v); }
-  std::size_t words() const { return rows_.words(); }  ///< of a row
+  std::size_t words() const { return rows_.words(); }  ///< words per row
   /// The label of the edge at u, or null if the edge is absent. The pointer is valid until the next
   /// change.
   Label* find(Vertex u, Vertex v);

@@ -80,7 +80,7 @@ class LinkGraph {
   /// edges touch it or `wants_graph` is set.
   Link find_link(const FlagEdge& e, bool wants_graph);
 
-  std::size_t words() const { return words_; }  ///< of a row
+  std::size_t words() const { return words_; }  ///< words per row
   const Word* link() const { return link_.data(); }
   /// The neighbours of a vertex of the link, possibly including vertices outside it.
   const Word* row(Vertex v) {

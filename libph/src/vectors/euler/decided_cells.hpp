@@ -41,9 +41,9 @@ class DecidedCells {
       Direction& direction = directions_[number];
       std::size_t steps = 0, power = 1;
       for (std::size_t rest = number; rest > 0; rest /= 3, power *= 3) {
-        const std::size_t digit = rest % 3;  // 0: stays, 1: down, 2: up
+        const std::size_t digit = rest % 3;  // 0: no step, 1: down, 2: up
         if (digit == 0) continue;
-        direction.is_down = digit == 1;  // along the first axis along which it leads
+        direction.is_down = digit == 1;  // the first axis along which it leads decides
         direction.facets.push_back(number - digit * power);
         ++steps;
       }

@@ -108,7 +108,7 @@ class SimplexFiltration {
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     if (dim >= TopDim) return;
     const Index n = derived().vertex_count();
-    int place = 0;  // of the new vertex
+    int place = 0;  // place of the new vertex
     for (Index v = 0; v < n; ++v) {
       if (place <= dim && at(cell, place) == v) {
         ++place;

@@ -83,7 +83,7 @@ struct EngineFacts {
   Engine id;
   bool goes_by_edges = false;  ///< it looks at vertices and edges only
   bool is_oracle = false;      ///< the other engines are checked against it
-  bool stops_early = false;    ///< it may stop before it has seen the whole complex
+  bool stops_early = false;    ///< it may stop before it has seen the entire complex
   /// The highest dimension of the cells that it lists for homology up to max_dim, or -1 if it lists
   /// none.
   int (*listed_dim)(int max_dim) = nullptr;

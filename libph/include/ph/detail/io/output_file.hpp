@@ -67,7 +67,7 @@ class OutputFile {
   void discard() noexcept;
   [[noreturn]] void fail_writing(int error) const;
 
-  std::string path_;  // as the user gave it
+  std::string path_;  // the name as the user gave it
   // Paths, not texts, because removing a file must not need memory.
   std::filesystem::path target_;     // the regular file to create; empty if written directly
   std::filesystem::path temporary_;  // its name until `commit`; empty if it has none

@@ -80,8 +80,8 @@ class Input {
   std::string_view text() const { return text_; }
   std::span<const std::byte> bytes() const { return std::as_bytes(std::span(text_)); }
   std::size_t size() const { return text_.size(); }
-  const std::string& name() const { return name_; }            ///< printable
-  const std::string& extension() const { return extension_; }  ///< lower case, with its dot
+  const std::string& name() const { return name_; }            ///< the printable name
+  const std::string& extension() const { return extension_; }  ///< in lower case, with its dot
   /// The part of an archive or of a mesh that was asked for; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
@@ -129,7 +129,7 @@ class Input {
 /// such as #N/A.
 class TextLines {
  public:
-  static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
+  static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line in bytes
 
   /// @throws Error (bad_data) if the input is UTF-16, or binary (NUL bytes in its first 4 KiB).
   explicit TextLines(const Input& input);
@@ -145,7 +145,7 @@ class TextLines {
   bool next();
   /// The current line, without its comment, line end and surrounding blanks.
   std::string_view line() const { return line_; }
-  std::size_t number() const { return number_; }  ///< of the current line, from 1
+  std::size_t number() const { return number_; }  ///< number of the current line, from 1
   /// First byte after the current line.
   std::size_t offset() const { return static_cast<std::size_t>(position_ - input_.text().data()); }
   const Input& input() const { return input_; }
@@ -177,7 +177,7 @@ enum class Allow {
   finite,
   infinite,
   any,      ///< also an empty cell, before a separator or between quotes: NaN
-  missing,  ///< also nothing, before a separator or between quotes: NaN
+  missing,  ///< also an empty cell, before a separator or between quotes: NaN
 };
 
 /// Advice for the user about a cell that is not a number, if the cell does not explain itself.
@@ -239,7 +239,7 @@ class Cells {
   const char* position_ = nullptr;
   const char* end_ = nullptr;
   char tab_;            // a second blank character beside ' '
-  char skipped_to_;     // separator of cells that are skipped
+  char skipped_to_;     // separator of skipped cells
   char separator_ = 0;  // 0 if not seen yet
 };
 

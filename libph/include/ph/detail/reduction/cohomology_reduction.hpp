@@ -292,7 +292,7 @@ bool CohomologyReduction<F, K>::cancel_pivot(std::uint32_t number, const Term& p
   const auto owner = pivots_->owner_of(pivot.cell);
   if (owner.number < number)
     return cancel(to_reduce_[owner.number], owner.column->chain, owner.column->coefficient);
-  if (owner.column) return false;  // a column that has to give way
+  if (owner.column) return false;  // a column that must give way
   const std::optional<Cell> partner = apparent_.birth_cell_of(dim_ + 1, pivot.cell);
   if (!partner) return false;
   auto a = field_.from_int(1);

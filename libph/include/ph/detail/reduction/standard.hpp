@@ -97,7 +97,7 @@ struct StandardEngine {
       rows = std::move(columns);
       is_positive = std::move(next_is_positive);
     }
-    if (top <= bars.max_dim())  // nothing kills classes of the top dimension
+    if (top <= bars.max_dim())  // no cell kills a class of the top dimension
       for (std::size_t i = 0; i < rows.size(); ++i)
         if (is_positive[i]) bars.add_essential(top, rows[i]);
   }

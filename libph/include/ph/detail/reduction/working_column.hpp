@@ -13,8 +13,8 @@ namespace ph {
 /// backwards in the order of the filtration (de Silva, Morozov, Vejdemo-Johansson, Dualities in
 /// persistent (co)homology), and find the same pairs.
 enum class Pivot {
-  youngest,  ///< homology: of a boundary
-  oldest,    ///< cohomology: of a coboundary
+  youngest,  ///< for homology: the pivot of a boundary
+  oldest,    ///< for cohomology: the pivot of a coboundary
 };
 
 /// A column under reduction: a heap of terms with the pivot first; equal cells are added up when

@@ -305,7 +305,7 @@ decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& u
   };
   using Dense = RipsFiltration<RipsLayout::dense, 1>;
   using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
-  if (graph.points_alone()) return use(Sparse(graph));  // no cell is ever made
+  if (graph.points_alone()) return use(Sparse(graph));  // cells are never made
   if (fits(std::type_identity<Sparse>()))
     return graph.is_dense() ? use(Dense(graph)) : use(Sparse(graph));
   using Wide = RipsFiltration<RipsLayout::any, 4>;
