@@ -25,7 +25,7 @@ struct CubicalOptions {
   bool superlevel = false;
   /// True for each axis (of the input) that closes up on itself; empty if none does.
   std::vector<bool> periodic = {};
-  /// Largest value that enters, inclusive (of -f with `superlevel`).
+  /// Largest value that enters, inclusive; with `superlevel`, a value of -f.
   std::optional<double> threshold = std::nullopt;
 };
 

@@ -23,7 +23,7 @@ struct GreedyLimits {
 /// it; among equals, the one with the smallest number.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
-  /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. Never
+  /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. It never
   /// increases.
   std::vector<double> radii;
   /// Each point of the entire set is at most this far from one of `points`.

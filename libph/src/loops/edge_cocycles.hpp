@@ -84,7 +84,7 @@ class EdgeCocycles {
     for (const Placed& p : placed) terms_[next[p.key]++] = p.term;
   }
 
-  /// By number of a cocycle.
+  /// The lifetimes, by number of a cocycle.
   std::span<const Lifetime> lifetimes() const { return lifetimes_; }
   std::span<const Term> on(EarlyGraph::Key key) const {
     if (offsets_.empty()) return {};

@@ -281,7 +281,7 @@ struct FormatInfo {
   /// Null if the format is not built in.
   ReadResult (*read)(const Input&, const ReadOptions&);
 
-  /// "one point a line: numbers separated by blanks or commas"
+  /// "one point per line: numbers separated by blanks or commas"
   Message description() const { return marked; }
 };
 

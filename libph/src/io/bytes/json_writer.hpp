@@ -27,7 +27,7 @@ using Members = std::initializer_list<std::pair<std::string_view, std::string>>;
 /// Appends to the members of an object, given without the braces around them.
 /// @param between separates members: ", " for one line.
 void add_members(std::string& text, Members members, std::string_view between = ", ");
-/// On one line.
+/// An object on one line.
 std::string object(Members members);
 /// An entire file: an object with one member per line.
 std::string document(Members members);

@@ -12,8 +12,8 @@ enum class CollapseLayout {
   lists,      ///< lists of neighbours
 };
 
-/// Fewer edges, some of them later, with the same persistent homology in every dimension: the flag
-/// complexes of the two graphs have the same bars of positive length, over any field.
+/// Returns fewer edges, some of them later, with the same persistent homology in every dimension:
+/// the flag complexes of the two graphs have the same bars of positive length, over any field.
 ///
 /// An edge is dominated at a value if its link, the common neighbours of its ends, has a vertex
 /// joined to all others. Such an edge can be removed from the flag complex without changing

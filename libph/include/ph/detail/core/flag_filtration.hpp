@@ -37,7 +37,7 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
   /// All edges in the order of the filtration, sorted as far as anyone has asked.
   { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
-  /// By position in their order.
+  /// The edge at a position in the order.
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
   /// The reverse: from the vertices of an edge to its position.
   { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;

@@ -168,8 +168,8 @@ class TextLines {
 };
 
 /// The names in a header line: a line without numbers that does not consist of missing values only.
-/// Cells are split at commas, semicolons or tabs if there are any, else at blanks; quotes are taken
-/// off. Nothing if the line is not a header.
+/// Cells are split at commas, semicolons or tabs if there are any, otherwise at blanks; quotes are
+/// removed. Nothing if the line is not a header.
 std::vector<std::string> header_names(std::string_view line);
 
 /// The kinds of numbers that a cell may hold besides finite ones.
@@ -279,7 +279,8 @@ class BinaryCursor {
   }
   /// Reads a count from a header and checks it against the remaining bytes before anything is
   /// allocated.
-  /// @throws Error (bad_data) if it is negative or `bytes_each` times it exceeds what remains.
+  /// @throws Error (bad_data) if it is negative or `bytes_each` times it exceeds the remaining
+  /// bytes.
   std::size_t read_count(const char* what, std::size_t bytes_each);
   /// The next `size` bytes. @throws Error (bad_data) "truncated".
   std::span<const std::byte> take(std::size_t size, const char* what);

@@ -29,12 +29,12 @@ class BinnedEdges {
               const RunContext& context);
 
   std::size_t size() const { return edges_.size(); }
-  /// By position in the order.
+  /// The edge at a position in the order.
   const FlagEdge& operator[](std::size_t position) const {
     if (position >= lazy_->sorted_edges.load(std::memory_order_acquire)) sort_until(position + 1);
     return edges_[position];
   }
-  /// All of them, in order.
+  /// All edges, in order.
   std::span<const FlagEdge> sorted() const { return sorted_bins(bin_count()); }
 
   std::size_t bin_count() const { return ends_.size(); }
