@@ -70,11 +70,11 @@ class ExplicitComplex {
                                        const RunContext& context = default_context());
 
   /// The largest value that bars and merge trees take into account, inclusive: `persistence`, `run`
-  /// and `merge_tree` answer for the subcomplex of all cells up to it. All cells stay listed, so the
-  /// choice of an engine and the cells of the bars are the same whatever the threshold.
+  /// and `merge_tree` answer for the subcomplex of all cells up to it. All cells stay listed;
+  /// therefore the choice of an engine and the cells of the bars do not depend on the threshold.
   /// @throws Error (usage) on a NaN.
   void set_threshold(double largest);
-  /// Empty: all cells count.
+  /// Empty if all cells count.
   std::optional<double> threshold() const { return threshold_; }
 
   /// True if incidence numbers are known; without them only Z/2 makes sense.
