@@ -10,12 +10,12 @@
 namespace ph::segment {
 namespace {
 
-/// The camera as it was named, for a message.
+/// The name of the camera as the user gave it, for a message.
 std::string camera_mark(std::string_view calibration) {
   return mark(Setting::camera, printable(calibration));
 }
 
-/// The camera for images of this size; says so if its calibration is of another one.
+/// The camera for images of this size; adds a note if its calibration has another size.
 Camera scaled(const Camera& camera, std::string_view calibration, Index width, Index height,
               const Note& note) {
   Camera result;
@@ -42,8 +42,8 @@ std::optional<Camera> camera_named(std::string_view name, const Note& note) {
   const auto preset = std::ranges::find(presets, name, &CameraPreset::name);
   if (preset == presets.end()) return std::nullopt;
   note(
-      fmt::format("{}: nominal values for {}; each camera differs by some per cent, "
-                  "other images by more; its calibration is better",
+      fmt::format("{}: nominal values for {}; single cameras differ by some per cent, "
+                  "other image sizes by more; a calibration is better",
                   camera_mark(preset->name), preset->images));
   return preset->camera;
 }
@@ -52,8 +52,8 @@ Camera calibrated_camera(const std::string& path, const Note& note, const RunCon
   Camera camera = read_camera(path, &context);
   if (camera.lens.model != Lens::Model::none) {
     note(
-        fmt::format("{}: the depth image is taken for a raw one, and the bending of its lens is "
-                    "undone",
+        fmt::format("{}: the depth image is assumed to be raw, and the distortion of the lens is "
+                    "corrected",
                     camera_mark(path)));
   }
   return camera;
@@ -64,19 +64,20 @@ Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colou
                      std::optional<double> scale, const Note& note) {
   const Index rows = image.depth.extents[0], columns = image.depth.extents[1];
   const Camera fitting = scaled(camera, calibration, columns, rows, note);
-  // Images of floats are in metres whatever the camera gives.
+  // Images of floats are in metres, whatever unit the camera has.
   if (!scale && camera.depth_scale > 0 && image.scale != 1) {
     scale = camera.depth_scale;
-    note(fmt::format("{}: its depth_scale is taken: {:.6g} units a metre", camera_mark(calibration),
-                     *scale));
+    note(fmt::format("{}: its depth_scale is used: {:.6g} units per metre",
+                     camera_mark(calibration), *scale));
   }
   DepthCounts counts;
   Cloud cloud =
       cloud_from_depth(image.depth, colour, fitting, scale.value_or(image.scale), &counts);
   if (counts.negative > 0)
-    note(fmt::format("{} pixels of a depth below 0: taken as holes", counts.negative));
+    note(fmt::format("{} pixels have a depth below 0 and count as holes", counts.negative));
   if (counts.unseen > 0) {
-    note(fmt::format("{} pixels are where the camera's lens shows no ray: holes", counts.unseen));
+    note(fmt::format("{} pixels have no ray through the camera's lens and count as holes",
+                     counts.unseen));
   }
   return cloud;
 }

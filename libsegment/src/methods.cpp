@@ -27,17 +27,17 @@ void StageClock::finish(std::string_view name, Index points) {
 
 namespace {
 
-/// Lengths in voxels. A neighbourhood is far enough to see how the surface bends, near enough not
-/// to see over a thin object.
+/// Lengths in voxels. A neighbourhood is large enough to show how the surface bends, and small
+/// enough not to reach across a thin object.
 constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
-constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
+constexpr double kAdjacent = 1.79;  // corners touch: sqrt(3) and a little
 
-/// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
-/// voxels on average than a plane that is sampled as coarsely as the grid has. That alone may be a
-/// thin thing, a pen or a cable: voxels of half the edge tell whether there are more points than
-/// voxels, and do so whatever points are there twice. Of a line they are twice as many, of a plane
-/// four times, of single points as many, of random points with too few adjacent voxels up to 1.45
-/// times.
+/// True if voxels are so small that the points of a surface do not touch: voxels have fewer
+/// adjacent voxels on average than a plane that is sampled as coarsely as the grid. This alone
+/// might be a thin object, a pen or a cable. Therefore voxels of half the edge tell whether there
+/// are more points than voxels; duplicate points do not change this. Halving the edge doubles the
+/// voxels of a line, quadruples those of a plane, and keeps the number for single points; random
+/// points with too few adjacent voxels reach at most 1.45 times as many.
 bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
   constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(
@@ -47,7 +47,7 @@ bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, doub
   return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
 }
 
-/// The concavity at each voxel, and what it needs.
+/// The concavity at each voxel, and the data that it needs.
 struct Relief {
   Points normals;
   std::vector<double> concavity;
@@ -66,8 +66,8 @@ double range_of(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
   return std::hypot(row[0] - viewpoint[0], row[1] - viewpoint[1], row[2] - viewpoint[2]);
 }
 
-/// Adds to the concavity where the surface is seen so slantwise that it may not be one: sheets of
-/// points between an object and what is behind it.
+/// Adds to the concavity where the surface is seen at such a slant that it may not be a surface:
+/// sheets of points between an object and its background.
 void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief) {
   constexpr double largest_cosine = 0.3, weight = 0.3;
   for (std::size_t v = 0; v < relief.concavity.size(); ++v) {
@@ -80,10 +80,10 @@ void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief)
   }
 }
 
-/// What the same steps find where the supporting plane is free.
+/// The result of the same steps where the supporting plane is free.
 ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& context) {
   constexpr double side = 12;      // voxels
-  constexpr int fewest_near = 16;  // voxels: the surface is whole there
+  constexpr int fewest_near = 16;  // radius in voxels within which the surface must be whole
   if (!scene.plane) return {};
   const std::vector<Index> points =
       free_patches(scene.cloud, scene.points.on, scene.points.beyond, *scene.plane, side * voxel);
@@ -115,7 +115,7 @@ double adjacent_radius(double voxel) { return kAdjacent * voxel; }
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock) {
   constexpr double coarser = 1.5;
-  constexpr int most_times = 4;  // to five times the edge
+  constexpr int most_times = 4;  // tries up to five times the edge
   double voxel = options.voxel_size();
   std::vector<Index> points;
   VoxelGrid grid;

@@ -14,7 +14,7 @@
 namespace ph::segment {
 
 /// Writes the stage table and, between stages, reports progress and obeys a stop request. A stage
-/// that comes again is the same one: its times add up, and what it left behind last counts.
+/// that comes again keeps its row: its times add up, and its last count stays.
 class StageClock {
  public:
   StageClock(const RunContext& context, std::vector<Stage>& stages)
@@ -27,34 +27,35 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What stands before the supporting plane, or everything in range (as beyond) if there is none.
+/// The points above the supporting plane, or (as `beyond`) everything in range if there is no
+/// plane.
 struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
   PlaneMargin margin;
   std::vector<Index> in_range;  ///< all points in range, if there is a plane
   Cleared points;
-  std::optional<LowerSupport> lower;  ///< below the plane, if there is one
-  std::vector<Index> lower_strip;     ///< of it, as of the plane
+  std::optional<LowerSupport> lower;  ///< points below the plane, if there is one
+  std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
 };
 
-/// What a method makes of a scene; `grid` and `points` belong together.
+/// The graph that a method makes of a scene; `grid` and `points` belong together.
 struct VoxelFiltration {
   double voxel;  ///< edge of a voxel of the grid, metres
   VoxelGrid grid;
   std::vector<Index> points;
   FilteredGraph graph;         ///< on the voxels
-  Surface surface;             ///< empty if the method does not look at it
+  Surface surface;             ///< empty if the method does not need it
   std::vector<NoiseAt> noise;  ///< method surface: see Segmentation
 };
 
-/// Method surface: the pairs of voxels in each other's neighbourhood, see Surface.
+/// Method surface: the pairs of voxels within each other's neighbourhood, see Surface.
 VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
-/// Method surface: an edge of the graph joins voxels that are nearer than this, metres.
+/// Method surface: an edge of the graph joins voxels closer than this, metres.
 double adjacent_radius(double voxel);
 
-/// Voxels enter with the concavity of the surface around them (supervoxels: with their distance to
-/// the seeds), edges between adjacent ones with the later of their ends.
+/// Each voxel enters at the concavity of the surface around it (supervoxels: at its distance to the
+/// seeds), and an edge between adjacent voxels enters with its later end.
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock);
 /// The 1-skeleton of the Vietoris-Rips complex of the voxels.

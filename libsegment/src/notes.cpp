@@ -13,7 +13,7 @@
 namespace ph::segment {
 namespace {
 
-/// How far the nearest and the farthest point are, metres; nothing without points.
+/// The distances of the nearest and the farthest point, metres; empty without points.
 std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& viewpoint) {
   double nearest = kInfinity, farthest = 0;
   const std::vector<float> xyz = cloud.xyz();
@@ -28,10 +28,10 @@ std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& v
   return std::array{nearest, farthest};
 }
 
-/// Where nothing is found: are the lengths metres?
+/// For results without segments: a hint that the lengths may not be metres.
 std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
                         const Segmentation& s) {
-  constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
+  constexpr double room = 50, crumb = 0.02;  // metres: no table top is so far away, or so small
   const auto found = distances(cloud, s.viewpoint);
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
@@ -40,27 +40,27 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
       is_depth ? "see " + mark(Setting::depth_scale) : std::string("lengths are in metres");
   if (s.stages.front().points == 0) {
     const std::string range = mark(Setting::max_range);
-    return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
-                       o.max_range, o.crop ? " and inside the crop box" : "", nearest,
-                       nearest > room ? fmt::format("{}: are these millimetres?", unit)
-                       : is_depth
-                           ? fmt::format("see {}, or {} if that is too far: how many units a metre "
-                                         "has",
-                                         range, mark(Setting::depth_scale))
-                           : "see " + range);
+    return fmt::format(
+        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}", o.max_range,
+        o.crop ? " and inside the crop box" : "", nearest,
+        nearest > room ? fmt::format("{}: are these millimetres?", unit)
+        : is_depth     ? fmt::format("see {}, or {} if that is too far: the number of units per "
+                                         "metre",
+                                     range, mark(Setting::depth_scale))
+                       : "see " + range);
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
 }
 
-/// Where coordinates are so large that the distances between them are lost.
+/// Warns of coordinates so large that the distances between points are lost.
 std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const Segmentation& s) {
-  constexpr double much = 0.01;  // of a voxel
+  constexpr double much = 0.01;  // relative to the edge of a voxel
   float largest = 0;
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
   };
-  // Where something was found its boxes tell, without another look at all points.
+  // If segments were found, their boxes tell without another pass over all points.
   for (const Segment& segment : s.segments)
     for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
   if (s.segments.empty()) std::ranges::for_each(cloud.xyz(), take);
@@ -72,7 +72,8 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
       largest, step);
 }
 
-/// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.
+/// A pinhole camera has a field of view between a few degrees and a half circle, and its axis meets
+/// the image.
 std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
   const Intrinsics camera = depth.camera.scaled_to(cloud.width, cloud.height).intrinsics;
   constexpr double least = 5, most = 160;  // degrees
@@ -91,7 +92,7 @@ std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
                      mark(depth.setting), camera.cx, camera.cy, cloud.width, cloud.height);
 }
 
-/// A plane that no sensor at the viewpoint could see like this.
+/// Warns of a plane that no sensor at the viewpoint could see like this.
 std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   if (!s.plane) return {};
   constexpr double too_low = 0.03;  // metres
@@ -102,7 +103,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
         "another frame? see {}",
         viewpoint, mark(Setting::viewpoint));
   }
-  // In their own frames scenes have up to 0.4 behind, past the edge of a table, and 0.03 hidden.
+  // Scenes in their sensor's frame have up to 0.4 behind (past the edge of a table) and 0.03
+  // hidden.
   constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
   const auto [behind, hidden] = s.plane_sight;
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};
@@ -112,7 +114,7 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
       100 * behind, viewpoint, mark(Setting::viewpoint));
 }
 
-/// Where the sensor is said to have stood, and did not.
+/// Warns if the sensor was not where the input says.
 std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
   const auto text = [](const Vec3& p) {
     constexpr double half = 0.0005;
@@ -125,8 +127,8 @@ std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
                        mark(Setting::viewpoint), text(*o.viewpoint), text(*s.rays_meet_at));
   }
   return fmt::format(
-      "the rays of the pixels do not meet at the viewpoint of the input but at {}, which is taken; "
-      "{} sets another",
+      "the rays of the pixels do not meet at the viewpoint of the input but at {}, which is used; "
+      "{} sets another one",
       text(*s.rays_meet_at), mark(Setting::viewpoint, "X,Y,Z"));
 }
 

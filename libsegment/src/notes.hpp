@@ -11,12 +11,12 @@ namespace ph::segment {
 /// How a depth image became a cloud.
 struct DepthSource {
   const Camera& camera;
-  Setting setting;  ///< that the camera came from: Setting::intrinsics or Setting::camera
+  Setting setting;  ///< Setting::intrinsics or Setting::camera, whichever the camera came from
 };
 
-/// What a user should know before trusting the result, a line each: what the check found, no plane,
-/// units or a camera that cannot be meant.
-/// @param cloud null: a stored tree was cut. @param depth null: the cloud was none.
+/// Warnings that a user should know before trusting the result, one line each: the difference that
+/// the check found, a missing plane, units or a camera that are implausible.
+/// @param cloud null: a stored tree was cut. @param depth null: the input was not a depth image.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
                            const Cloud* cloud, const DepthSource* depth);
 

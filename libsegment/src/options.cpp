@@ -29,18 +29,18 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   if (cloud.stride < 3)
     throw Error(
         ErrorKind::bad_data,
-        fmt::format("found a stride of {}, expected at least 3 floats a point", cloud.stride));
+        fmt::format("found a stride of {}, expected at least 3 floats per point", cloud.stride));
   const std::size_t count = cloud.xyz.size();
   if (count != 0 && (count < 3 || (count - 3) % cloud.stride != 0)) {
     throw Error(ErrorKind::bad_data,
                 cloud.stride == 3
-                    ? fmt::format("found {} coordinates, expected three a point", count)
+                    ? fmt::format("found {} coordinates, expected three per point", count)
                     : fmt::format("found {} floats, expected {} from point to point and 3 of the "
                                   "last",
                                   count, cloud.stride));
   }
   const auto points = static_cast<Index>(cloud.size());
-  // Divided, for a product might overflow.
+  // Divided, because a product might overflow.
   if (cloud.width < 0 ||
       (cloud.width > 0 && (points % cloud.width != 0 || points / cloud.width != cloud.height))) {
     throw Error(ErrorKind::bad_data, fmt::format("found {} points, expected {} rows of {}", points,
@@ -56,7 +56,7 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   require(o.max_range >= 0, Setting::max_range, o.max_range, "a length of at least 0 or infinity");
   require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, Setting::plane_noise, o.plane_noise,
           "a finite length of at least 0");
-  // Nearly every voxel would be a seed: supervoxels of a voxel each.
+  // Nearly every voxel would be a seed, and each supervoxel would have one voxel.
   require(o.method != Method::supervoxels || (std::isfinite(o.spacing) && o.spacing >= voxel),
           Setting::spacing, o.spacing,
           fmt::format("a finite length of at least a voxel, {}", voxel));

@@ -4,11 +4,11 @@
 
 namespace ph::segment {
 
-/// @throws Error (usage) naming the option that is out of its range; Error (bad_data) on a number
-///         of coordinates that is no multiple of three.
+/// @throws Error (usage) naming the option that is out of its range; Error (bad_data) if the number
+///         of coordinates is not a multiple of three.
 void validate(const CloudView& cloud, const SegmentOptions& options);
-/// @throws Error (bad_data) unless the arrays of the scene are as long as they say, and what they
-///         number is there.
+/// @throws Error (bad_data) unless the arrays of the scene have the lengths that it states, and all
+///         indices in them exist.
 void validate(const SceneTree& scene);
 /// @throws Error (bad_data) unless the cut has the points and vertices of the scene.
 void validate(const SceneTree& scene, const SceneCut& cut);

@@ -22,16 +22,16 @@
 namespace ph::segment {
 namespace {
 
-/// What all stages hold of a cloud at once, at most: of each point its number in four lists of
-/// those that are left, its voxel, its number, its vertex and its coordinates as the tree has them,
-/// these sorted by segment, its label, what surfaces it is on.
+/// The most that all stages together store per point: its number in four lists of remaining points,
+/// its voxel, its number, its vertex and its coordinates in the tree, the same sorted by segment,
+/// its label, and its surfaces.
 std::size_t bytes_for_points(const CloudView& cloud) {
   constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;
 }
 
-/// The same of the voxels, without their pairs and the graph, which count themselves: places,
-/// normals and numbers of points, here and in the tree; the tree; the barcode.
+/// The most per voxel, without the pairs and the graph, which count themselves: places, normals and
+/// numbers of points, here and in the tree; the tree; the barcode.
 std::size_t bytes_for_voxels(const VoxelGrid& grid) {
   constexpr std::size_t bytes_per_voxel = 2 * 80 + 80 + 160;
   return grid.cells.size() * bytes_per_voxel;
@@ -43,10 +43,10 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
   for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
 }
 
-/// What stands on the floor below a table is as good as what stands on the table. Not if the table
-/// should hide much of it: then the viewpoint is wrong, and below is above.
+/// Objects on the floor below a table are as welcome as objects on the table. The exception is a
+/// table that should hide many of them: then the viewpoint is wrong, and below is above.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
-  constexpr double much_hidden = 0.1;  // in their own frames scenes have up to 0.03
+  constexpr double much_hidden = 0.1;  // scenes in their sensor's frame have up to 0.03
   if (result.plane_sight.hidden >= much_hidden) return;
   const CloudView& cloud = scene.cloud;
   scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);
@@ -60,7 +60,7 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
   result.surfaces.push_back({Role::support, scene.lower->plane});
 }
 
-/// What is in range and stands before the supporting plane; the plane goes into the result, too.
+/// The points in range that lie above the supporting plane; the plane also goes into the result.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
   Scene scene;
@@ -80,7 +80,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
   if (options.method != Method::paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    const double noise = deviations * search.noise * search.range * search.range;  // where it lies
+    const double noise = deviations * search.noise * search.range * search.range;  // range of it
     if (noise > 2 * scene.margin.distance)
       search = find_plane(cloud, in_range, noise, options.plane_guess);
     scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
@@ -105,7 +105,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
   const std::vector<Index>& points = filtration.points;
   const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
-  // Those beyond the plane, ascending, and behind them those that were won back.
+  // The points beyond the plane, ascending, and after them the points that were won back.
   const auto beyond =
       static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
   std::vector<std::pair<Index, std::uint32_t>> won_back;
@@ -129,7 +129,7 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
     std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
 }
 
-/// What a cut needs besides the tree and the points. `plane` is there already.
+/// The data that a cut needs besides the tree and the points. `plane` is set already.
 void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
                 const SegmentOptions& options, SceneTree& scene) {
   scene.method = options.method;

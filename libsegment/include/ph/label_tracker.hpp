@@ -11,56 +11,56 @@
 
 namespace ph::segment {
 
-/// What an object is to those who want to take hold of it, over some frames.
+/// The role of an object for grasping, kept over several frames.
 struct Standing {
   Role role = Role::object;
   StandsOn on;
   friend bool operator==(const Standing&, const Standing&) = default;
 };
 
-/// Numbers for the segments of a stream of frames: an object keeps its number from frame to frame.
+/// Numbers the segments of a stream of frames: an object keeps its number from frame to frame.
 ///
-/// A segment takes the number of the object with which it shares most places, largest share first
-/// (of their union), if that is more than a quarter of the smaller of the two; no object is taken
-/// twice. All else gets new numbers, 1, 2, …. An object that no segment took keeps its places, as
-/// far as no segment covers them, and its number for some frames more. Walls and boards have
-/// numbers, too. What an object is, and what it stands on, changes only when three frames in a row
-/// say so: a wall that is a segment in one frame is still a wall. O(n log n) a frame; memory is
-/// that of one frame.
+/// A segment takes the number of the object with which it shares most places, if the shared places
+/// are more than a quarter of the smaller of the two. Pairs with the largest share of their union
+/// come first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An object
+/// that no segment took keeps the places that no segment covers, and keeps its number for some
+/// frames. Walls and boards have numbers as well. The role of an object, and what the object stands
+/// on, change only when three frames in a row agree: a wall that is a segment in one frame is still
+/// a wall. O(n log n) per frame; the tracker stores one frame.
 class LabelTracker {
  public:
-  /// @param patience frames for which an object that is not seen is remembered, >= 0.
-  /// @param cell edge of the cubes by which clouds that are not organised are compared, metres, >
-  /// 0. @throws Error (usage) on others.
+  /// @param patience how many frames an unseen object is remembered, >= 0.
+  /// @param cell edge of the cubes that compare clouds without an organisation, metres, >
+  /// 0. @throws Error (usage) on other values.
   explicit LabelTracker(int patience = 5, double cell = 0.01);
 
-  /// The next frame of a sensor with a fixed raster: places are pixels.
-  /// @param labels one a pixel: 0 none, else any number of a segment. A frame of another size than
-  /// that before shares nothing with it.
-  /// @return by pixel the number of the object that its segment is; 0 where there is none.
+  /// Takes the next frame of a sensor with a fixed raster: places are pixels.
+  /// @param labels one per pixel: 0 for none, else any number of a segment. A frame whose size
+  /// differs from the frame before shares nothing with it.
+  /// @return for each pixel the number of the object that its segment is; 0 if there is none.
   std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
-  /// The same for the result of ph::segment::segment. Of an unorganised cloud places are cubes of
-  /// space, whatever its voxels are: the sensor must stand still.
-  /// @return the number of the object that each segment is: that of label i + 1 at i.
-  /// @throws Error (bad_data) if the cut is not one of this scene.
+  /// Takes the next frame as a result of ph::segment::segment. If the cloud is unorganised, places
+  /// are cubes of space, whatever its voxels are: the sensor must stand still.
+  /// @return for each segment the number of its object: the object of label i + 1 is at i.
+  /// @throws Error (bad_data) if the cut does not belong to this scene.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
-  /// What the segments of the last scene are, that of label i + 1 at i. `on` names a surface and a
-  /// segment of that scene. After labels alone: nothing.
+  /// The roles of the segments of the last scene: label i + 1 is at i. `on` names a surface and a
+  /// segment of that scene. Empty after labels alone.
   const std::vector<Standing>& standings() const { return standings_; }
 
  private:
-  using Key = std::array<double, 4>;  // size of the raster or of a cube, then where
+  using Key = std::array<double, 4>;  // size of the raster or of a cube, then the place
   struct Place {
     Key key;
-    std::uint32_t number;  // of a segment (from 0), or of an object
+    std::uint32_t number;  // number of a segment (from 0) or of an object
   };
   struct Object {
     std::uint32_t number;
     int unseen = 0;      // frames
-    bool is_new = true;  // in this frame
-    Standing is = {};    // `segment` is the number of an object here
-    Standing said = {};  // by the last frames, if not the same,
-    int times = 0;       // so many in a row
+    bool is_new = true;  // first seen in this frame
+    Standing is = {};    // `segment` holds the number of an object here
+    Standing said = {};  // the last frames' answer, if it differs
+    int times = 0;       // how many frames in a row had it
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
   std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t things,
@@ -72,19 +72,19 @@ class LabelTracker {
   int patience_;
   double cell_;
   std::uint32_t next_ = 1;
-  std::vector<Place> places_;    // of the objects, by key
+  std::vector<Place> places_;    // the objects, by key
   std::vector<Object> objects_;  // by number
   std::vector<Standing> standings_;
 };
 
-/// How a camera moved between two frames, told from the supporting plane of both: what it does in
-/// the plane itself is not seen.
+/// How a camera moved between two frames, as the supporting planes of both tell. Motion within the
+/// plane does not show.
 struct CameraMotion {
-  double turn = 0;   ///< of the plane, degrees
-  double shift = 0;  ///< of its distance from the viewpoint, metres
+  double turn = 0;   ///< angle between the planes, degrees
+  double shift = 0;  ///< change of the distance from the viewpoint, metres
 };
-/// Nothing if a frame has no plane, or if the two differ by no more than noise does: half a degree,
-/// or 5 mm at a range of a metre.
+/// Empty if a frame has no plane, or if the two planes differ by no more than noise: half a degree,
+/// or 5 mm at a range of one metre.
 std::optional<CameraMotion> camera_motion(const SceneTree& before, const SceneTree& after);
 
 }  // namespace ph::segment

@@ -14,51 +14,51 @@
 #include "ph/merge_tree.hpp"
 #include "ph/run_context.hpp"
 
-/// The merge tree of a scene, and the cuts of it. All lengths are metres.
+/// The merge tree of a scene, and how to cut it. All lengths are in metres.
 namespace ph::segment {
 
 /// A point or a direction: x, y, z.
 using Vec3 = std::array<double, 3>;
 
-/// An axis-aligned box, borders included.
+/// An axis-aligned box, including its borders.
 struct Box {
   Vec3 min{};
   Vec3 max{};
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// What decides which voxels belong together. The numbers are those of stored trees: never change
-/// one.
+/// The rule that decides which voxels belong together. Stored trees hold these numbers: never
+/// change one.
 enum class Method {
-  surface = 0,      ///< the shape of the visible surface: cut where it is hollow, so that objects
+  surface = 0,      ///< the shape of the visible surface: cuts where it is concave, so that objects
                     ///< that touch come apart
-  paper = 1,        ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
-  supervoxels = 2,  ///< pieces of about one size that do not cross seams: the distance along the
+  paper = 1,        ///< distance alone (Beksi & Papanikolopoulos, ICRA 2016)
+  supervoxels = 2,  ///< pieces of similar size that do not cross seams: the distance along the
                     ///< surface to evenly spread seeds
 };
-/// What they are called, by number.
+/// The names of the methods, by number.
 inline constexpr std::array<std::string_view, 3> kMethodNames = {"surface", "paper", "supervoxels"};
 
-/// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
+/// The plane normal·x + offset = 0. Its unit normal points towards the sensor: the signed distance
 /// of a point is positive on the sensor's side.
 struct Plane {
   Vec3 normal{};
   double offset = 0;  ///< metres
-  double share = 0;   ///< share of the points in range that lie on it, 0…1
+  double share = 0;   ///< share of the points in range that lie on the plane, 0…1
   double signed_distance(double x, double y, double z) const {
     return normal[0] * x + normal[1] * y + normal[2] * z + offset;
   }
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// What a part of a scene is to those who want to take hold of things.
+/// The role of a part of a scene for grasping.
 enum class Role {
   object = 0,
   support = 1,  ///< a plane that objects stand on: a table, a board, the floor
-  wall = 2,     ///< a plane behind which nothing is seen: a wall, the back or the side of a cabinet
-  unknown = 3   ///< it may be an object; it is cut off, and what it stands on is not seen
+  wall = 2,  ///< a plane that hides everything behind it: a wall, the back or the side of a cabinet
+  unknown = 3  ///< it may be an object; the view cuts it off, and what it stands on is not seen
 };
-/// What they are called, by number.
+/// The names of the roles, by number.
 inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",
                                                                "unknown"};
 
@@ -66,38 +66,38 @@ constexpr std::string_view role_name(Role role) {
   return kRoleNames[static_cast<std::size_t>(role)];
 }
 
-/// A plane that bounds a scene. It is no segment.
+/// A plane that bounds a scene. It is not a segment.
 struct SceneSurface {
   Role role = Role::support;  ///< support or wall
   Plane plane;
   friend bool operator==(const SceneSurface&, const SceneSurface&) = default;
 };
 
-/// A point says in a byte which surface it is on.
+/// A point stores its surface in one byte.
 inline constexpr std::size_t kMostSurfaces = 255;
 
-/// How concave a flat surface looks at a range: the noise of the sensor in the filtration.
+/// How concave a flat surface looks at a range: the sensor's noise in the filtration.
 struct NoiseAt {
   double range = 0;      ///< from the viewpoint, metres
-  double concavity = 0;  ///< of the free supporting plane: 84 % of it is below that
+  double concavity = 0;  ///< the value below which 84 % of the free supporting plane lies
 };
 
-/// A box with axes of its own.
+/// A box with its own axes.
 struct OrientedBox {
   Vec3 centre{};
   std::array<Vec3, 3> axes{};  ///< unit, right-handed
-  Vec3 size{};                 ///< whole lengths along the axes, metres
+  Vec3 size{};                 ///< full lengths along the axes, metres
   friend bool operator==(const OrientedBox&, const OrientedBox&) = default;
 };
 
-/// A segment that touches another one.
+/// A segment that touches another segment.
 struct Neighbour {
   std::uint32_t label = 0;
-  double meets_at = 0;  ///< value of the first edge of the graph that joins the two
+  double meets_at = 0;  ///< value of the first edge of the graph that joins the two segments
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
 
-/// What a segment stands on: one of both, or neither.
+/// What a segment stands on: a surface, a segment or neither.
 struct StandsOn {
   std::uint32_t surface = 0;  ///< number, from 1, of a support among the surfaces of the scene
   std::uint32_t segment = 0;  ///< label of a segment
@@ -105,120 +105,121 @@ struct StandsOn {
 };
 
 /// One segment with enough voxels: a component of infinite persistence (paper), a basin of the
-/// merge tree (supervoxels), or basins that are parts of one object (surface).
+/// merge tree (supervoxels), or the basins that are parts of one object (surface).
 struct Segment {
   std::uint32_t label = 0;  ///< 1…k by decreasing number of points
   Index points = 0;
   Index voxels = 0;
-  /// How much higher than where it was born it first touches another segment: in metres (paper,
-  /// supervoxels) or in units of the noise (surface). Infinite if it touches none. The confidence
-  /// in it.
+  /// The persistence: the value at which the segment first touches another one, less the value of
+  /// its birth, in metres (paper, supervoxels) or in units of the noise (surface). It is infinite
+  /// if the segment touches none. It measures the confidence in the segment.
   double persistence = kInfinity;
   std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
-  double meets_at = kInfinity;  ///< value of the filtration at which it does
-  Vec3 centroid{};              ///< mean of its points, without those won back from the plane
-  Box box;                      ///< of its points
-  /// Of its points, as tight as can be. Where a plane was removed it stands on it: axes[2] is the
-  /// normal of the plane and axes[0] the longer side of the smallest rectangle around what the
-  /// points cover of the plane. Without a plane: the principal axes, longest first.
+  double meets_at = kInfinity;  ///< value of the filtration at which it first touches a neighbour
+  Vec3 centroid{};              ///< mean of its points, without the points won back from the plane
+  Box box;                      ///< axis-aligned box of its points
+  /// The tightest box of its points. If a plane was removed, the box stands on it: axes[2] is the
+  /// normal of the plane, and axes[0] is the longer side of the smallest rectangle around the
+  /// projections of the points onto the plane. Without a plane, the axes are the principal axes,
+  /// longest first.
   OrientedBox oriented_box;
   Role role = Role::unknown;          ///< object or unknown
-  StandsOn on;                        ///< as far as it is seen
-  std::vector<Neighbour> neighbours;  ///< all segments that it touches, the first met first
+  StandsOn on;                        ///< what it stands on, as far as this is seen
+  std::vector<Neighbour> neighbours;  ///< all that it touches, first contact first
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
 /// Where to cut a merge tree.
 struct CutOptions {
-  /// Least persistence of a part, in units of the noise (surface) or metres (supervoxels). Method
-  /// paper: components at this distance, metres, at most that of the tree. >= 0.
+  /// The least persistence of a part, in units of the noise (surface) or metres (supervoxels).
+  /// Method paper: the components at this distance, in metres, at most the distance of the tree. >=
+  /// 0.
   double value = 1;
   Index min_part =
-      200;  ///< not paper: fewest voxels of a part; a smaller one joins a neighbour, >= 1
+      200;  ///< not paper: fewest voxels of a part, >= 1; a smaller one joins a neighbour
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object
-  /// Surface: least strength of a seam between parts, in multiples of `value`; 0: persistence, that
-  /// is the lowest place of a seam, is all that is looked at. >= 0.
+  /// Surface: the least strength of a seam between parts, in multiples of `value`, >= 0. At 0, only
+  /// persistence counts, that is, the lowest place of a seam.
   double min_seam = 2;
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
 
 /// How the voxels of a scene join: each merge with its value, the edge that joined, sizes and
-/// births
-/// (`tree`), and what is needed of the scene to make segments of a cut. A value: it refers to
-/// nothing outside.
+/// births (`tree`), and everything that a cut needs to make segments. A value: it refers to nothing
+/// outside itself.
 struct SceneTree {
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
   double distance = 0;         ///< paper: maximum distance of the complex, metres
-  int steps = 0;               ///< paper: levels up to it; 0: exact deaths
-  Vec3 viewpoint{};            ///< where the sensor stood
-  std::optional<Plane> plane;  ///< the plane that was removed
-  /// What bounds the scene: first the planes that were removed, `plane` before all others, then
-  /// those that were found among the components: boards, walls. At most kMostSurfaces.
+  int steps = 0;               ///< paper: number of levels up to it; 0: exact deaths
+  Vec3 viewpoint{};            ///< position of the sensor
+  std::optional<Plane> plane;  ///< the removed plane
+  /// The planes that bound the scene: first the removed planes, beginning with `plane`, then the
+  /// planes found among the components (boards, walls). At most kMostSurfaces.
   std::vector<SceneSurface> surfaces;
-  /// Method surface: nearest first; empty if too little of a supporting plane was seen.
+  /// Method surface: nearest first; empty if too little of a supporting plane was visible.
   std::vector<NoiseAt> noise;
-  Index removed = 0;     ///< how many of them were removed, with what is behind them
-  Index width = 0;       ///< columns of the cloud; of an unorganised one its points
-  Index height = 1;      ///< rows of the cloud; 1 if it is not organised
-  CutOptions first_cut;  ///< the cut that the segmentation was made with
+  Index removed = 0;     ///< how many of them were removed, with everything behind them
+  Index width = 0;       ///< columns of the cloud; points of an unorganised cloud
+  Index height = 1;      ///< rows of the cloud; 1 if it is unorganised
+  CutOptions first_cut;  ///< the cut of the segmentation that made the tree
   std::size_t cloud_size() const { return static_cast<std::size_t>(width * height); }
 
-  // By point that has a vertex, in the order of the cloud.
+  // For each point that has a vertex, in the order of the cloud.
   std::vector<Index> points;                   ///< its number in the cloud, ascending
   std::vector<std::uint32_t> vertex_of_point;  ///< its vertex
   std::vector<float> xyz;                      ///< its coordinates
 
-  /// By point of the cloud: the number, from 1, of the removed surface that it is on; 0: none.
+  /// For each point of the cloud: the number, from 1, of the removed surface on which it lies; 0:
+  /// none.
   std::vector<std::uint8_t> removed_with;
 
-  // By vertex, that is, by voxel in the order of the grid (z slowest).
-  std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel / voxel
-  Points vertices;          ///< centroid, one a row
-  Points normals;  ///< not paper: unit normal, one a row, NaN where there is none; else 0 rows
-  std::vector<Index> counts;  ///< points that the centroid is the mean of
+  // For each vertex, that is, each voxel in the order of the grid (z slowest).
+  std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel, divided by the voxel's edge
+  Points vertices;          ///< centroids, one per row
+  Points normals;  ///< not paper: unit normals, one per row, NaN where there is none; else 0 rows
+  std::vector<Index> counts;  ///< how many points the centroid averages
 
   Index edges = 0;  ///< edges of the filtered graph
-  MergeTree tree;   ///< which vertices join, at which value
+  MergeTree tree;   ///< the vertices that join, and the values at which they do
 };
 
 /// The segments of one cut.
 struct SceneCut {
-  std::vector<std::uint32_t> labels;  ///< one a point of the cloud: 0 none, 1…k the segments
-  std::vector<Segment> segments;      ///< segment i has label i + 1
-  std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
-  /// One a point of the cloud: the number, from 1, of the surface that it is on; 0: none.
+  std::vector<std::uint32_t> labels;         ///< one per point: 0 for none, 1…k
+  std::vector<Segment> segments;             ///< segment i has label i + 1
+  std::vector<std::uint32_t> vertex_labels;  ///< one per vertex: 0 for none, 1…k for the segments
+  /// For each point of the cloud: the number, from 1, of the surface on which it lies; 0: none.
   std::vector<std::uint8_t> surface_labels;
 };
 
-/// A coarser or finer cut without segmenting anew: milliseconds. What is found anew is which voxels
-/// are near each other and which parts make an object (not paper), which segments touch, and what
-/// is said of each; planes, voxels, normals and the tree are those of `scene`. `cut(scene,
-/// scene.first_cut)` is what ph::segment::segment gave.
-/// @throws Error (usage) on an option out of its range, or a distance beyond that of the tree;
-///         Error (bad_data) if arrays of the scene disagree. So do all functions below.
+/// Makes a coarser or finer cut within milliseconds, without a new segmentation. It finds anew
+/// which voxels are near each other, which parts make an object (not paper), which segments touch,
+/// and the properties of each segment; planes, voxels, normals and the tree come from `scene`.
+/// `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
+/// @throws Error (usage) on an option out of its range, or a distance beyond the tree's; Error
+///         (bad_data) if arrays of the scene disagree. All functions below throw the same errors.
 SceneCut cut(const SceneTree& scene, const CutOptions& options,
              const RunContext& context = default_context());
 
-/// Where two segments meet first as the filtration grows.
+/// The place where two segments first meet as the filtration grows.
 struct Meeting {
   double value = 0;  ///< of the filtration: metres (paper, supervoxels) or noise (surface)
   Vec3 at{};         ///< between the two voxels whose edge joins them
 };
-/// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two
-/// segments.
+/// @return empty if they never meet. @throws Error (usage) unless both labels belong to segments.
 std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
                                      std::uint32_t b);
 
-/// The tree as a file; docs/explanation/segmentation.md says what its bytes are.
+/// The tree as a file; docs/explanation/segmentation.md describes its bytes.
 std::string tree_bytes(const SceneTree& scene);
-/// The same as JSON, for other programs; it is not read back.
+/// The same tree as JSON, for other programs; libph does not read it back.
 std::string tree_json(const SceneTree& scene);
-/// Whether a file begins as `tree_bytes` does.
+/// True if a file begins like the output of `tree_bytes`.
 bool is_tree(const Input& input);
-/// Reads what `tree_bytes` wrote, nothing else: every number is checked, and so is the sum at its
-/// end. @throws Error (bad_data) naming the byte.
+/// Reads only what `tree_bytes` wrote, and checks every number and the checksum at its end. @throws
+/// Error (bad_data) naming the byte.
 SceneTree read_tree(const Input& input);
 SceneTree read_tree(const std::filesystem::path& path);
 

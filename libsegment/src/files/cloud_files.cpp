@@ -15,7 +15,7 @@
 namespace ph::segment {
 namespace {
 
-/// label_in, or, where a cloud went through here before, label_in_2, label_in_3, …
+/// label_in, or, in a cloud that was labelled before, label_in_2, label_in_3, …
 std::string free_name(const Cloud& cloud) {
   std::string name = "label_in";
   for (int i = 2; cloud.find(name); ++i) name = fmt::format("label_in_{}", i);
@@ -33,7 +33,7 @@ CloudFormat cloud_format_of(std::string_view path) {
 
 std::string cloud_bytes(Cloud cloud, CloudFormat format) {
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  out.exceptions(std::ios::badbit);  // else the stream would hide that memory ran out
   const Cloud told = in_terms_of(format, std::move(cloud));
   if (format == CloudFormat::pcd) {
     write_pcd(out, told);
@@ -48,7 +48,7 @@ Cloud read_cloud(const std::filesystem::path& path) { return ph::read_cloud(path
 Cloud with_labels(const Cloud& cloud, std::span<const std::uint32_t> labels) {
   cloud.check();
   if (static_cast<Index>(labels.size()) != cloud.size()) {
-    throw Error(ErrorKind::usage, fmt::format("found {} labels, expected {}, one a point",
+    throw Error(ErrorKind::usage, fmt::format("found {} labels, expected {}, one per point",
                                               labels.size(), cloud.size()));
   }
   Cloud result = cloud;

@@ -24,7 +24,7 @@ std::optional<std::size_t> place_in(const Names& names, std::string_view name) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// Whether the cloud has all three, as one number each.
+/// True if the cloud has all three fields, as one number each.
 bool has(const Cloud& cloud, const Names& names) {
   return std::ranges::all_of(names, [&](std::string_view name) {
     const CloudField* const field = cloud.find(name);
@@ -42,7 +42,7 @@ double double_at(const Cloud& cloud, std::size_t point, const CloudField& field)
   return value;
 }
 
-/// Whether single precision holds all coordinates well enough.
+/// True if single precision is exact enough for all coordinates.
 bool is_near(const Cloud& cloud) {
   for (const std::string_view name : kCoordinates) {
     const CloudField* const field = cloud.find(name);
@@ -53,7 +53,7 @@ bool is_near(const Cloud& cloud) {
   return true;
 }
 
-/// What the new cloud has, and where it comes from.
+/// The fields of the new cloud, and their sources.
 class Terms {
  public:
   Terms(CloudFormat format, const Cloud& cloud) : format_(format), cloud_(cloud) {
@@ -141,7 +141,7 @@ class Terms {
     }
   }
 
-  /// Opaque unless the cloud says otherwise.
+  /// Opaque unless the cloud has an alpha channel.
   std::uint32_t alpha(std::size_t point) const {
     if (alpha_ == nullptr) return 0xFF;
     return static_cast<std::uint32_t>(cloud_.data[point * cloud_.stride + alpha_->offset]);
@@ -150,11 +150,11 @@ class Terms {
   CloudFormat format_;
   const Cloud& cloud_;
   bool is_narrowed_ = false;                           // doubles become float32
-  std::optional<std::vector<std::uint32_t>> colours_;  // to be packed
-  const CloudField* alpha_ = nullptr;                  // goes with them
+  std::optional<std::vector<std::uint32_t>> colours_;  // colours to be packed
+  const CloudField* alpha_ = nullptr;                  // the alpha channel that goes with them
   bool has_colours_ = false;                           // in fields_
   std::vector<CloudField> fields_;
-  std::vector<const CloudField*> sources_;  // of each field; nullptr: colours_
+  std::vector<const CloudField*> sources_;  // the source of each field; nullptr: colours_
   std::size_t stride_ = 0;
 };
 

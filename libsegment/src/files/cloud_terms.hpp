@@ -4,17 +4,18 @@
 
 namespace ph::segment {
 
-/// The same points with the fields that other programs look for in files of a format.
+/// The same points with the fields that other programs look for in a format's files.
 ///
 /// * Normals are `normal_x normal_y normal_z` in PCD, and `nx ny nz` in PLY.
-/// * Colours are one number `rgba` in PCD. Those of one byte each become that; others stay beside
-///   it. (`write_ply` takes it apart again.)
-/// * Padding (`_`) is left out: PCL does not count it in compressed files.
-/// * Coordinates and normals of PCD are in single precision, which alone PCL and Open3D read as
-///   such. Doubles are rounded if all coordinates are within kSinglePrecisionReach.
+/// * Colours are one number `rgba` in PCD. Colours of one byte per channel become that number;
+///   others stay beside it. (`write_ply` takes it apart again.)
+/// * Padding (`_`) is left out, because PCL does not count it in compressed files.
+/// * Coordinates and normals of PCD are in single precision, the only precision in which PCL and
+///   Open3D recognise them. Doubles are rounded if all coordinates are within
+///   kSinglePrecisionReach.
 Cloud in_terms_of(CloudFormat format, Cloud cloud);
 
-/// Metres, within which single precision moves a coordinate by 0.03 mm at most.
+/// The distance in metres up to which single precision moves a coordinate by at most 0.03 mm.
 inline constexpr double kSinglePrecisionReach = 1024;
 
 }  // namespace ph::segment

@@ -8,11 +8,11 @@
 
 namespace ph::segment {
 
-/// The formats in which labels alone are written.
+/// The formats for labels without a cloud.
 enum class LabelFormat { npy, png, csv };
 
-/// One label a point of the scene, as the bytes of a file: an array of uint32 or, of organised
-/// clouds, a picture of 16 bits, both of rows and columns; or a line each.
+/// The file with one label per point of the scene: an array of uint32 or, for an organised cloud, a
+/// 16-bit picture, both with its rows and columns; or one label per line.
 /// @throws Error (bad_data) on labels that a picture cannot hold.
 std::string label_bytes(const SceneTree& scene, std::span<const std::uint32_t> labels,
                         LabelFormat format);

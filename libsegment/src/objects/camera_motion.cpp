@@ -15,7 +15,7 @@ std::optional<CameraMotion> camera_motion(const SceneTree& before, const SceneTr
     return scene.plane->signed_distance(x, y, z);
   };
   const Vec3 &a = before.plane->normal, &b = after.plane->normal;
-  // Of the chord, for the cosine of a small angle is all rounding.
+  // Computed from the chord, because the cosine of a small angle loses it to rounding.
   const double chord = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   const double turn = 2 * std::asin(std::min(1.0, chord / 2)) * 180 / std::numbers::pi;
   const double shift = height(after) - height(before);

@@ -9,15 +9,16 @@
 
 namespace ph::segment {
 
-/// Where a part is, or as much of it as matters.
+/// The box of a part, or of the voxels that matter.
 template <int Dim>
 struct PartBox {
   std::uint32_t part;
   Eigen::AlignedBox<double, Dim> box;  ///< not empty
 };
 
-/// Calls `visit(p, q)`, p > q, for all parts whose boxes are closer than what `reach` says of both.
-/// A sweep along x: each box is compared only with those that are as near along this axis.
+/// Calls `visit(p, q)`, p > q, for all parts whose boxes are closer than `reach` allows for the
+/// pair. A sweep along x: each box is compared only with boxes that are close enough along this
+/// axis.
 template <int Dim, class Reach, class Visit>
 void for_each_close_pair(std::vector<PartBox<Dim>> boxes, Reach&& reach, const RunContext& context,
                          Visit&& visit) {

@@ -11,18 +11,18 @@
 namespace ph::segment {
 namespace {
 
-/// One component while it is measured.
+/// One component during its measurement.
 struct Component {
   Index root = 0;   // the vertex that names it
   Index first = 0;  // its first vertex in the order of the grid
   Index points = 0;
   Index voxels = 0;
-  Index in_grid = 0;  // points that its centroid is of
-  Vec3 sum{};         // of these points
+  Index in_grid = 0;  // points that its centroid averages
+  Vec3 sum{};         // sum of these points
 };
 
-/// By decreasing number of points, then of voxels, then in grid order: independent of the order of
-/// the points.
+/// By decreasing number of points, then of voxels, then in grid order; the order of the points does
+/// not matter.
 bool comes_before(const Component& a, const Component& b) {
   if (a.points != b.points) return a.points > b.points;
   if (a.voxels != b.voxels) return a.voxels > b.voxels;
@@ -66,7 +66,7 @@ std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut&
   return axes;
 }
 
-/// Both boxes of each segment. @param points those of segment after segment.
+/// Both boxes of each segment. @param points sorted by segment.
 void measure_boxes(const SceneTree& scene, const Coordinates& points, SceneCut& cut) {
   std::vector<std::array<Vec3, 3>> axes;
   if (!scene.plane) axes = axes_of(scene, cut);
@@ -96,7 +96,7 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
 
   SceneCut result;
   std::size_t points = 0;
-  std::vector<std::size_t> place;  // of the next point of each segment, when they are sorted
+  std::vector<std::size_t> place;  // where the next point of each segment goes in the sorted list
   for (const Component& c : kept) {
     place.push_back(points);
     points += static_cast<std::size_t>(c.points);

@@ -19,16 +19,16 @@ namespace {
 
 /// A segment and an object that share places.
 struct Overlap {
-  double share;  // of their union
+  double share;  // share of their union
   std::size_t segment, object;
 };
 
-/// The surfaces that were found among the components come after the segments.
+/// Surfaces found among the components come after the segments.
 std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
   return cut.segments.size() + scene.surfaces.size() - static_cast<std::size_t>(scene.removed);
 }
 
-/// Which of them a point belongs to, by its two labels.
+/// The segment or surface of a point, by its two labels.
 std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cut, std::size_t i) {
   if (cut.labels[i] != 0) return cut.labels[i] - 1;
   const std::uint32_t surface = cut.surface_labels[i];
@@ -49,7 +49,7 @@ LabelTracker::LabelTracker(int patience, double cell) : patience_(patience), cel
 }
 
 std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> labels) {
-  // Those that occur, ascending: a label may be as large as it likes.
+  // The labels that occur, ascending; a label may be any number.
   std::vector<std::uint32_t> known(labels.begin(), labels.end());
   std::ranges::sort(known);
   const auto same = std::ranges::unique(known);
@@ -96,7 +96,7 @@ LabelTracker::Object& LabelTracker::object(std::uint32_t number) {
   return *std::ranges::lower_bound(objects_, number, {}, &Object::number);
 }
 
-/// What each thing is from now on, by what this frame and those before it say.
+/// The role of each thing from now on, as this frame and the frames before it decide.
 void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
                           const std::vector<std::uint32_t>& numbers) {
   constexpr int frames = 3;
@@ -125,7 +125,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
   standings_.clear();
   for (const Segment& segment : cut.segments) {
     Standing standing = object(numbers[standings_.size()]).is;
-    // What it stood on may not be there.
+    // Its support may be absent from this frame.
     if (standing.on.segment != 0) {
       const auto lower = std::ranges::find(numbers, standing.on.segment) - numbers.begin();
       if (lower < std::ssize(cut.segments))
@@ -141,7 +141,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
   }
 }
 
-/// The cubes in which a segment, or a surface, has more points than any other.
+/// The cubes in which a segment or a surface has more points than any other.
 std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
                                                      const SceneCut& cut) const {
   std::map<Key, std::map<std::uint32_t, Index>> points;
@@ -161,11 +161,11 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// @param places of things, by key. @param segments so many of the things have a number whether
-/// they have places or not. @return by thing its number; 0: none.
+/// @param places of things, by key. @param segments this many things get a number even without
+/// places. @return for each thing its number; 0: none.
 std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
                                                std::size_t segments) {
-  constexpr double least = 0.25;  // of the smaller one
+  constexpr double least = 0.25;  // share of the smaller one
   std::vector<double> size_of_thing(things), size_of_object(objects_.size());
   const auto index_of = [&](std::uint32_t number) {
     return static_cast<std::size_t>(
@@ -175,7 +175,7 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   for (const Place& p : places_) ++size_of_object[index_of(p.number)];
 
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
-  std::vector<Place> uncovered;  // places of objects where no segment is now
+  std::vector<Place> uncovered;  // places of objects that no segment covers now
   auto now = places.begin();
   for (const Place& before : places_) {
     while (now != places.end() && now->key < before.key) ++now;
@@ -204,7 +204,7 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   for (std::size_t i = 0; i < things; ++i)
     if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
-  // What is remembered: the segments, and what was seen not long ago and is not covered.
+  // Remembers the segments, and objects that were seen recently and are not covered.
   std::vector<Object> remembered;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     Object known = objects_[i];

@@ -8,10 +8,10 @@
 
 namespace ph::segment {
 
-/// Of two segments, the smaller label first, the value of the first edge between them.
+/// For two segments, the smaller label first, the value of the first edge between them.
 using Contacts = std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double>;
 
-/// Gives each segment its neighbours, where they meet, and its persistence.
+/// Sets the neighbours of each segment, where they meet, and its persistence.
 void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& cut);
 
 }  // namespace ph::segment

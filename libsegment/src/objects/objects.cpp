@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kSmall = Parts::kSmall;
 
-/// Finds parts whose surfaces go on behind an occluder.
+/// Finds parts whose surfaces continue behind an occluder.
 class HiddenJoins {
   /// A voxel next to an occluder.
   struct BorderVoxel {
@@ -66,9 +66,9 @@ class HiddenJoins {
   }
 
  private:
-  static constexpr double kLongestGap = 0.15;  // metres; what hides more leaves only a guess
+  static constexpr double kLongestGap = 0.15;  // metres; a wider occluder allows only a guess
 
-  /// A bounded number, spread over all: what is told of parts is a share anyway.
+  /// A bounded number, evenly spread: the decision about parts rests on a share anyway.
   static void thin_out(Border& border) {
     constexpr std::size_t fewest = 5, most = 60;
     if (border.size() < fewest) border.clear();
@@ -88,7 +88,7 @@ class HiddenJoins {
     });
     return static_cast<double>(count) / static_cast<double>(borders_[p].size());
   }
-  /// Whether one smooth surface through both voxels is hidden between them.
+  /// True if one smooth surface through both voxels is hidden between them.
   bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
     constexpr double cosine = 0.966;  // 15 degrees between the normals
     constexpr double slope = 0.05;

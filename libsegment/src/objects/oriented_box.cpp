@@ -23,7 +23,7 @@ Vec3 array(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Of each point along an axis.
+/// The coordinate of each point along an axis.
 template <class T>
 RawVector<T> coordinates(const Coordinates& points, const Vector3d& axis) {
   RawVector<T> result(points.x.size());
@@ -53,8 +53,8 @@ std::pair<T, T> range_of(std::span<const T> numbers) {
   return {std::ranges::min(low), std::ranges::max(high)};
 }
 
-/// Some points that are farthest along x, x + y, y, y - x, and against them: an octagon,
-/// counter-clockwise. @param step looks at one for every few points.
+/// Some points that are farthest along x, x + y, y, y - x, and in the opposite directions: an
+/// octagon, counter-clockwise. @param step considers every step-th point.
 template <class T>
 std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T> v,
                                         std::size_t step) {
@@ -78,9 +78,9 @@ std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T>
   return corners;
 }
 
-/// The numbers of the points that may be on the hull: all but those inside the octagon of some of
-/// them (after Akl & Toussaint 1978). @param height largest coordinate off the plane, which is
-/// rounded with those on it.
+/// The numbers of the points that may be on the hull: all points except those inside the octagon
+/// (after Akl & Toussaint 1978). @param height largest coordinate off the plane, which is rounded
+/// like the coordinates on it.
 template <class T>
 std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T> v,
                                          std::size_t step, T height) {
@@ -88,7 +88,7 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   const auto corner = octagon(u, v, step);
   T reach = height;
   for (const auto& [x, y] : corner) reach = std::max({reach, std::abs(x), std::abs(y)});
-  // On the inner side of an edge, by more than rounding may be wrong.
+  // On the inner side of an edge, by more than the error of rounding.
   std::array<T, 8> a, b, c;
   bool has_edges = false;
   for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -100,8 +100,8 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
     c[k] = length == 0 ? -std::numeric_limits<T>::infinity()
                        : a[k] * from[0] + b[k] * from[1] + rounding * reach * length;
   }
-  const bool has_inside = has_edges && reach < too_large;  // beyond, products overflow
-  RawVector<T> inside(u.size());                           // how far: the sign of it
+  const bool has_inside = has_edges && reach < too_large;  // beyond this, products overflow
+  RawVector<T> inside(u.size());                           // the sign of the distance decides
   for (std::size_t i = 0; i < inside.size(); ++i) {
     T nearest = std::numeric_limits<T>::infinity();
     for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -116,8 +116,9 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   return result;
 }
 
-/// The places on a plane with these axes of all points that may be on the hull. Nearly all are
-/// inside any octagon, which single precision can tell; most of the others inside the largest one.
+/// The places on a plane with these axes of all points that may be on the hull. Nearly all points
+/// are inside any octagon, which single precision can decide; most of the others are inside the
+/// largest one.
 std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u, const Vector3d& v,
                                    double height) {
   constexpr std::size_t step = 8;
@@ -153,11 +154,11 @@ std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
   for (const Vector2d& p : points) add(p, 1);
   const std::size_t lower = hull.size();
   for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-  hull.pop_back();  // the first one again
+  hull.pop_back();  // the first corner again
   return hull;
 }
 
-/// A direction along which the smallest rectangle around a convex polygon lies.
+/// The direction of one side of the smallest rectangle around a convex polygon.
 Vector2d direction_of_smallest_rectangle(const std::vector<Vector2d>& hull) {
   const std::size_t n = hull.size();
   if (n == 1) return {1, 0};
@@ -189,7 +190,7 @@ Vector2d direction_of_smallest_rectangle(const std::vector<Vector2d>& hull) {
   return best;
 }
 
-/// Of a direction and its opposite the one whose largest coordinate is positive.
+/// Chooses, of a direction and its opposite, the one whose largest coordinate is positive.
 Vector3d pointing_forward(const Vector3d& direction) {
   Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);

@@ -6,8 +6,8 @@
 
 namespace ph::segment {
 
-/// x, y and z of points, at least one; each in an array of its own, so that loops over them become
-/// vector instructions.
+/// x, y and z of points, at least one; each in an array of its own, so that the compiler can
+/// vectorise loops over them.
 struct Coordinates {
   std::span<const float> x, y, z;
 };
@@ -17,15 +17,15 @@ Box box_around(const Coordinates& points);
 
 /// The box of points on a plane: the smallest rectangle around their projections onto it (one side
 /// lies along an edge of their convex hull: Freeman & Shapira 1975; found by rotating calipers,
-/// Toussaint 1983), as high as they are. O(n) and O(h log h) for the h that are near the hull.
+/// Toussaint 1983), extended to their height. O(n) plus O(h log h) for the h points near the hull.
 /// @param up unit normal of the plane.
 OrientedBox box_on_plane(const Coordinates& points, const Vec3& up);
 
 /// The box of points along given axes. @param axes unit, orthogonal.
 OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes);
 
-/// The principal axes of weighted places, those that spread most first, right-handed; the last one
-/// is turned towards the viewpoint. @param places one a row, at least one.
+/// The principal axes of weighted places, largest spread first, right-handed; the last one points
+/// towards the viewpoint. @param places one per row, at least one.
 std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double> weights,
                                    const Vec3& viewpoint);
 

@@ -9,10 +9,10 @@ namespace ph::segment {
 
 /// Parts that are large enough, numbered in the order of their first voxels.
 struct Parts {
-  static constexpr std::uint32_t kSmall = UINT32_MAX;  ///< of what stays by itself
+  static constexpr std::uint32_t kSmall = UINT32_MAX;  ///< part number of voxels in no large part
 
-  std::vector<std::uint32_t> of;       ///< by voxel: number of its part, or kSmall
-  std::vector<std::uint32_t> example;  ///< by part: its first voxel
+  std::vector<std::uint32_t> of;       ///< for each voxel the number of its part, or kSmall
+  std::vector<std::uint32_t> example;  ///< for each part its first voxel
 
   std::size_t count() const { return example.size(); }
 };

@@ -17,19 +17,20 @@ Barcode signature(const SceneTree& scene, const SceneCut& cut,
   std::vector<bool> wanted(cut.segments.size() + 1);
   for (const std::uint32_t label : labels) {
     if (label == 0 || label > cut.segments.size())
-      throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
+      throw Error(ErrorKind::usage, fmt::format("segment: found {}, expected one of 1 to {}", label,
                                                 cut.segments.size()));
     wanted[label] = true;
   }
   const auto is_wanted = [&](std::uint32_t label) { return wanted[label]; };
   Points voxels(std::ranges::count_if(cut.vertex_labels, is_wanted), 3);
-  if (voxels.rows() == 0) throw Error(ErrorKind::usage, "the signature of no segment");
+  if (voxels.rows() == 0)
+    throw Error(ErrorKind::usage, "signature: found no segments, expected at least one");
   Index row = 0;
   for (std::size_t v = 0; v < cut.vertex_labels.size(); ++v) {
     if (!is_wanted(cut.vertex_labels[v])) continue;
     std::ranges::copy(scene.cells[v], voxels.row(row++).begin());
   }
-  // In voxels: the grid of the image is then that of the scene.
+  // In voxels, so that the grid of the image equals the scene's.
   PointImage image = voxel_image(voxels, 1, VoxelValue::distance, 1, context);
   const CubicalOptions touching{.construction = CubicalOptions::Construction::cells};
   const Options options{.max_dim = 2, .min_persistence = 1};

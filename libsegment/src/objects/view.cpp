@@ -9,8 +9,8 @@ namespace ph::segment {
 
 namespace {
 
-/// The edge of cells that are no more on a raster of this size than memory for the voxels allows: a
-/// few things that lie far apart have a raster that is nearly empty.
+/// The edge of the raster's cells, chosen so that the raster is not larger than the memory for the
+/// voxels allows: a few objects that lie far apart give a raster that is nearly empty.
 double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
   constexpr double cells_a_voxel = 16, fewest = 1 << 18, most_a_side = 2048;
   const double cells = std::max(fewest, cells_a_voxel * static_cast<double>(voxels));
@@ -21,7 +21,7 @@ double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
 
 View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     : ranges_(static_cast<std::size_t>(centroids.rows())), places_(ranges_.size(), {-1, -1}) {
-  constexpr double voxels_a_cell = 1.3;    // fewer leave gaps between neighbours
+  constexpr double voxels_a_cell = 1.3;    // fewer cells leave gaps between neighbours
   constexpr double smallest_cosine = 0.2;  // 78 degrees
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   const auto ray = [&](Voxel v) -> Eigen::Vector3d {
@@ -53,7 +53,7 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
   }
   if (!(low <= high).all()) return;
   cell = std::max(cell, least_cell(high - low, ranges_.size()));
-  if (!(cell > 0)) return;  // a viewpoint so far away that all lies in one direction
+  if (!(cell > 0)) return;  // a viewpoint so far away that everything lies in one direction
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
   height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;
   nearest_.assign(width_ * height_, kNone);

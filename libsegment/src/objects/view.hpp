@@ -9,9 +9,9 @@
 
 namespace ph::segment {
 
-/// The voxels as the sensor saw them: a raster of directions, of about a voxel a cell, with the
-/// nearest voxel in each; fewer and larger cells where there would be far more than voxels. What
-/// lies to the side of the middle by more than 78 degrees is left out.
+/// The voxels as the sensor saw them: a raster of directions with cells of about one voxel, and
+/// with the nearest voxel in each cell. Where there would be far more cells than voxels, the raster
+/// has fewer and larger cells. Voxels more than 78 degrees from the middle are left out.
 class View {
  public:
   using Voxel = std::uint32_t;
@@ -19,12 +19,12 @@ class View {
 
   View(const Points& centroids, double voxel, const Vec3& viewpoint);
 
-  /// Whether a voxel has a nearer one of another kind within two cells.
-  /// @param kind_of a voxel. @param nearer by how much, metres.
+  /// True if a nearer voxel of another kind lies within two cells of a voxel.
+  /// @param kind_of a voxel. @param nearer by this many metres.
   template <class KindOf>
   bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
-  /// How the straight line between two voxels is covered, without what is of the kind of its ends:
-  /// cells with something nearer than the line, and all cells.
+  /// How the straight line between two voxels is covered, ignoring voxels of the kind of its ends:
+  /// the number of cells with something nearer than the line, and of all cells.
   struct Cover {
     int hidden = 0, cells = 0;
   };
@@ -42,7 +42,7 @@ class View {
     return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
   }
   Voxel nearest(double x, double y) const { return nearest_[cell(x, y)]; }
-  /// Cells within kReach of one, in a row or a column.
+  /// The cells within kReach of a cell, in a row or a column.
   struct Window {
     std::size_t begin, end;
   };
@@ -56,8 +56,8 @@ class View {
   std::vector<Place> places_;   // negative: left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
-  std::vector<double> nearest_range_;  // of the nearest voxel, kInfinity without one
-  std::vector<double> least_range_;    // of all voxels within kReach cells
+  std::vector<double> nearest_range_;  // distance of the nearest voxel, kInfinity without one
+  std::vector<double> least_range_;    // the nearest of all voxels within kReach cells
 };
 
 template <class KindOf>

@@ -14,13 +14,13 @@
 namespace ph::segment {
 namespace {
 
-using Basin = std::uint32_t;  // by one of its voxels
+using Basin = std::uint32_t;  // a basin, named by one of its voxels
 
-/// All seams between basins, the weakest at hand.
+/// All seams between basins, the weakest first.
 class Seams {
  public:
   void add(Basin a, Basin b, double value) { values_[std::minmax(a, b)].push_back(value); }
-  /// After the last one was added.
+  /// To be called after the last one was added.
   void weigh() {
     for (const auto& [both, values] : values_) {
       neighbours_[both.first].insert(both.second);
@@ -33,12 +33,12 @@ class Seams {
     for (; !queue_.empty(); queue_.pop()) {
       const auto& [strength, both, size] = queue_.top();
       const auto seam = values_.find(both);
-      if (seam == values_.end() || seam->second.size() != size) continue;  // it is another by now
+      if (seam == values_.end() || seam->second.size() != size) continue;  // it has changed
       return strength < least ? std::optional(both) : std::nullopt;
     }
     return std::nullopt;
   }
-  /// What was a seam of `gone` becomes one of `kept`.
+  /// The seams of `gone` become seams of `kept`.
   void join(Basin kept, Basin gone) {
     for (const Basin other : neighbours_[gone]) {
       auto seam = values_.extract(std::minmax(gone, other));
@@ -67,7 +67,7 @@ class Seams {
 
   std::map<Both, Values> values_;
   std::map<Basin, std::set<Basin>> neighbours_;
-  /// By strength. Those that have grown since are known by their sizes.
+  /// Ordered by strength. A seam that has grown since is recognised by its size.
   using Weighed = std::tuple<double, Both, std::size_t>;
   std::priority_queue<Weighed, std::vector<Weighed>, std::greater<>> queue_;
 };
@@ -86,14 +86,14 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
                 std::max(births[pair.u], births[pair.v]));
   }
   seams.weigh();
-  std::map<Basin, Basin> into;  // of those that are gone
+  std::map<Basin, Basin> into;  // the basin that took in each one that is gone
   while (const auto both = seams.weakest(least)) {
     context.poll();
     seams.join(both->first, both->second);
     into[both->second] = both->first;
   }
   std::vector<Index> left = basin_of;
-  for (auto& [gone, kept] : into)  // the smaller number stays, so it is at its end already
+  for (auto& [gone, kept] : into)  // the smaller number stays, and is therefore already at its end
     if (const auto further = into.find(kept); further != into.end()) kept = further->second;
   for (Index& basin : left)
     if (const auto gone = into.find(static_cast<Basin>(basin)); gone != into.end())

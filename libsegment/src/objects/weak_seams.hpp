@@ -8,13 +8,15 @@
 
 namespace ph::segment {
 
-/// Joins basins that are kept apart by less than a seam. Persistence judges a seam by its lowest
-/// place, where noise and a seam may look alike; over their whole lengths they do not. The strength
-/// of a seam is the lower quartile of the filtration along it. The weakest one goes first, and what
-/// it kept apart is one basin for all that come after it.
+/// Joins basins that a seam separates too weakly. Persistence judges a seam by its lowest place,
+/// where noise and a true seam may look alike; over the whole length they differ. The strength of a
+/// seam is the lower quartile of the filtration along it. The weakest seam goes first, and the two
+/// basins at it count as one from then on.
 /// @param basin_of each voxel: one of the voxels of its basin. @param births of the voxels.
-/// @param pairs those closer than `radius` have an edge, its value the later of the two births.
-/// @param least strength of a seam that stays. @return the same for the basins that are left.
+/// @param pairs with a distance below `radius` have an edge, whose value is the later of the two
+///     births.
+/// @param least strength of a seam that stays. @return for each voxel one of the voxels of its
+///     final basin.
 /// @throws Error (cancelled) as `context` asks.
 std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
                                         const std::vector<double>& births,

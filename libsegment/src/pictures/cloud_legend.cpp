@@ -12,7 +12,7 @@ namespace ph::segment {
 namespace {
 
 constexpr std::size_t kMostListed = 16;
-// Of the picture, in which a number stands for itself: pixels that are 88 mm / 1040 each.
+// The width of the picture; pixels have 88 mm / 1040.
 constexpr double kDigitWidth = 17, kDigitHeight = 28;
 
 /// "12,345"
@@ -23,7 +23,7 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-/// Whether two numbers in the picture would cover each other.
+/// True if two numbers in the picture would cover each other.
 bool collide(const ColouredPicture::Mark& a, const ColouredPicture::Mark& b) {
   const double width = kDigitWidth * static_cast<double>(a.text.size() + b.text.size()) / 2;
   return std::abs(a.x - b.x) < width && std::abs(a.y - b.y) < kDigitHeight;
@@ -37,7 +37,7 @@ ColouredPicture with_legend(CloudPicture picture, std::span<const std::uint32_t>
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(), points_of);
-  // One that would be the only other is listed itself.
+  // If only one segment would be counted as other, it is listed itself.
   const std::size_t listed = order.size() <= kMostListed + 1 ? order.size() : kMostListed;
 
   ColouredPicture result;

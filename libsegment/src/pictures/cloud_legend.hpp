@@ -5,10 +5,10 @@
 
 namespace ph::segment {
 
-/// The picture with what its colours mean: the largest segments by number, with their points, how
-/// many others there are, and the points in none. Those listed have their number on the picture
-/// where there is room for it.
-/// @param numbers what each segment is called; empty: by its label.
+/// The picture with a legend of its colours: the largest segments by number and with their points,
+/// the number of other segments, and the points in none. Listed segments have their number on the
+/// picture where there is room for it.
+/// @param numbers the names of the segments; empty: their labels.
 ColouredPicture with_legend(CloudPicture picture, std::span<const std::uint32_t> colours,
                             std::span<const std::uint32_t> numbers);
 

@@ -21,21 +21,21 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kSide = 1040;  // pixels
-constexpr int kFiner = 2;       // the picture is drawn so much larger, then averaged
+constexpr int kFiner = 2;       // the picture is drawn this many times larger, then averaged
 constexpr double kMargin = 0.12;
-constexpr int kUsual = 190;        // brightness of what has neither colour nor normal
-constexpr double kNearest = 0.02;  // of the distance of the eye: what is nearer is behind it
+constexpr int kUsual = 190;        // brightness of points with neither colour nor normal
+constexpr double kNearest = 0.02;  // share of the eye's distance; nearer is behind the eye
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// What is drawn: all points but holes.
+/// The points that are drawn: all except holes.
 struct Shown {
   std::vector<Vector3d> points;
   std::vector<std::uint32_t> colours, labels;
   std::vector<std::uint32_t> segments;  ///< places of the points in one
 };
 
-/// The same hue, as bright as what the camera saw.
+/// The hue of a segment, as bright as the camera saw the point.
 std::uint32_t shaded(std::uint32_t colour, int grey) {
   std::uint32_t result = 0;
   for (const int shift : {16, 8, 0}) {
@@ -50,7 +50,7 @@ std::uint32_t light_grey(int grey) {
   return light << 16 | light << 8 | light;
 }
 
-/// How bright a surface of these normals is that is lit from where the sensor stood.
+/// The brightness of a surface with these normals that is lit from the sensor's position.
 std::vector<int> lit(const SceneTree& scene) {
   constexpr int dark = 40;
   const Vector3d eye = vector(scene.viewpoint);
@@ -71,7 +71,7 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
   const bool coloured = cloud && cloud->rgb();
   const std::vector<int> grey = coloured ? brightness(*cloud) : lit(scene);
   Shown shown;
-  std::size_t next = 0;  // of the points that have a vertex
+  std::size_t next = 0;  // index among the points with a vertex
   for (std::size_t k = 0; k < xyz.size() / 3; ++k) {
     const std::size_t i = cloud ? k : static_cast<std::size_t>(scene.points[k]);
     const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
@@ -87,13 +87,13 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
   return shown;
 }
 
-/// Which way is up. A camera sees y downwards; what else there may be has z upwards.
+/// The upward direction. Cameras have y downwards; other clouds have z upwards.
 Vector3d up_of(const SceneTree& scene) {
   if (scene.height > 1) return {0, -1, 0};
   return scene.plane ? vector(scene.plane->normal) : Vector3d(0, 0, 1);
 }
 
-/// An eye with a direction, and the part of what it sees that fills the picture.
+/// An eye with a direction, and the section of its view that fills the picture.
 class Camera {
  public:
   Camera(const Shown& shown, const SceneTree& scene, const ViewTurn& turn) {
@@ -103,7 +103,7 @@ class Camera {
     const Vector3d middle = box.center();
     const Vector3d from_sensor = middle - vector(scene.viewpoint);
     const double size = std::max(box.diagonal().norm(), 1e-9);
-    // A sensor in the middle of what it saw: from anywhere.
+    // For a sensor in the middle of the scene: the eye may be anywhere.
     const bool outside = from_sensor.norm() > 0.25 * size;
     forward_ = outside ? from_sensor.normalized() : Vector3d(0, 1, 0);
     distance_ = outside ? from_sensor.norm() : 2 * size;
@@ -111,7 +111,7 @@ class Camera {
     if (forward_.cross(up).norm() < 1e-6) up = forward_.unitOrthogonal();
     right_ = forward_.cross(up).normalized();
     constexpr double degree = std::numbers::pi / 180;
-    // What stands on a plane goes on standing upright.
+    // Objects on a plane keep standing upright.
     const Vector3d upright = scene.plane ? vector(scene.plane->normal) : up;
     const Eigen::AngleAxisd around(turn.right * degree, upright.normalized());
     right_ = around * right_;
@@ -142,11 +142,11 @@ class Camera {
     if (!at) return std::nullopt;
     return scale_ * (*at - low_);
   }
-  /// Pixels that a length takes at a depth.
+  /// The pixels that a length takes at a depth.
   double scale_at(double depth) const { return scale_ / depth; }
 
  private:
-  /// The segments, or all if there are none.
+  /// The points of segments, or all points if there are none.
   template <class Visit>
   static void for_each_framed(const Shown& shown, Visit&& visit) {
     for (const std::uint32_t i : shown.segments) visit(shown.points[i]);
@@ -168,8 +168,8 @@ class Camera {
   std::array<int, 2> pixels_{kFiner, kFiner};
 };
 
-/// How far points are from each other, metres, as the voxels say; those of a camera the farther,
-/// the farther it was.
+/// The distance between neighbouring points, metres, derived from the voxels; for a camera it grows
+/// with the range.
 class Spacing {
  public:
   explicit Spacing(const SceneTree& scene)
@@ -199,7 +199,7 @@ struct Pixel {
   std::uint32_t point = kNoPoint;
 };
 
-/// Each point as a square that is about as large as the surface it stands for.
+/// Draws each point as a square about as large as the piece of surface that it represents.
 std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing& spacing) {
   constexpr double least = 2, most = 40, overlap = 1.5;  // pixels, pixels, of squares
   std::vector<Pixel> pixels(static_cast<std::size_t>(camera.width() * camera.height()));
@@ -228,7 +228,7 @@ std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing&
   return pixels;
 }
 
-/// Darker where something beside it is much nearer, so that outlines are seen: eye-dome lighting
+/// Darkens a pixel beside something much nearer, so that outlines become visible: eye-dome lighting
 /// (Boucheny 2009).
 double light_at(const std::vector<Pixel>& pixels, int width, int height, int x, int y) {
   constexpr int reach = 3;
@@ -273,13 +273,13 @@ Raster averaged(const Shown& shown, const std::vector<Pixel>& pixels, int width,
   return raster;
 }
 
-/// Where a number may stand on what is seen of each segment: among the pixels with the most of it
-/// around them, the nearest to its middle.
+/// Where to write the number of each segment: among the visible pixels with the most of the segment
+/// around them, the one nearest to its middle.
 std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
                                                              const std::vector<Pixel>& pixels,
                                                              int width, int height,
                                                              std::size_t segments) {
-  constexpr std::size_t fewest = 80;  // pixels of the picture in which a number can be read
+  constexpr std::size_t fewest = 80;  // pixels of the picture that a legible number needs
   const auto label_at = [&](int x, int y) -> std::uint32_t {
     if (x < 0 || y < 0 || x >= width || y >= height) return 0;
     const std::size_t place =
@@ -305,7 +305,7 @@ std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
     seen[i].x += x;
     seen[i].y += y;
   });
-  /// How many of these distances one can go to each side and still be on the segment.
+  /// How many of these distances can be walked to each side without leaving the segment.
   const auto room_at = [&](int x, int y) {
     const std::uint32_t label = label_at(x, y);
     int room = 0;

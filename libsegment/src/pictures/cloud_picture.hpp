@@ -13,30 +13,32 @@
 
 namespace ph::segment {
 
-/// Where to look from: the eye goes around the middle of the segments, from where the sensor stood,
-/// to the right (about the normal of the plane, where one was removed) and then up. Degrees.
+/// The direction of view: the eye moves around the middle of the segments, starting where the
+/// sensor stood, first to the right (about the normal of the plane if one was removed) and then up.
+/// Degrees.
 struct ViewTurn {
   double right = 0;
   double up = 0;
 };
 
-/// What is seen of a scene.
+/// The visible points of a scene.
 struct CloudPicture {
   Raster raster;
-  /// How many points each segment has, behind those in none (place 0); without holes.
+  /// How many points each segment has, after the points in no segment (place 0); without holes.
   std::vector<std::size_t> points;
-  /// The pixel where the number of each segment may stand; none of one that is hardly seen.
+  /// The pixel where the number of each segment may stand; empty for a segment that is hardly
+  /// visible.
   std::vector<std::optional<std::array<double, 2>>> middles;
 };
 
-/// A colour as it is in the picture, where the scene is of medium brightness. @param colour none:
-/// in no segment.
+/// A colour as it appears in the picture where the scene is of medium brightness. @param colour
+/// empty: the colour of points in no segment.
 std::uint32_t colour_in_picture(std::optional<std::uint32_t> colour);
 
-/// A picture of a scene, RGB, no more than 1040 pixels a side (88 mm at 300 dots an inch): segments
-/// in their colours, all else in light grey, what is hidden by something nearer left out. The
-/// segments fill it; perspective is that of an eye as far away as the sensor was.
-/// @param cloud null: only the points that have a vertex are there.
+/// A picture of a scene, RGB, at most 1040 pixels per side (88 mm at 300 dots per inch). Segments
+/// have their colours, all other points are light grey, and hidden points are left out. The
+/// segments fill the picture; the perspective is that of an eye as far away as the sensor was.
+/// @param cloud null: only the points that have a vertex exist.
 /// @param colours of each segment, 0x00RRGGBB. @throws Error (resource).
 CloudPicture cloud_picture(const Cloud* cloud, const SceneTree& scene,
                            std::span<const std::uint32_t> labels,

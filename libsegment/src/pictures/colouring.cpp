@@ -29,7 +29,7 @@ Neighbours neighbours_in_image(Index width, Index height, const SceneCut& s) {
   const auto label = [&](Index x, Index y) {
     return s.labels[static_cast<std::size_t>(y * width + x)];
   };
-  std::uint64_t last = 0;  // consecutive pixels tell the same: keep the lists short
+  std::uint64_t last = 0;  // consecutive pixels repeat themselves: keep the lists short
   for (Index y = 0; y < height; ++y) {
     for (Index x = 0; x < width; ++x) {
       const std::uint32_t a = label(x, y);
@@ -187,7 +187,8 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
   const auto differs = [&](Index x, Index y, std::uint32_t label) {
     return x >= 0 && y >= 0 && x < width && y < height && at(x, y) != label;
   };
-  // An outline is drawn towards what is more than a speck: gaps of a few pixels have none.
+  // An outline separates a segment only from regions larger than a speck: gaps of a few pixels get
+  // none.
   const auto ends_at = [&](Index x, Index y, Index dx, Index dy, std::uint32_t label) {
     return differs(x + dx, y + dy, label) && differs(x + kReach * dx, y + kReach * dy, label);
   };
@@ -202,7 +203,7 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
         c = {255, 255, 255};
       } else if (label != 0) {
         const Rgb tint = unpack(colours[label - 1]);
-        // 70 % colour, 30 % of what the camera saw: the hue stays the palette's.
+        // 70 % colour, 30 % of the camera's brightness: the hue stays the palette's.
         c = {(7 * tint.r + 3 * g) / 10, (7 * tint.g + 3 * g) / 10, (7 * tint.b + 3 * g) / 10};
       }
       for (const int channel : {c.r, c.g, c.b}) {

@@ -10,35 +10,35 @@
 
 namespace ph::segment {
 
-/// Which segments are beside each other for who looks at them: neighbours[i] lists the segments
-/// (labels less one) beside segment i, ascending. In an image those less than five pixels apart,
-/// though one may stand far behind the other; in a cloud without rows those that touch
+/// The segments that look adjacent to a viewer: neighbours[i] lists the segments (labels less one)
+/// beside segment i, ascending. In an image, these are segments less than five pixels apart, even
+/// if one stands far behind the other; in a cloud without rows, they are touching segments
 /// (Segment::neighbours).
 std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
                                                             const SceneCut& cut);
 
-/// A colour a segment, 0x00RRGGBB, from a palette that people with any common kind of colour
-/// blindness can tell apart (Okabe & Ito 2008). Neighbours differ as long as no segment has more
-/// than six; the rest of the palette is spread evenly.
+/// One colour per segment, 0x00RRGGBB, from a palette that works with any common kind of colour
+/// blindness (Okabe & Ito 2008). Neighbours differ as long as no segment has more than six; the
+/// rest of the palette is used evenly.
 std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::size_t>>& neighbours);
 
-/// The same palette by the number of an object, from 1: it keeps its colour in a stream.
+/// The same palette by the number of an object, from 1: the object keeps its colour in a stream.
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
 
-/// The colours of the segments in pictures and reports: by number where they have `numbers`, else
-/// such that neighbours differ. @param cloud null: a stored tree was cut.
+/// The colours of the segments in pictures and reports: by number if they have `numbers`, else such
+/// that neighbours differ. @param cloud null: a stored tree was cut.
 std::vector<std::uint32_t> shown_colours(const Cloud* cloud, const SceneCut& cut,
                                          std::span<const std::uint32_t> numbers);
 
-/// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, near is bright.
+/// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, where near is bright.
 std::vector<int> brightness(const Cloud& cloud);
 
-/// The points with x, y, z, `rgba` and `label`: segments in their colours, all else in grey, as
-/// bright as it was. Same points, order and organisation.
+/// The points with x, y, z, `rgba` and `label`: segments in their colours, all other points in
+/// grey, with their brightness. Points, order and organisation are kept.
 Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,
                      std::span<const std::uint32_t> colours);
 
-/// A picture of an organised cloud, RGB: its colours (without any, its depth) in grey, segments
+/// A picture of an organised cloud, RGB: its colours (or else its depth) in grey, with segments
 /// tinted and outlined.
 /// @throws Error (bad_data) if the cloud is not organised.
 Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,

@@ -11,15 +11,16 @@
 namespace ph::segment {
 namespace {
 
-/// The plane as squared paper around the foot of the viewpoint. It repeats itself so far away that
-/// squares which are taken for one are only in the way of each other. Each square has 64 parts.
+/// The plane, divided into squares around the foot of the viewpoint. The numbering of the squares
+/// repeats itself, but only so far away that two squares with one number merely exclude each other.
+/// Each square has 64 parts.
 class SquaredPaper {
  public:
   static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
-  /// Points that follow each other over one square.
+  /// Consecutive points over one square.
   struct Run {
     std::uint32_t square;
-    std::uint64_t parts;  ///< a bit for each that they are over
+    std::uint64_t parts;  ///< one bit for each part that they cover
     std::size_t points;   ///< how many
   };
 
@@ -32,7 +33,7 @@ class SquaredPaper {
     constexpr double middle = kColumns * kParts / 2;
     origin_ = Eigen::Array2d(middle - across.dot(eye), middle - along.dot(eye));
   }
-  /// Calls `use` for each run: points in the order of an image stay over a square for long.
+  /// Calls `use` for each run: in the order of an image, many points in a row lie over one square.
   template <class Use>
   void for_each_run(const std::vector<Index>& points, Use&& use) const {
     Run run{};
@@ -48,7 +49,7 @@ class SquaredPaper {
     }
     if (run.points > 0) use(run);
   }
-  /// The square of the distance of its centre from the foot, in sides.
+  /// The square of the distance of the square's centre from the foot, in sides.
   static double farness(std::size_t square) {
     const auto away = [](std::size_t column) {
       return static_cast<double>(column) - (static_cast<double>(kColumns) - 1) / 2;
@@ -62,8 +63,8 @@ class SquaredPaper {
 
   /// Column and row, in parts.
   std::array<std::uint32_t, 2> place_of(const float* p) const {
-    // Beside this number neighbouring doubles differ by one: the sum is rounded, its last bits are
-    // a whole number, negative ones too. What is farther away than that is over any part.
+    // Near this number, neighbouring doubles differ by one: the sum is rounded, and its last bits
+    // are a whole number, even a negative one. Points farther away may get any part.
     constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;  // rounds down
     const Eigen::Array2d place = steps_[0] * p[0] + steps_[1] * p[1] + steps_[2] * p[2] + origin_;
     const Eigen::Array2d shifted = (place - half) + whole;
@@ -74,11 +75,11 @@ class SquaredPaper {
   }
 
   const CloudView& cloud_;
-  std::array<Eigen::Array2d, 3> steps_;  // columns and rows a metre along each axis of the cloud
+  std::array<Eigen::Array2d, 3> steps_;  // columns and rows per metre along each axis of the cloud
   Eigen::Array2d origin_;
 };
 
-/// Evenly by how far they are.
+/// Chooses squares evenly by their distance.
 std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t most) {
   std::ranges::sort(squares, {},
                     [](std::size_t s) { return std::pair(SquaredPaper::farness(s), s); });
@@ -93,9 +94,9 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
-  constexpr std::size_t most = 24;  // squares: what it takes is bounded
-  // Parts, not points: points that are there twice tell nothing new.
-  constexpr int most_above = 2;  // an object covers more, flying pixels fewer
+  constexpr std::size_t most = 24;  // number of squares: bounds the work
+  // Parts, not points: duplicate points carry no information.
+  constexpr int most_above = 2;  // an object covers more parts, flying pixels fewer
   constexpr int fewest = 32;     // of 64
   const SquaredPaper paper(cloud, plane, side);
   std::vector<std::uint64_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);

@@ -12,8 +12,8 @@ namespace ph::segment {
 namespace {
 
 constexpr std::size_t kMostLookedAt = 20000;
-constexpr double kCell = 4;         // margins: a square of the plane that a point stands for
-constexpr double kFewBehind = 0.1;  // with fewer nothing else is looked at
+constexpr double kCell = 4;  // side, in margins, of the square of the plane that a point represents
+constexpr double kFewBehind = 0.1;  // with fewer points nothing else is examined
 
 }  // namespace
 
@@ -26,7 +26,7 @@ PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, 
   const Squares squares(plane, kCell * margin.distance);
   std::vector<const float*> on;
   std::vector<Eigen::Vector3d>
-      through;  // where the line of sight to a point behind meets the plane
+      through;  // where the line of sight to a point behind the plane meets it
   std::size_t before = 0;
   for (std::size_t k = 0; k < points.size(); k += step) {
     const float* p = cloud.point(static_cast<std::size_t>(points[k]));

@@ -6,10 +6,10 @@
 
 namespace ph::segment {
 
-/// How much of a cloud its supporting plane should have hidden from the viewpoint: a sensor sees
-/// past the edge of a table but not through it, so that much of it says that the viewpoint is
-/// wrong. Looks at some thousands of the points.
-/// @param points those in range, none of them a hole.
+/// The share of a cloud that its supporting plane should have hidden from the viewpoint. A sensor
+/// sees past the edge of a table but not through the table: a large share means that the viewpoint
+/// is wrong. Looks at some thousands of the points.
+/// @param points the points in range, without holes.
 PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                       const PlaneMargin& margin);
 

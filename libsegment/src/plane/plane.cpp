@@ -14,9 +14,11 @@ namespace {
 
 constexpr std::size_t kSample = 4096;  // points that take part in the refits
 constexpr std::size_t kScored = 1024;  // points that score a hypothesis
-constexpr int kHypotheses = 500;       // finds a plane of a quarter of the points with 99.96 %
+constexpr int kHypotheses =
+    500;  // finds a plane with a quarter of the points with probability 99.96 %
 constexpr int kRefits = 4;
-constexpr double kSmallestShare = 0.1;  // a plane with fewer of the points supports nothing
+constexpr double kSmallestShare =
+    0.1;  // a plane with a smaller share of the points supports nothing
 
 /// Mixes the bits of a word (the finaliser of splitmix64, Steele, Lea & Flood 2014).
 std::uint64_t mix(std::uint64_t x) {
@@ -25,9 +27,9 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// A hash of the sign and the mantissa of each coordinate: the same after scaling by 2^k. Strongly
-/// universal in its upper half (multiply-shift of vectors; M. Thorup, High speed hashing for
-/// integers and strings, 2015).
+/// A hash of the sign and the mantissa of each coordinate: scaling by 2^k does not change it.
+/// Strongly universal in its upper half (multiply-shift of vectors; M. Thorup, High speed hashing
+/// for integers and strings, 2015).
 std::uint64_t hash_of(const float* p) {
   const auto word = [](float x) -> std::uint64_t {
     constexpr std::uint32_t no_exponent = 0x807fffffU;
@@ -44,8 +46,8 @@ struct Sample {
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// The kSample distinct points of smallest hash (all, if there are fewer), by hash: a random sample
-/// in random order that is a function of the set of points alone.
+/// The kSample distinct points with the smallest hashes (or all, if there are fewer), by hash: a
+/// random sample in random order that depends on the set of points alone.
 Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points) {
   struct Drawn {
     std::uint64_t hash;
@@ -84,8 +86,9 @@ struct Candidate {
   double offset = 0;
 };
 
-/// The sum of squared distances of the first `count` points, each in units of `distance` and cut
-/// at one (the score of MSAC): small is good. Only a lower bound once that is `enough`.
+/// The sum of the squared distances of the first `count` points, each in units of `distance` and
+/// capped at one (the score of MSAC): small is good. It is only a lower bound once it reaches
+/// `enough`.
 double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance,
                double enough) {
   const double nx = plane.normal.x() / distance, ny = plane.normal.y() / distance;
@@ -101,7 +104,7 @@ double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, 
   return cost;
 }
 
-/// The best of kHypotheses planes through three points of the sample; nothing if all are collinear.
+/// The best of kHypotheses planes through three points of the sample; empty if all are collinear.
 std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) {
   const std::size_t scored = std::min(sample.size(), kScored);
   std::uint64_t state = 0;  // a fixed seed: the same input gives the same plane
@@ -115,7 +118,7 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
     const Eigen::Vector3d a = any(), b = any(), c = any();
     const Eigen::Vector3d normal = (b - a).cross(c - a);
     const double area = normal.norm();
-    // Thinner than the plane: its direction would be noise.
+    // The triangle is thinner than the plane: its direction would be noise.
     if (!(area > distance * (b - a).norm()) || !(area > distance * (c - a).norm())) continue;
     const Candidate plane{normal / area, -normal.dot(a) / area};
     const double cost = cost_of(plane, sample, scored, distance, best_cost);
@@ -127,8 +130,8 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
   return best;
 }
 
-/// The least-squares plane of the points within `distance` of a plane; nothing if they are
-/// collinear. Adds in the order of the sample, so the sum is repeatable.
+/// The least-squares plane of the points within `distance` of a plane; empty if they are collinear.
+/// The sum is repeatable, because it follows the order of the sample.
 std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, double distance) {
   std::vector<std::size_t> inliers;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -169,7 +172,7 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, co
   return share >= (1 - most_lost) * guess->share ? std::optional(plane) : std::nullopt;
 }
 
-/// 0 of nothing.
+/// 0 if there are none
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -187,7 +190,7 @@ double range_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint,
   return median(ranges);
 }
 
-/// See PlaneSearch::noise. @param reach what lies farther behind is another surface.
+/// See PlaneSearch::noise. @param reach points farther behind belong to another surface.
 double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double reach) {
   constexpr std::size_t fewest = 30;
   constexpr double median_of_half_normal = 0.6745;  // in standard deviations
@@ -207,10 +210,10 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const std::optional<Plane>& guess) {
   if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
   const Sample sample = draw_sample(cloud, points);
-  // Twice the thickness while searching: three noisy points seldom give the plane to a millimetre.
+  // Searches with twice the thickness: three noisy points seldom give the plane to a millimetre.
   std::optional<Candidate> found = as_good_as_before(guess, sample, distance);
   if (!found) found = best_hypothesis(sample, 2 * distance);
-  if (!found) return {std::nullopt, "no plane: the points in range lie on a line or in a spot"};
+  if (!found) return {std::nullopt, "no plane: the points in range lie on a line or at one point"};
   for (int i = 0; i < kRefits; ++i) {
     const std::optional<Candidate> better = refit(*found, sample, i == 0 ? 2 * distance : distance);
     if (better) found = better;
@@ -229,16 +232,16 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
   }
   const Eigen::Vector3d& n = found->normal;
   const Plane plane{{n.x(), n.y(), n.z()}, found->offset, share};
-  constexpr double margins = 6;  // that noise may reach
+  constexpr double margins = 6;  // largest multiple of the margin that noise may reach
   return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance),
           range_of(plane, sample, cloud.viewpoint, distance)};
 }
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin) {
-  constexpr double lowest_share = 0.2;  // of the margin
+  constexpr double lowest_share = 0.2;  // share of the margin
   Cleared cleared;
-  cleared.on.reserve(points.size());  // no more of it is touched than what is written
+  cleared.on.reserve(points.size());  // only the memory that is written is touched
   for (const Index i : points) {
     const float* p = cloud.point(static_cast<std::size_t>(i));
     const double height = plane.signed_distance(p[0], p[1], p[2]);
@@ -254,14 +257,14 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
 }
 
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin) {
-  constexpr std::size_t many = 40000;  // of which a share of one in a hundred is clear
+  constexpr std::size_t many = 40000;  // samples, enough to show a share of one in a hundred
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / many);
   std::size_t all = 0, behind = 0;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     const float* p = cloud.point(i);
     const double limit = margin(cloud, p), height = plane.signed_distance(p[0], p[1], p[2]);
     all += std::isfinite(height) ? 1U : 0U;
-    behind += height < -limit ? 1U : 0U;  // not of a hole
+    behind += height < -limit ? 1U : 0U;  // not a hole
   }
   return all == 0 ? 0 : static_cast<double>(behind) / static_cast<double>(all);
 }

@@ -10,32 +10,32 @@
 
 namespace ph::segment {
 
-/// What the search for the supporting plane found.
+/// The result of the search for the supporting plane.
 struct PlaneSearch {
   std::optional<Plane> plane;
   std::string note;  ///< why there is none; empty if there is one
   /// Standard deviation of the heights of its points at a range of one unit, if it grows with the
-  /// square of the range. Told from the points behind the plane, where no object is.
+  /// square of the range. Estimated from the points behind the plane, where no object is.
   double noise = 0;
   double range = 0;  ///< median distance of its points from the viewpoint
 };
 
-/// The supporting plane: the plane on which most of the points lie, by RANSAC on a sample (Fischler
-/// & Bolles 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits. O(points)
-/// with a fixed number of hypotheses: the worst case is as fast as the best. The sample is drawn by
-/// a hash of the coordinates, so that neither the order of the points nor duplicates nor scaling
-/// everything by a power of two change the plane.
+/// The supporting plane: the plane with the most points, by RANSAC on a sample (Fischler & Bolles
+/// 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits. O(points) with a fixed
+/// number of hypotheses: the worst case is as fast as the best. A hash of the coordinates draws the
+/// sample, so that the plane does not depend on the order of the points, duplicates, or scaling by
+/// a power of two.
 /// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, metres, > 0. @param guess taken instead of a
-/// hypothesis if nearly as many of the points lie on it as its share says.
+/// @param distance half the thickness of the plane, metres, > 0. @param guess replaces a hypothesis
+/// if nearly as many of the points lie on it as its share says.
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
                        const std::optional<Plane>& guess = {});
 
-/// How near to a plane points count as part of it.
+/// How near to a plane a point must be to count as part of it.
 struct PlaneMargin {
   double distance;  ///< metres
-  /// At least this, metres at a range of one metre: the noise of depth from disparity, which grows
-  /// with the square of the range (Khoshelham & Elberink 2012).
+  /// The least margin in metres at a range of one metre: the noise of depth from disparity, which
+  /// grows with the square of the range (Khoshelham & Elberink 2012).
   double noise = 0;
 
   double operator()(const CloudView& cloud, const float* p) const {
@@ -45,21 +45,21 @@ struct PlaneMargin {
   }
 };
 
-/// Points in range, sorted out by a plane.
+/// The points in range, divided by a plane.
 struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
   std::vector<Index> on;      ///< within the margin, on either side: part of the plane
-  std::vector<Index> strip;  ///< those of `on` that are on the sensor's side, but not in the lowest
-                             ///< fifth of the margin, where nothing can be told from the plane
+  std::vector<Index> strip;   ///< those of `on` on the sensor's side, but not in the lowest
+                              ///< fifth of the margin, where they look like the plane itself
 };
 
-/// Removes what lies on the plane or behind it (the floor beyond a table's edge, reflections): it
-/// stands on nothing. All lists are in the order of `points`.
+/// Removes the points on the plane or behind it (the floor beyond a table's edge, reflections),
+/// because they stand on nothing. All lists are in the order of `points`.
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin);
 
-/// The share of all points of a cloud, holes aside, that lie behind a plane and beyond the margin;
-/// of a large cloud, by one point in some.
+/// The share of all points of a cloud, without holes, that lie behind a plane and beyond the
+/// margin; in a large cloud, a sample of the points.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
 
 /// The cosine of the angle between two planes, below zero if they face each other.

@@ -10,31 +10,33 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kSample = 4096;         // points that are looked at
-constexpr std::size_t kFewest = 100;     // with fewer nothing is said
-constexpr double kNear = 0.1;            // of the range: as good as the same place
-constexpr double kSure = 0.05;           // of the range: where two halves of the points agree
-constexpr double kGoodPixels = 0.5;      // a pinhole camera explains its pixels as well as this
-constexpr double kTimesWorse = 5;        // the viewpoint is wrong if it explains them so much worse
-constexpr double kOutlierPixels = 3;     // a pixel that is off by more shows something else
+constexpr double kSample = 4096;      // points that are looked at
+constexpr std::size_t kFewest = 100;  // with fewer points the result is empty
+constexpr double kNear = 0.1;         // share of the range: as good as the same place
+constexpr double kSure = 0.05;  // share of the range within which two halves of the points agree
+constexpr double kGoodPixels = 0.5;   // a pinhole camera explains its pixels as well as this
+constexpr double kTimesWorse = 5;     // a viewpoint that explains the pixels so much worse is wrong
+constexpr double kOutlierPixels = 3;  // a pixel with a larger error shows something else
 constexpr double kFewestInliers = 0.75;  // share of all
 constexpr double kFar = 20;              // spreads of the points: parallel rays meet farther away
 
-/// What a pixel shows, all numbers about one: the middle of all is 0 and the mean square 1.
+/// The position that a pixel shows. All numbers are about one: the mean over all pixels is 0 and
+/// the mean square is 1.
 struct Sighting {
   Eigen::Vector3d point;
   Eigen::Vector2d pixel;
 };
 using Sightings = std::vector<Sighting>;
 
-/// What made them so.
+/// The shift and the scales of this normalisation.
 struct Frame {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double spread = 0;  // of the points, in the unit of the cloud
   double pixels = 0;  // one unit of Sighting::pixel
 };
 
-/// The sum of v vᵀ of vectors of N numbers, plain and times what a pixel adds to the equations.
+/// The sum of v vᵀ of vectors of N numbers, plain and weighted by the terms that a pixel adds to
+/// the equations.
 template <int N>
 struct Equations {
   using Square = Eigen::Matrix<double, N, N>;
@@ -47,7 +49,7 @@ struct Equations {
     v += pixel.y() * product;
     squares += pixel.squaredNorm() * product;
   }
-  /// The matrix that takes each vector to its pixel (up to a factor), by least squares.
+  /// The matrix that maps each vector to its pixel (up to a factor), by least squares.
   Eigen::Matrix<double, 3, N> solved() const {
     Eigen::Matrix<double, 3 * N, 3 * N> all;
     const Square zero = Square::Zero();
@@ -64,7 +66,7 @@ struct Equations {
 /// x, y, z, 1.
 Eigen::Vector4d place_of(const Sighting& s) { return s.point.homogeneous(); }
 
-/// The matrix for all, `seen_by` (sighting) being the vector that stands for the point.
+/// The matrix for all sightings; `seen_by` (sighting) is the vector that represents the point.
 template <int N, class SeenBy>
 Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, std::size_t first = 0,
                                 std::size_t step = 1) {
@@ -74,8 +76,8 @@ Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, st
   return equations.solved();
 }
 
-/// How far off each pixel is, in units of Sighting::pixel; infinite for what lies beside the image
-/// of everything.
+/// The error of each pixel, in units of Sighting::pixel; infinite for a point whose image lies
+/// outside every image.
 template <int N, class SeenBy>
 std::vector<double> errors_of(const Eigen::Matrix<double, 3, N>& matrix, const Sightings& sightings,
                               SeenBy&& seen_by, std::size_t step = 1) {
@@ -89,7 +91,7 @@ std::vector<double> errors_of(const Eigen::Matrix<double, 3, N>& matrix, const S
   return errors;
 }
 
-/// The root of the mean square, each error cut at `limit`.
+/// The root of the mean square, with each error capped at `limit`.
 double root_mean_square(const std::vector<double>& errors, double limit) {
   double sum = 0;
   for (const double e : errors) sum += std::min(e, limit) * std::min(e, limit);
@@ -102,7 +104,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Points of a raster of pixels.
+/// Points on a raster of pixels.
 Sightings sightings_of(const CloudView& cloud, Frame& frame) {
   const Index columns = cloud.columns(), rows = cloud.rows();
   const auto step = std::max<Index>(
@@ -142,7 +144,8 @@ using Projection = Eigen::Matrix<double, 3, 4>;
 
 /// The projection with the least median of errors among those through a few points each.
 Projection robust_fit(const Sightings& sightings) {
-  constexpr int hypotheses = 60, points = 12;  // a sixth of outliers: one in nine has none
+  // If a sixth of the points are outliers, one draw of 12 in nine has none.
+  constexpr int hypotheses = 60, points = 12;
   const std::size_t step = std::max<std::size_t>(1, sightings.size() / 1024);
   std::minstd_rand random;  // the same numbers each time
   Projection best = Projection::Zero();
@@ -162,7 +165,7 @@ Projection robust_fit(const Sightings& sightings) {
   return best;
 }
 
-/// Those that a projection explains to `limit`.
+/// The sightings that a projection explains to within `limit`.
 Sightings inliers_of(const Projection& projection, const Sightings& sightings, double limit) {
   const std::vector<double> errors = errors_of(projection, sightings, place_of);
   Sightings inliers;
@@ -175,7 +178,7 @@ Eigen::Vector3d centre_of(const Projection& projection) {
   return -projection.leftCols<3>().fullPivLu().solve(projection.col(3));
 }
 
-/// Whether all points, but for a few, lie on the same side of the camera.
+/// True if all points, except a few, lie on the same side of the camera.
 bool sees_forward(const Projection& projection, const Sightings& sightings) {
   constexpr double few = 0.05;
   const auto before = static_cast<double>(std::ranges::count_if(
@@ -184,7 +187,7 @@ bool sees_forward(const Projection& projection, const Sightings& sightings) {
   return share <= few || share >= 1 - few;
 }
 
-/// Of the points from a place.
+/// Directions of the points from a place.
 double median_range(const Sightings& sightings, const Eigen::Vector3d& from) {
   std::vector<double> ranges;
   for (const Sighting& s : sightings) ranges.push_back((s.point - from).norm());
@@ -201,7 +204,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   const double good = kGoodPixels / frame.pixels, outlier = kOutlierPixels / frame.pixels;
   const auto& [vx, vy, vz] = cloud.viewpoint;
   const Eigen::Vector3d viewpoint = (Eigen::Vector3d(vx, vy, vz) - frame.middle) / frame.spread;
-  // The projection from there is a homography of directions.
+  // The projection from this place is a homography of directions.
   const auto direction = [&viewpoint](const Sighting& s) -> Eigen::Vector3d {
     return (s.point - viewpoint).normalized();
   };
@@ -210,7 +213,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   const auto error_of_viewpoint = [&] {
     return root_mean_square(errors_of(fit<3>(sightings, direction), sightings, direction), 1);
   };
-  if (error_of_viewpoint() < good) return std::nullopt;  // so it is nearly always
+  if (error_of_viewpoint() < good) return std::nullopt;  // nearly always true
 
   const std::size_t all = sightings.size();
   Projection projection = fit<4>(sightings, place_of);

@@ -9,15 +9,15 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop) {
   const auto size = cloud.size();
   const auto& [vx, vy, vz] = cloud.viewpoint;
-  // Doubles hold the square of any float distance; those from a far viewpoint may be infinite.
+  // Doubles hold the square of any float distance; distances from a far viewpoint may be infinite.
   const double limit = max_range * max_range;
   std::vector<Index> kept;
-  kept.reserve(size);  // no more of it is touched than what is written
+  kept.reserve(size);  // only the memory that is written is touched
   for (std::size_t i = 0; i < size; ++i) {
     const float* p = cloud.point(i);
     const double dx = p[0] - vx, dy = p[1] - vy, dz = p[2] - vz;
     const double square = dx * dx + dy * dy + dz * dz;
-    // A coordinate that is not finite makes the sum NaN or infinite: one test for all three.
+    // A coordinate that is not finite makes the sum NaN or infinite: one test covers all three.
     const bool is_finite = std::isfinite(double{p[0]} + p[1] + p[2]);
     if (is_finite && square <= limit) kept.push_back(static_cast<Index>(i));
   }

@@ -6,8 +6,8 @@
 
 namespace ph::segment {
 
-/// The points that are no hole, at most `max_range` metres from the viewpoint and, with a crop box,
-/// inside it. Ascending indices. @param max_range >= 0, may be infinite.
+/// The points that are not holes, lie at most `max_range` metres from the viewpoint and, with a
+/// crop box, lie inside it. Ascending indices. @param max_range >= 0, may be infinite.
 std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop);
 

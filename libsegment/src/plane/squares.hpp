@@ -8,7 +8,7 @@
 
 namespace ph::segment {
 
-/// A plane as squared paper. @param edge of a square, metres.
+/// A plane divided into squares. @param edge of a square, metres.
 class Squares {
  public:
   Squares(const Plane& plane, double edge) : edge_(edge) {
@@ -16,7 +16,7 @@ class Squares {
     across_ = n.unitOrthogonal();
     along_ = n.cross(across_);
   }
-  /// Column and row, whole numbers, of the square that a point is over.
+  /// Column and row, whole numbers, of the square below a point.
   std::array<double, 2> of(const Eigen::Vector3d& p) const {
     return {std::floor(across_.dot(p) / edge_), std::floor(along_.dot(p) / edge_)};
   }

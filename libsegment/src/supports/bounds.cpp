@@ -24,14 +24,14 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
   return voxels;
 }
 
-/// Whether all that is seen lies on the viewpoint's side of a plane.
+/// True if all visible points lie on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin margin{0.02, 0.02};  // some times the noise
-  constexpr double most_behind = 0.01;       // of all points: reflections, flying pixels
+  constexpr PlaneMargin margin{0.02, 0.02};  // multiple of the noise
+  constexpr double most_behind = 0.01;       // share of all points: reflections, flying pixels
   return share_behind(cloud, plane, margin) <= most_behind;
 }
 
-/// How much of a plane some voxels cover, square metres.
+/// The area of a plane that some voxels cover, square metres.
 double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
                     double voxel) {
   const double side = 2 * voxel;  // no gaps

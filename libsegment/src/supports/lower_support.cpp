@@ -6,19 +6,19 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kLeastDepth = 0.04;  // metres below the upper one: what is nearer is its edge
-constexpr double kLeastPart = 0.02;   // of the points in range
+constexpr double kLeastDepth = 0.04;  // metres below the upper support: anything nearer is its edge
+constexpr double kLeastPart = 0.02;   // share of the points in range
 constexpr double kLeastCosine = 0.98;
-constexpr double kThickness = 0.02;  // half of it, metres, while the plane is looked for
-constexpr PlaneMargin kBelow{0.05};  // what is deeper lies below it
-constexpr double kMostBelow = 0.01;  // of all points: reflections, flying pixels
+constexpr double kThickness = 0.02;  // half the thickness, metres, during the search for the plane
+constexpr PlaneMargin kBelow{0.05};  // deeper points lie below the plane
+constexpr double kMostBelow = 0.01;  // share of all points: reflections, flying pixels
 
 }  // namespace
 
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin) {
-  constexpr double deviations = 4;  // as of the upper one
+  constexpr double deviations = 4;  // as for the upper support
   LowerSupport lower;
   for (const Index i : points) {
     const float* p = cloud.point(static_cast<std::size_t>(i));

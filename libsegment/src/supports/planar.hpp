@@ -7,20 +7,19 @@
 
 namespace ph::segment {
 
-/// How far from a plane at range r voxels may lie that are on it, metres: as depth from disparity
-/// is noisy.
+/// How far a voxel on a plane may lie from it at range r, metres: depth from disparity is noisy.
 double flatness(double square_of_range);
 
-/// The plane on which the voxels of a flat thing lie, turned towards the viewpoint; nothing if they
-/// lie on no plane. Least squares, from the mean of the normals on.
-/// @param voxels some of the vertices. @return its share is that of these voxels.
+/// The plane of a flat object's voxels, facing the viewpoint; empty if they do not lie on a plane.
+/// Least squares, starting from the mean of the normals.
+/// @param voxels some of the vertices. @return its share counts these voxels.
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint);
 
 /// How many of the voxels lie on a plane.
 Index count_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
                const Vec3& viewpoint);
-/// The share of them.
+/// The share of the voxels that lie on a plane.
 double share_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
                 const Vec3& viewpoint);
 

@@ -11,8 +11,8 @@
 namespace ph::segment {
 namespace {
 
-/// How many points of each segment lie as low as a support: within the margin that it has at least,
-/// which grows with the square of the range, and two voxels.
+/// How many points of each segment lie as low as a support: within its least margin, which grows
+/// with the square of the range, and two voxels.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
   constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
   const auto& [vx, vy, vz] = scene.viewpoint;
@@ -27,7 +27,8 @@ std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const 
   return count;
 }
 
-/// By vertex: the number of the support that was found among the components and that it is on.
+/// For each vertex: the number of the support that was found among the components and on which it
+/// lies.
 std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut) {
   std::vector<std::uint8_t> boards(scene.cells.size());
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
@@ -38,13 +39,13 @@ std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut)
   return boards;
 }
 
-/// Where one segment touches another one.
+/// A contact of one segment with another.
 struct Contact {
   Index pairs = 0;
   double heights = 0;  // their sum
 };
 
-/// The height of the lower end of each segment: but for one voxel in fifty, which may be wrong.
+/// The height of the lower end of each segment, ignoring one voxel in fifty, which may be wrong.
 std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& heights) {
   constexpr std::size_t outliers = 50;
   std::vector<std::vector<double>> of(cut.segments.size() + 1);
@@ -59,7 +60,7 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
 }
 
 /// How many points of each segment lie at the border of the image, where some sensors see nothing:
-/// within a sixty-fourth of its columns. None of a cloud that is not organised.
+/// within a sixty-fourth of its columns. Zero for an unorganised cloud.
 std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
   constexpr Index share = 64, least = 2;  // pixels
   std::vector<Index> count(cut.segments.size() + 1);
@@ -74,8 +75,8 @@ std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut)
   return count;
 }
 
-/// What is seen to stand on something is an object. What stands on nothing that is seen and is cut
-/// off by the border of the view may be one.
+/// A segment that visibly stands on something is an object. A segment that stands on nothing
+/// visible and is cut off by the border of the view may be an object.
 void set_roles(const SceneTree& scene, SceneCut& cut) {
   constexpr Index fewest = 10;  // points at the border
   const auto stands = [](const Segment& s) { return s.on.surface != 0 || s.on.segment != 0; };
@@ -91,7 +92,7 @@ void set_roles(const SceneTree& scene, SceneCut& cut) {
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
   if (scene.surfaces.empty()) return;
-  constexpr Index fewest = 10;  // points, or pairs of voxels
+  constexpr Index fewest = 10;  // number of points, or of pairs of voxels
   for (Index s = scene.removed; s-- > 0;) {
     const auto number = static_cast<std::uint32_t>(s + 1);
     const std::vector<Index> count =

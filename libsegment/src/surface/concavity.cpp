@@ -17,7 +17,7 @@ namespace {
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  int count = 1;  // the voxel itself, from where the others are seen: zero
+  int count = 1;  // the voxel itself is the origin: zero
 
   void add(double x, double y, double z) {
     sum += Eigen::Vector3d(x, y, z);
@@ -36,18 +36,18 @@ struct Moments {
   }
 };
 
-/// Scatters of some voxels, next to each other so that the compiler can vectorise over them.
+/// Scatter matrices of some voxels, side by side so that the compiler can vectorise over them.
 constexpr std::size_t kLanes = 8;
 using Lanes = std::array<double, kLanes>;
 
-/// The smallest eigenvalues of positive semi-definite matrices of trace one, given by the sum of
-/// their principal minors and the determinant. On the left of its smallest root the characteristic
-/// polynomial is concave: Newton's method goes up to that root from zero and never beyond.
+/// The smallest eigenvalues of positive semi-definite matrices of trace one, given the sum of their
+/// principal minors and the determinant. On the left of its smallest root the characteristic
+/// polynomial is concave: Newton's method climbs from zero to that root and never passes it.
 Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
-  constexpr int most_steps = 20;  // of a double root it takes many, and is then exact enough
+  constexpr int most_steps = 20;  // a double root takes many steps, and is then exact enough
   constexpr double least_step = 1e-15;
   Lanes x{};
-  std::array<std::int64_t, kLanes> goes_on;  // as wide as what it is about
+  std::array<std::int64_t, kLanes> goes_on;  // as wide as the values themselves
   goes_on.fill(1);
   for (int step = 0; step < most_steps; ++step) {
     std::int64_t any = 0;
@@ -71,12 +71,12 @@ double principal_minors(const Eigen::Matrix3d& a) {
          a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
 }
 
-/// The direction in which vectors with this scatter spread least, unit length; any of these
-/// directions if they all lie on a line.
+/// The direction in which vectors with this scatter spread least, unit length; any such direction
+/// if all vectors lie on a line.
 /// @param a the scatter, of trace one. @param eigenvalue the smallest one.
 Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigenvalue) {
   const Eigen::Matrix3d rest = a - eigenvalue * Eigen::Matrix3d::Identity();
-  // Orthogonal to all rows: the longest of the products is the one with the least rounding.
+  // Orthogonal to all rows: the longest of the cross products has the least rounding error.
   Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
   for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
                                        Eigen::Vector3d(rest.col(1).cross(rest.col(2)))})

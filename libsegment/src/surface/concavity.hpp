@@ -7,27 +7,28 @@
 
 namespace ph::segment {
 
-/// Normals of the surface at each voxel, turned towards the viewpoint, unit length: the direction
-/// in which the centroids within a radius spread least. NaN where fewer than three are near.
-/// @param pairs of voxels, at least those within `radius`.
+/// Normals of the surface at each voxel, of unit length, pointing towards the viewpoint: the
+/// direction in which the centroids within a radius spread least. NaN where fewer than three are
+/// near.
+/// @param pairs of voxels, including all pairs within `radius`.
 Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
                        const Vec3& viewpoint);
 
 /// The sum of the sines of the angles at which the surface rises at each of two voxels from the
-/// line between them, (n_v - n_u)·(u - v)/|u - v|: above 0 in a valley, below on a ridge, NaN
-/// without a normal. The same from both sides.
+/// line between them, (n_v - n_u)·(u - v)/|u - v|: above 0 in a valley, below 0 on a ridge, NaN
+/// without a normal. Symmetric in the two voxels.
 double rise(const Points& centroids, const Points& normals, const VoxelPair& pair);
 
-/// How much the surface is hollowed out at each voxel: the mean rise over the voxels near it, or 0
-/// where that is negative. It is about 0 where the surface is flat or
-/// bulges, and large along the seam where one object stands on or touches another (the criterion of
-/// LCCP; Stein, Schoeler, Papon & Wörgötter, Object partitioning using local convexity, 2014).
-/// @param pairs of voxels: who is near whom.
+/// How concave the surface is at each voxel: the mean rise over the voxels near it, or 0 where the
+/// mean is negative. It is about 0 where the surface is flat or convex, and large along the seam
+/// where one object stands on or touches another (the criterion of LCCP; Stein, Schoeler, Papon &
+/// Wörgötter, Object partitioning using local convexity, 2014).
+/// @param pairs of voxels that are near each other.
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               std::span<const VoxelPair> pairs);
 
-/// Each value becomes the mean of itself and those of its neighbours.
-/// @param pairs those with distance < `radius` are neighbours.
+/// Replaces each value by the mean of itself and its neighbours' values.
+/// @param pairs neighbours are pairs with distance < `radius`.
 std::vector<double> smoothed(const std::vector<double>& values, std::span<const VoxelPair> pairs,
                              double radius);
 

@@ -8,8 +8,8 @@ namespace ph::segment {
 
 ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
                                const std::vector<double>& values) {
-  constexpr std::size_t fewest = 300;  // of a quantile that can be relied on
-  constexpr double quantile = 0.84;    // one standard deviation up, were it normal
+  constexpr std::size_t fewest = 300;  // points needed for a reliable quantile
+  constexpr double quantile = 0.84;    // one standard deviation up in a normal distribution
   constexpr std::size_t most = 8;      // ranges
   std::vector<NoiseAt> of;
   for (std::size_t i = 0; i < ranges.size(); ++i) of.push_back({ranges[i], values[i]});
@@ -36,7 +36,7 @@ double ConcavityNoise::at(double range) const {
   if (next == measured_.begin()) {
     noise = next->concavity;
   } else if (next == measured_.end()) {
-    const NoiseAt& last = measured_.back();  // from there on as the noise of depth grows
+    const NoiseAt& last = measured_.back();  // from there on it grows like the noise of depth
     noise = last.concavity * (range / last.range) * (range / last.range);
   } else {
     const NoiseAt& before = *(next - 1);

@@ -16,7 +16,7 @@
 namespace ph::segment {
 namespace {
 
-/// Who is adjacent to whom, and at what cost.
+/// The adjacent voxels of each voxel, with the cost of the step.
 class Steps {
  public:
   struct Step {
@@ -26,7 +26,7 @@ class Steps {
   Steps(std::size_t size, const std::vector<WeightedEdge>& edges,
         const std::vector<double>& concavity)
       : begin_(size + 1), steps_(2 * edges.size()) {
-    // A seam of 0.25, as between boxes on a table, is as far as ten times its width.
+    // A seam of 0.25, as between boxes on a table, counts as ten times its width.
     constexpr double cost_of_concavity = 40;
     for (const WeightedEdge& e : edges)
       for (const Index v : {e.u, e.v}) ++begin_[static_cast<std::size_t>(v)];
@@ -43,11 +43,11 @@ class Steps {
   }
 
  private:
-  std::vector<std::ptrdiff_t> begin_;  // by vertex, into steps_
+  std::vector<std::ptrdiff_t> begin_;  // for each vertex, the index into steps_
   std::vector<Step> steps_;
 };
 
-/// Points in cubes, so that those near a place need not be looked for among all.
+/// Points in cubes, so that a search near a place need not look at all points.
 class Cubes {
  public:
   Cubes(const Points& points, double edge) : points_(points), edge_(edge) {
@@ -58,14 +58,14 @@ class Cubes {
   template <class Visit>
   void for_each_near(std::uint32_t i, double radius, Visit&& visit) const {
     const double reach = std::ceil(radius / edge_);
-    // Not more cubes than there are; the comparison is false, too, where the radius is infinite.
+    // Not more cubes than exist; the comparison is also false if the radius is infinite.
     if (!(std::pow(2 * reach + 1, 2) < static_cast<double>(cubes_.size()))) {
       for (std::uint32_t k = 0; k < points_.rows(); ++k) visit(k);
       return;
     }
     const Cube middle = cube_of(i);
     for (double z = -reach; z <= reach; ++z) {
-      for (double y = -reach; y <= reach; ++y) {  // those along x lie one after the other
+      for (double y = -reach; y <= reach; ++y) {  // cubes along x lie one after the other
         const Cube first{middle[0] + z, middle[1] + y, middle[2] - reach};
         for (auto at = cubes_.lower_bound(first); at != cubes_.end(); ++at) {
           if (at->first[0] != first[0] || at->first[1] != first[1] ||
@@ -90,8 +90,8 @@ class Cubes {
 };
 
 /// The greedy permutation of the points (Gonzalez 1985) until each has a seed within `spacing`:
-/// always the point farthest from all seeds, the first of them. A new seed comes nearer than the
-/// others only to points that are nearer to it than it was to them.
+/// each step takes the first of the points farthest from all seeds. A new seed comes nearer than
+/// the others only to points that are nearer to it than it was to their seed.
 std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
                                         const RunContext& context) {
   const auto size = static_cast<std::size_t>(points.rows());
@@ -112,7 +112,7 @@ std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
   Ticker ticker(context, "seeds");
   while (queue.top().distance > spacing) {
     const Farthest next = queue.top();
-    if (nearest[next.point] < next.distance) {  // what was known when it was put there is old
+    if (nearest[next.point] < next.distance) {  // the entry is out of date
       queue.pop();
       queue.push({nearest[next.point], next.point});
       continue;

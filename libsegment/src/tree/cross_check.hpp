@@ -7,10 +7,11 @@
 
 namespace ph::segment {
 
-/// Computes H0 of the filtration a second time, by reduction of its boundary matrix, and compares:
-/// every bar with the vertex that gave birth to it and the edge that killed it; hence the
-/// components, too, for the killing edges are a spanning forest.
-/// @param barcode what union-find found. @return the first difference in words; empty if none.
+/// Computes H0 of the filtration a second time, by reduction of its boundary matrix, and compares
+/// every bar with its birth vertex and its death edge. This also compares the components, because
+/// the death edges form a spanning forest.
+/// @param barcode the result of union-find. @return the first difference in words; empty if there
+///     is none.
 std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
                         const RunContext& context = default_context());
 

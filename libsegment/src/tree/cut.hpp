@@ -5,8 +5,8 @@
 
 namespace ph::segment {
 
-/// The components that a cut leaves, small ones too: for each vertex one of the vertices of its
-/// component. Looks at `scene` for the method, the voxel and the tree.
+/// The components that a cut leaves, including small ones: for each vertex, one of the vertices of
+/// its component. Reads the method, the voxel and the tree from `scene`.
 /// @param grid its centroids are the vertices. @param surface empty in method paper.
 std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,

@@ -7,10 +7,10 @@
 
 namespace ph::segment {
 
-/// The barcode of H0 that a merge tree stands for: a bar a vertex, zero-length bars included.
+/// The barcode of H0 that a merge tree represents: one bar per vertex, including zero-length bars.
 Barcode barcode_of(const MergeTree& tree);
 
-/// Where the barcode of a segmentation came from; program and input are not said.
+/// The origin of a segmentation's barcode, without program and input.
 BarcodeInfo info_of_barcode(const Segmentation& segmentation);
 
 }  // namespace ph::segment

@@ -10,14 +10,14 @@
 
 namespace ph::segment {
 
-// A stored tree: a header of numbers of eight bytes, little endian, int64 or float64; the arrays; a
-// checksum. What can be found again from the rest (elder and younger of a merge, sizes) is not
-// stored: it cannot contradict it then.
+// A stored tree: a header of little-endian 8-byte numbers, int64 or float64; the arrays; a
+// checksum. Values that follow from the rest (elder and younger of a merge, sizes) are not stored
+// and therefore cannot contradict it.
 inline constexpr std::string_view kTreeMagic = "ph-tree\n";
 inline constexpr std::int64_t kTreeVersion = 2;
 inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 29 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
-// Of a point without a vertex, less the number of the removed surface that it is on.
+// The entry of a point without a vertex, less the number of the removed surface on which it lies.
 inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;
 inline constexpr std::size_t kTreeSurface = 6 * kTreeWord, kTreeNoise = 2 * kTreeWord;
 
@@ -31,7 +31,7 @@ void for_each_point(const SceneTree& scene, Use&& use) {
   }
 }
 
-/// CRC-32 of all that stands before it.
+/// CRC-32 of all bytes before it.
 std::uint32_t tree_sum(std::string_view bytes);
 
 }  // namespace ph::segment

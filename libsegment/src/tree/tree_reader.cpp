@@ -17,16 +17,16 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points, vertices: numbers of 32 bits
+constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points and vertices have 32-bit numbers
 constexpr std::size_t kWord = kTreeWord, kHeader = kTreeHeader, kSum = kTreeSum;
 
-/// Of a graph with so many vertices, at most 2^32 - 2 of them: fits with them into 63 bits.
+/// The bound for a graph with that many vertices, at most 2^32 - 2: it fits with them into 63 bits.
 std::int64_t most_edges(std::int64_t vertices) {
   const auto n = static_cast<std::uint64_t>(vertices);
   return n == 0 ? 0 : static_cast<std::int64_t>(n * (n - 1) / 2);
 }
 
-/// Reads a tree and says at which byte something is wrong.
+/// Reads a tree and reports the byte at which something is wrong.
 class TreeReader {
  public:
   explicit TreeReader(const Input& input)
@@ -36,7 +36,7 @@ class TreeReader {
     read_header();
     require_size_and_sum();
     const auto n = static_cast<std::size_t>(vertices_);
-    // The arrays, and what finding the tree again takes.
+    // The arrays, and the memory for rebuilding the tree.
     constexpr std::size_t bytes_a_vertex = 400;
     input_.require_memory(input_.size() + n * bytes_a_vertex);
     read_surfaces();
@@ -58,7 +58,7 @@ class TreeReader {
       fail(what, fmt::format("{}", value), fmt::format("{} to {}", least, most));
     return value;
   }
-  /// A number from `least` to `most`; both may be infinite and are then left out.
+  /// A number from `least` to `most`; infinite bounds are left out.
   double number(const char* what, double least = -kInfinity, double most = kInfinity,
                 bool infinite = false) {
     at_ = cursor_.offset();
@@ -99,7 +99,7 @@ class TreeReader {
     scene_.distance = number("distance", 0);
     scene_.steps = static_cast<int>(integer("steps", 0, most_steps));
     const bool has_plane = integer("plane", 0, 1) == 1;
-    const double end = has_plane ? kInfinity : 0;  // without one there are zeros
+    const double end = has_plane ? kInfinity : 0;  // without a plane these are zeros
     Plane plane;
     for (double& n : plane.normal) n = number("normal of the plane", -end, end);
     if (has_plane) require_unit("normal of the plane", plane.normal);
@@ -142,8 +142,8 @@ class TreeReader {
     }
   }
 
-  /// Before anything is allocated. The numbers that are multiplied are below 2^33, and no product
-  /// of a size and a number of points is taken before their own product was looked at.
+  /// Checked before any allocation. The factors are below 2^33, and every product of a size and a
+  /// number of points is checked before it is used in another one.
   void require_size_and_sum() {
     const auto cloud = checked_product(static_cast<std::size_t>(scene_.width),
                                        static_cast<std::size_t>(scene_.height));
@@ -299,17 +299,17 @@ class TreeReader {
       if (std::floor(point[k] / scene_.voxel) != cell[k]) return false;
     return true;
   }
-  /// Whether it may have been won back from a removed plane for this voxel.
+  /// True if the point may have been won back from a removed plane for this voxel.
   bool may_be_base(const Vec3& point, std::uint32_t v) const {
     if (scene_.method == Method::paper) return false;
     const auto removed = std::span(scene_.surfaces).first(static_cast<std::size_t>(scene_.removed));
     return std::ranges::any_of(
         removed, [&](const SceneSurface& s) { return is_in_strip(s.plane, point, centroid(v)); });
   }
-  /// Whether it is in the strip of the plane below a voxel. Of the margin, which the tree does not
-  /// have, it is known only that the voxel is beyond it.
+  /// True if the point is in the strip of the plane below a voxel. The tree does not have the
+  /// margin; all that is known is that the voxel lies beyond it.
   bool is_in_strip(const Plane& plane, const Vec3& point, const Vec3& of_voxel) const {
-    constexpr double aside = 3, up = 4;  // voxels; as high as the voxel, roughly
+    constexpr double aside = 3, up = 4;  // voxels; roughly as high as the voxel
     const double height = plane.signed_distance(point[0], point[1], point[2]);
     const double voxel_height = plane.signed_distance(of_voxel[0], of_voxel[1], of_voxel[2]);
     if (!(height > 0 && height <= up * (voxel_height + scene_.voxel))) return false;
@@ -319,7 +319,7 @@ class TreeReader {
     return square <= std::pow(aside * scene_.voxel, 2);
   }
 
-  /// Whether it may be of the bottom of the vessel whose lowest voxel this is.
+  /// True if the point may belong to the bottom of the vessel whose lowest voxel this is.
   bool may_be_bottom(const Vec3& point, std::uint32_t v) const {
     return scene_.plane && scene_.method == Method::surface &&
            may_be_in_opening(*scene_.plane, point, centroid(v));
@@ -331,7 +331,7 @@ class TreeReader {
   const Input& input_;
   BinaryCursor cursor_;
   SceneTree scene_;
-  std::size_t at_ = 0;  // of what is looked at
+  std::size_t at_ = 0;  // place of the current value
   std::int64_t vertices_ = 0, merges_ = 0, points_ = 0, surfaces_ = 0, noise_ = 0;
 };
 
@@ -341,7 +341,7 @@ bool is_tree(const Input& input) { return input.text().starts_with(kTreeMagic); 
 
 SceneTree read_tree(const Input& input) {
   if (!is_tree(input)) {
-    input.fail_at_byte(0, {"no stored tree",
+    input.fail_at_byte(0, {"not a stored tree",
                            printable(input.text().substr(0, kTreeMagic.size())),
                            printable(kTreeMagic),
                            {}});

@@ -7,24 +7,24 @@
 
 namespace ph::segment {
 
-/// Of round things, seen from above. Lengths are metres.
+/// Round shapes, seen from above. Lengths are in metres.
 struct Circle {
   Eigen::Vector2d centre;
-  double radius = 0;  ///< of points on a line: any, or not a number
+  double radius = 0;  ///< arbitrary, or NaN, for points on a line
 };
 
-/// Ten degrees each.
+/// The number of sectors of ten degrees each.
 inline constexpr std::size_t kSectors = 36;
 using Sectors = std::bitset<kSectors>;
 
 /// Least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting procedure and its error
-/// analysis, 1976). Each set of points has the same weight. @pre none is empty.
+/// analysis, 1976). Each set of points has the same weight. @pre no set is empty.
 Circle fit_circle(std::initializer_list<const std::vector<Eigen::Vector2d>*> sets);
 
 /// The root of the mean of the squares of the distances from a circle.
 double deviation(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
 
-/// The sectors, as seen from the centre, in which there are points.
+/// The sectors, as seen from the centre, that contain points.
 Sectors sectors_of(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace ph::segment

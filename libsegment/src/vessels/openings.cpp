@@ -16,8 +16,8 @@ namespace {
 
 struct Opening {
   Circle circle;
-  double height;        ///< above the plane
-  std::uint32_t voxel;  ///< that its points go to
+  double height;        ///< height above the plane
+  std::uint32_t voxel;  ///< the voxel that receives its points
 };
 
 double median(std::vector<double> values) {
@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// A circle, and the points without those that are far from it by their own measure.
+/// A circle, and the points without outliers.
 Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
   constexpr int times = 3;
   constexpr double medians = 2;
@@ -44,12 +44,13 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
   return circle;
 }
 
-/// @param object its voxels: x, y along the plane, z above it. @param numbers of them in the grid.
+/// @param object its voxels: x, y along the plane, z above it. @param numbers of the voxels in the
+///     grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
-  constexpr std::size_t fewest = 20;                  // voxels of a rim
+  constexpr std::size_t fewest = 20;                  // fewest voxels of a rim
   constexpr double depth = 3;                         // voxels
-  constexpr double of_voxel = 1.6, of_radius = 0.12;  // that a rim may deviate
+  constexpr double of_voxel = 1.6, of_radius = 0.12;  // how far a rim may deviate from its circle
   constexpr double least_radius = 0.02, most_radius = 0.25;
   constexpr std::size_t fewest_sectors = 20;  // of 36
   constexpr double middle = 0.6, most_in_middle = 0.03;
@@ -120,11 +121,11 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
     const Eigen::Vector3d p = above({q[0], q[1], q[2]});
     for (const Opening& opening : openings) {
       if (p.z() >= opening.height) continue;
-      const auto from_axis = [&](double height) {  // where its ray passes that
+      const auto from_axis = [&](double height) {  // where the point's ray passes the rim
         const double t = (eye.z() - height) / (eye.z() - p.z());
         return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();
       };
-      // In through the opening, and not out again through a gap in the wall.
+      // The ray enters through the opening and does not leave through a gap in the wall.
       if (from_axis(opening.height) >= of_radius * opening.circle.radius ||
           from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||
           !may_be_in_opening(plane, {q[0], q[1], q[2]}, place_of(opening.voxel)))

@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t kFewestOfEach = 9;  // sectors
 
-/// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
+/// The sectors of the circle in which a rim has points; empty if the rim is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
-  // Not "larger than": a circle through points on a line is not a number.
+  // Not "larger than": a circle through points on a line is NaN.
   if (!(deviation(circle, rim.points) <= tolerance)) return std::nullopt;
   return sectors_of(circle, rim.points);
 }
@@ -51,7 +51,7 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
     rims.push_back(upper_end_of(points[p], depth * voxel));
-    if (rims[p].points.size() < kFewestOfEach) continue;  // in so many sectors there are none
+    if (rims[p].points.size() < kFewestOfEach) continue;  // so many sectors are empty
     boxes.push_back({p, {}});
     for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
   }

@@ -7,13 +7,13 @@
 
 namespace ph::segment {
 
-/// Turns coordinates so that z is along `up`, a unit vector; x and y are any.
+/// Rotates coordinates so that z is along `up`, a unit vector; x and y are arbitrary.
 Eigen::Matrix3d upright(const Vec3& up);
 
-/// The upper end of a thing, seen from above.
+/// The upper end of an object, seen from above.
 struct UpperEnd {
-  double top = 0;                       ///< height; one point in fifty may be higher
-  std::vector<Eigen::Vector2d> points;  ///< x, y of those less than a depth below the top
+  double top = 0;                       ///< its height; one point in fifty may be higher
+  std::vector<Eigen::Vector2d> points;  ///< x, y of the points less than a depth below the top
 };
 
 /// @param points upright, metres, at least one. @param depth metres.

@@ -12,8 +12,9 @@
 namespace ph::segment {
 namespace {
 
-/// The plane as squared paper. Columns and rows are numbered as they come up: the coordinates of a
-/// square may be any whole numbers, and no two squares share a name, however far apart.
+/// The plane divided into squares. Columns and rows are numbered in order of appearance, because
+/// the coordinates of a square may be any whole numbers, and no two squares may share a name,
+/// however far apart.
 class Squares {
  public:
   Squares(const Plane& plane, double side)
@@ -21,7 +22,7 @@ class Squares {
                side),
         second_(Eigen::Vector3d(plane.normal[0], plane.normal[1], plane.normal[2]).cross(first_)) {}
 
-  /// The name of the square over which a point stands.
+  /// The name of the square below a point.
   std::uint64_t operator()(const float* p) {
     const Eigen::Vector3d x(p[0], p[1], p[2]);
     return std::uint64_t{columns_(first_.dot(x))} << 32 | rows_(second_.dot(x));
@@ -31,7 +32,7 @@ class Squares {
   class Numbers {
    public:
     std::uint32_t operator()(double units) {
-      // Adding zero makes -0 and +0 the same bits.
+      // Adding zero gives -0 and +0 the same bits.
       const auto bits = std::bit_cast<std::uint64_t>(std::floor(units) + 0.0);
       const auto [number, is_new] = numbers_.try_emplace(bits);
       if (is_new) *number = count_++;
@@ -40,7 +41,7 @@ class Squares {
 
    private:
     FlatMap<std::uint32_t> numbers_{std::pmr::get_default_resource()};
-    std::uint32_t count_ = 0;  // no more than points, of which there are fewer than 2^32
+    std::uint32_t count_ = 0;  // at most the number of points, which is below 2^32
   };
 
   Eigen::Vector3d first_, second_;

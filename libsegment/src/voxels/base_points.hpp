@@ -8,12 +8,12 @@
 namespace ph::segment {
 
 /// Wins back the base of each object, the strip that was taken for the plane because it lies within
-/// its margin: a point of the strip goes into the voxel of the lowest point beyond the margin that
-/// stands over the same small square of the plane, if that is just beyond. A wall has such points,
-/// the free plane beside it has none. Centroids and counts of the voxels stay what they are.
+/// its margin. A point of the strip joins the voxel of the lowest point beyond the margin over the
+/// same small square of the plane, if that point is just beyond the margin. A wall has such points;
+/// the free plane beside it has none. Centroids and counts of the voxels do not change.
 /// @param strip the points within the margin. @param side of a square, metres.
 /// @param points those beyond the margin, which are in the grid, and any that lie behind the plane;
-/// those of the bases are appended.
+/// points of the bases are appended.
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,
                         VoxelGrid& grid);

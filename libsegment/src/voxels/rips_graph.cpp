@@ -12,7 +12,7 @@
 namespace ph::segment {
 namespace {
 
-/// The values that `filtration_value` has for lengths up to `distance`, if they are few.
+/// The values of `filtration_value` for lengths up to `distance`, if they are few.
 class Levels {
  public:
   Levels(double distance, int steps) {
@@ -22,11 +22,11 @@ class Levels {
     for (int k = 0; k < steps; ++k) values_.push_back(k * distance / steps);
     values_.push_back(distance);
   }
-  std::size_t size() const { return values_.size(); }  // 0: too many, or exact lengths
+  std::size_t size() const { return values_.size(); }  // 0: too many levels, or exact lengths
   double operator[](std::size_t k) const { return values_[k]; }
   /// The first level that is not below a length.
   std::uint32_t above(double length) const {
-    // Rounding may miss the level by one: look at the neighbours, too.
+    // Rounding may miss the level by one: check the neighbours as well.
     auto k = std::min(static_cast<std::size_t>(length * per_length_), values_.size() - 1);
     while (k > 0 && values_[k - 1] >= length) --k;
     while (values_[k] < length) ++k;
@@ -40,7 +40,7 @@ class Levels {
 
 using Edges = std::pmr::vector<WeightedEdge>;
 
-constexpr std::size_t kEdgesOfAVoxel = 12;  // on a surface, where they reach two voxels far
+constexpr std::size_t kEdgesOfAVoxel = 12;  // on a surface, where edges span two voxels
 
 Edges edges_with_values(const Points& points, double distance, int steps,
                         const RunContext& context) {
@@ -55,7 +55,7 @@ Edges edges_with_values(const Points& points, double distance, int steps,
   return edges;
 }
 
-/// The same sorted by value, which takes no comparison.
+/// Sorts by value without comparisons.
 Edges edges_by_level(const Points& points, double distance, const Levels& levels,
                      const RunContext& context) {
   struct Edge {
@@ -63,7 +63,7 @@ Edges edges_by_level(const Points& points, double distance, const Levels& levels
   };
   std::pmr::vector<Edge> edges(&context.memory);
   edges.reserve(kEdgesOfAVoxel * static_cast<std::size_t>(points.rows()));
-  std::vector<std::size_t> next(levels.size() + 1);  // by level: the place of its next edge
+  std::vector<std::size_t> next(levels.size() + 1);  // for each level, the place of its next edge
   for_each_pair_within(
       points, distance,
       [&](Index i, Index j, double length) {
@@ -92,7 +92,7 @@ FilteredGraph rips_graph(const Points& points, double distance, int steps,
 double filtration_value(double length, double distance, int steps) {
   if (steps == 0 || length == 0) return length;
   const auto level = [&](double k) { return k == steps ? distance : k * distance / steps; };
-  // The division may round to the wrong side of a level: look at the neighbours, too.
+  // The division may round to the wrong side of a level: check the neighbours as well.
   double k = std::clamp(std::ceil(length / distance * steps), 1.0, static_cast<double>(steps));
   while (k > 1 && level(k - 1) >= length) --k;
   while (k < steps && level(k) < length) ++k;

@@ -16,17 +16,17 @@
 namespace ph::segment {
 namespace {
 
-// Offsets inside a voxel are counted in units of voxel * 2^-32: two picometres at one centimetre,
-// and two thousand million points of a voxel still add up in 63 bits.
+// Offsets inside a voxel are counted in units of voxel * 2^-32: two picometres at one centimetre;
+// the sum of two billion points in one voxel still fits into 63 bits.
 constexpr double kUnits = 4294967296.0;
 
-/// One occupied voxel. Grid coordinates are whole numbers kept as doubles: they cannot overflow.
+/// One occupied voxel. Grid coordinates are whole numbers stored as doubles: they cannot overflow.
 struct Voxel {
   double x, y, z;
   std::int64_t sum_x = 0, sum_y = 0, sum_z = 0;
   Index count = 0;
-  /// One test for all three, by their bits, for no zero is negative: which of them differ is
-  /// anyone's guess.
+  /// Compares the bits of all three at once, which works because no zero is negative: a branch for
+  /// each would be unpredictable.
   bool is_at(double cx, double cy, double cz) const {
     const auto difference = [](double a, double b) {
       return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
@@ -35,8 +35,9 @@ struct Voxel {
   }
 };
 
-/// Open addressing with linear probing; the load stays below a quarter, for every second look at a
-/// slot is a guess. No FlatMap: the key is three doubles, which the voxel has: a slot is 4 bytes.
+/// Open addressing with linear probing; the load stays below a quarter, because the branch at the
+/// second probe is unpredictable. A FlatMap would store the key, three doubles that the voxel
+/// already has; here a slot is 4 bytes.
 class VoxelTable {
  public:
   VoxelTable() : slots_(kFirstCapacity, kEmpty) {}
@@ -82,11 +83,11 @@ class VoxelTable {
   std::vector<Voxel> voxels_;
 };
 
-/// The grid coordinate of a number in units of voxels. Adding zero makes -0 and +0 the same bits.
+/// The grid coordinate of a number in units of voxels. Adding zero gives -0 and +0 the same bits.
 double cell_of(double units) {
   constexpr double huge = 1ULL << 52;  // has no fraction
   if (!(std::abs(units) < huge)) return std::floor(units) + 0.0;
-  // A call of floor for each coordinate would be a third of the time of the grid.
+  // A call of floor for each coordinate would take a third of the grid's time.
   const auto whole = static_cast<double>(static_cast<std::int64_t>(units));
   return (whole > units ? whole - 1 : whole) + 0.0;
 }
@@ -95,7 +96,7 @@ bool comes_before(const Voxel& a, const Voxel& b) {
   return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
 }
 
-/// The numbers of the voxels in the order of the grid.
+/// The numbers of the voxels in grid order.
 std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
   std::vector<std::uint32_t> order(voxels.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -107,8 +108,8 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
     low[axis] = least.*member;
     size[axis++] = most.*member - least.*member + 1;
   }
-  // A cell of the box around all has a whole number; counted from 2^52 on, its bits are those of
-  // the double, as the radix sort likes them.
+  // Each cell of the box around all voxels has a whole number. Counted from 2^52 on, its bits equal
+  // those of the double, which the radix sort needs.
   constexpr double whole = 1ULL << 52;
   if (size[0] * size[1] * size[2] < whole) {
     std::vector<double> place;
@@ -125,10 +126,10 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
   return order;
 }
 
-/// An offset inside a voxel, 0 <= units <= 1, as a whole number; what is below a unit is dropped.
+/// An offset inside a voxel, 0 <= units <= 1, as a whole number; fractions of a unit are dropped.
 std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
 
-/// Where a point is: its cell, and how far inside.
+/// The position of a point: its cell, and the offset inside it.
 struct Located {
   double cx, cy, cz;
   double x, y, z;  // 0 to 1
@@ -147,8 +148,8 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   grid.voxel_of.resize(points.size());
   VoxelTable table;
   std::uint32_t number = 0;  // neighbours in the list are often neighbours in space
-  // Some at a time: the cells of the next ones are known before it is clear where the last one
-  // goes, which is anyone's guess.
+  // Works in batches: the cells of the next points are computed before the unpredictable lookup of
+  // the last one is resolved.
   std::array<Located, 64> located;
   for (std::size_t first = 0; first < points.size(); first += located.size()) {
     const std::size_t count = std::min(located.size(), points.size() - first);

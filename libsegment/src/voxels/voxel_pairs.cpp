@@ -9,7 +9,7 @@
 namespace ph::segment {
 namespace {
 
-/// Voxels that differ in x alone, one after the other in the grid.
+/// Consecutive voxels of the grid that differ in x alone.
 struct VoxelRow {
   double y, z;  // in voxels
   std::uint32_t begin, end;
@@ -25,17 +25,18 @@ std::vector<VoxelRow> rows_of(const VoxelGrid& grid) {
   return rows;
 }
 
-/// How far a row lies from the one that looks for pairs: before it, or itself. Rows look in the
-/// order of the grid and meet those at one offset in that order: none is looked for again.
+/// The offset of a row from the row that searches for pairs: an earlier row, or itself. Rows search
+/// in the order of the grid and meet the rows at one offset in that order: no row is searched for
+/// again.
 struct Offset {
   double y, z;
-  double reach;          // how far along x a voxel of the other row can be near
+  double reach;          // how far along x a near voxel of the other row can be
   std::size_t next = 0;  // row
 };
 
 std::vector<Offset> offsets_within(double radius) {
   const double most = std::ceil(radius);
-  // Centroids of voxels k rows apart may be as near as k - 1.
+  // Centroids of voxels k rows apart may be as close as k - 1.
   const auto square_of_gap = [&](double k) { return std::pow(std::max(0.0, std::abs(k) - 1), 2); };
   std::vector<Offset> offsets;
   for (double z = -most; z <= 0; ++z) {
@@ -54,7 +55,7 @@ bool comes_before(const VoxelRow& row, double y, double z) {
   return row.z != z ? row.z < z : row.y < y;
 }
 
-/// What the search reads of a voxel, without what lies between in the grid.
+/// The data of a voxel that the search reads, stored together.
 struct Place {
   double x, y, z;  // centroid
   double cell;     // along x
@@ -69,8 +70,9 @@ std::vector<Place> places_of(const VoxelGrid& grid) {
   return places;
 }
 
-/// Pairs of a voxel of `row` and one of `other`, which is not behind it, written to `to`.
-/// Precondition: there is room for all that are within reach, and one more. @return their end.
+/// Finds the pairs of a voxel of `row` and a voxel of `other`, which is not behind it, and writes
+/// them to `to`. Precondition: there is room for all pairs within reach, and one more. @return
+/// their end.
 VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, const VoxelRow& other,
                        double reach, double square_of_radius, VoxelPair* to) {
   std::uint32_t first = other.begin;
@@ -83,7 +85,7 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
       const Place& q = places[u];
       const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
       const double square = x * x + y * y + z * z;
-      // Written first: whether it is near is anyone's guess.
+      // Written first, because the test for nearness is unpredictable.
       *to = {u, v, std::sqrt(static_cast<float>(square))};
       to += square < square_of_radius ? 1 : 0;
     }
@@ -95,15 +97,15 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
 
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context) {
-  // Beyond, the row behind another one may be the same number: the search would not come to an end.
+  // Beyond this, a row and the next may have the same number: the search would not end.
   require_exact_cells(grid, voxel);
   const std::vector<VoxelRow> rows = rows_of(grid);
   const std::vector<Place> places = places_of(grid);
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(&context.memory);
-  // Those of a surface that bends, half of the disk around each voxel and a third more: growing
-  // would copy them all, and touch three times the memory.
+  // Room for a curved surface: half of the disk around each voxel and a third more. Growing would
+  // copy all pairs and touch three times the memory.
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);

@@ -16,21 +16,22 @@ namespace ph::segment {
 /// Two voxels near each other.
 struct VoxelPair {
   std::uint32_t u, v;  ///< u < v
-  float distance;      ///< of their centroids, metres
+  float distance;      ///< distance of their centroids, metres
 };
 
 using VoxelPairs = RawVector<VoxelPair>;
 
 /// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
-/// on the voxels alone. O(rows * reach^2 + pairs): no tree, no hash.
-/// @param voxel edge of a voxel of the grid, metres. @param reach in voxels, > 0; small, for it is
-/// counted through. @throws Error (usage) as require_exact_cells; Error (resource, cancelled).
+/// on the voxels alone. O(rows * reach^2 + pairs), without a tree or a hash.
+/// @param voxel edge of a voxel of the grid, metres. @param reach in voxels, > 0; small, because
+/// the search counts through it. @throws Error (usage) like require_exact_cells; Error (resource,
+/// cancelled).
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context = default_context());
 
-/// Calls `use` for the pairs with distance < `radius`, in their order. They are picked some at a
-/// time: whether a pair is as near is anyone's guess, and a branch for each would be the wrong one
-/// every third time.
+/// Calls `use` for the pairs with distance < `radius`, in their order. It selects them in batches:
+/// the test for nearness is unpredictable, and a branch per pair would be mispredicted every third
+/// time.
 template <class Use>
 void for_each_within(std::span<const VoxelPair> pairs, double radius, Use&& use) {
   constexpr std::size_t some = 256;

@@ -15,11 +15,11 @@
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
 
-/// Clouds of the Point Cloud Library in, its indices and labels out. Clouds are read where they
-/// are; with indices their coordinates are copied. PCL's types stay here.
+/// Accepts clouds of the Point Cloud Library and returns its indices and labels. Clouds are read in
+/// place; with indices, their coordinates are copied. PCL's types occur in this header only.
 namespace ph::pcl {
 
-/// The x, y, z of all points, a hole for each that is not in `indices`.
+/// The x, y, z of all points; a point that is not in `indices` becomes a hole.
 /// @throws Error (bad_data) on an index beyond the cloud.
 template <class PointT>
 std::vector<float> coordinates(const ::pcl::PointCloud<PointT>& cloud,
@@ -45,15 +45,15 @@ std::vector<float> coordinates(const ::pcl::PointCloud<PointT>& cloud,
   return xyz;
 }
 
-/// Where the cloud says that its sensor stood.
+/// The sensor position that the cloud states.
 template <class PointT>
 segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
   const auto& origin = cloud.sensor_origin_;
   return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
 }
 
-/// What the pipeline reads of a cloud, with its rows and columns if they hold all points.
-/// @param xyz its `coordinates`, which live as long as the view.
+/// The cloud as the pipeline reads it, with its rows and columns if they hold all points.
+/// @param xyz the `coordinates` of the cloud; they must outlive the view.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<const float> xyz) {
   segment::CloudView view{xyz, viewpoint(cloud)};
@@ -64,8 +64,8 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<
   return view;
 }
 
-/// The same without a copy: the cloud lives as long as the view. x, y, z lie side by side in each
-/// of PCL's own types. @throws Error (usage) if they do not in this one.
+/// The same view without a copy; the cloud must outlive it. In each of PCL's own types, x, y, z lie
+/// side by side. @throws Error (usage) if they do not in this type.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
   static_assert(sizeof(PointT) % sizeof(float) == 0, "points lie at whole numbers of floats");
@@ -81,7 +81,7 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
   return view;
 }
 
-/// ph::segment::segment on a PCL cloud, read where it is.
+/// ph::segment::segment on a PCL cloud, which is read in place.
 template <class PointT>
 segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                     const segment::SegmentOptions& options = {},
@@ -89,7 +89,7 @@ segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
   return segment::segment(cloud_view(cloud), options, context);
 }
 
-/// The points of each segment, by label, as PCL's segmentations give them.
+/// The points of each segment, by label, in the form that PCL's segmentations return.
 inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& segmentation,
                                                       const ::pcl::PCLHeader& header = {}) {
   std::vector<::pcl::PointIndices> clusters(segmentation.segments.size());
@@ -117,14 +117,14 @@ inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentat
   return surfaces;
 }
 
-/// The same points in the same order and organisation as another type: x, y, z, and what `paint`
-/// adds to point i.
+/// The same points in the same order and organisation, as another type: x, y, z, and whatever
+/// `paint` adds to point i.
 template <class To, class PointT, class Paint>
 ::pcl::PointCloud<To> converted(const ::pcl::PointCloud<PointT>& cloud,
                                 const std::vector<std::uint32_t>& labels, Paint&& paint) {
   if (labels.size() != cloud.size()) {
     throw Error(ErrorKind::usage, "found " + std::to_string(labels.size()) + " labels, expected " +
-                                      std::to_string(cloud.size()) + ", one a point");
+                                      std::to_string(cloud.size()) + ", one per point");
   }
   ::pcl::PointCloud<To> result;
   result.header = cloud.header;
@@ -167,8 +167,8 @@ template <class PointT>
       });
 }
 
-/// The pipeline with the manners of PCL's segmentations: setInputCloud, setIndices, segment. All
-/// lengths are metres; no option is an angle. Each default is that of segment::SegmentOptions.
+/// The pipeline with the interface of PCL's segmentations: setInputCloud, setIndices, segment. All
+/// lengths are in metres; no option is an angle. The defaults are those of segment::SegmentOptions.
 template <class PointT>
 class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
  public:
@@ -176,22 +176,22 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   using ConstPtr = ::pcl::shared_ptr<const PersistenceSegmentation<PointT>>;
   using Method = segment::Method;
 
-  /// All options at once.
+  /// Sets all options at once.
   void setOptions(const segment::SegmentOptions& options) { options_ = options; }
   const segment::SegmentOptions& getOptions() const { return options_; }
 
-  /// What decides which voxels belong together: surface (default), paper or supervoxels.
+  /// The rule that decides which voxels belong together: surface (default), paper or supervoxels.
   void setMethod(Method method) { options_.method = method; }
   Method getMethod() const { return options_.method; }
-  /// Points farther from the viewpoint are left out; metres, may be infinite.
+  /// Points farther from the viewpoint than this are left out; metres, may be infinite.
   void setMaxRange(double metres) { options_.max_range = metres; }
   double getMaxRange() const { return options_.max_range; }
-  /// Only points inside this box count.
+  /// Only points inside this box are used.
   void setCropBox(const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
     options_.crop = segment::Box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
   }
   void unsetCropBox() { options_.crop.reset(); }
-  /// Without one all of space: from -infinity to infinity.
+  /// The default is all of space: from -infinity to infinity.
   void getCropBox(Eigen::Vector3f& min, Eigen::Vector3f& max) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     min.setConstant(-infinity), max.setConstant(infinity);
@@ -200,24 +200,25 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
       max[k] = static_cast<float>(options_.crop->max[static_cast<std::size_t>(k)]);
     }
   }
-  /// Whether the supporting plane and what lies behind it is removed.
+  /// If true, the supporting plane and everything behind it are removed.
   void setPlaneRemoval(bool remove) { options_.plane = remove; }
   bool getPlaneRemoval() const { return options_.plane; }
   /// Half the thickness of the plane, metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
-  /// Half of it at a range of one metre, at least, growing with the square of the range; metres.
+  /// Half the thickness of the plane at a range of one metre, at least; it grows with the square of
+  /// the range; metres.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
-  /// Where the supporting plane was in the frame before; unsetPlaneGuess: it is not known.
+  /// The supporting plane of the frame before; unsetPlaneGuess forgets it.
   void setPlaneGuess(const segment::Plane& plane) { options_.plane_guess = plane; }
   void unsetPlaneGuess() { options_.plane_guess.reset(); }
   const std::optional<segment::Plane>& getPlaneGuess() const { return options_.plane_guess; }
-  /// Where the sensor stood; else where the rays of the pixels of an organised cloud meet, if that
-  /// can be told, else the origin that the cloud states.
+  /// The position of the sensor. By default it is where the rays of the pixels of an organised
+  /// cloud meet, if this can be told, else the origin that the cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
   void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
-  /// Where the sensor stands, if that was set, else where the input cloud states.
+  /// The sensor position that was set, or else the one that the input cloud states.
   void getViewPoint(float& x, float& y, float& z) const {
     segment::Vec3 point{};
     if (this->input_) point = viewpoint(*this->input_);
@@ -234,7 +235,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Methods surface and supervoxels: least persistence of a part, in units of the noise or metres.
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const { return options_.part_persistence(); }
-  /// Method supervoxels: how far the surface is from a seed at most, metres.
+  /// Method supervoxels: the largest distance of the surface from a seed, metres.
   void setSpacing(double metres) { options_.spacing = metres; }
   double getSpacing() const { return options_.spacing; }
   /// Methods surface and supervoxels: fewest voxels of a part.
@@ -243,24 +244,24 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Method surface: least strength of a seam, in multiples of the least persistence.
   void setMinSeam(double times) { options_.min_seam = times; }
   double getMinSeam() const { return options_.cut().min_seam; }
-  /// Method surface: whether the visible parts of an object are joined.
+  /// Method surface: true if the visible parts of an object are joined.
   void setObjects(bool join) { options_.objects = join; }
   bool getObjects() const { return options_.objects; }
   /// Method paper: maximum distance of the Vietoris-Rips complex, metres.
   void setDistance(double metres) { options_.distance = metres; }
   double getDistance() const { return options_.distance; }
-  /// Method paper: levels up to the distance; 0: exact deaths.
+  /// Method paper: number of levels up to the distance; 0: exact deaths.
   void setSteps(int steps) { options_.steps = steps; }
   int getSteps() const { return options_.steps; }
-  /// Whether union-find is compared with boundary-matrix reduction.
+  /// If true, union-find is compared with the reduction of the boundary matrix.
   void setCheck(bool check) { options_.check = check; }
   bool getCheck() const { return options_.check; }
 
-  /// What stops, watches and bounds `segment` and `cut`; it outlives their calls.
+  /// The context that stops, watches and bounds `segment` and `cut`; it must outlive their calls.
   void setRunContext(const RunContext& context) { context_ = &context; }
 
-  /// The points of each segment, largest first. Without an input cloud there are none.
-  /// @throws ph::Error as ph::segment::segment does.
+  /// The points of each segment, largest first. Empty without an input cloud.
+  /// @throws ph::Error like ph::segment::segment.
   void segment(std::vector<::pcl::PointIndices>& clusters) {
     clusters.clear();
     result_ = segment::Segmentation();
@@ -273,9 +274,9 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_, this->input_->header);
     this->deinitCompute();
   }
-  /// A coarser or finer cut of the tree that the last call of `segment` found, in milliseconds; the
-  /// getters below then tell of it. @param value see segment::CutOptions. @throws ph::Error (usage)
-  /// on a value out of its range.
+  /// A coarser or finer cut, within milliseconds, of the tree that the last call of `segment`
+  /// found; the getters below then describe this cut. @param value see segment::CutOptions. @throws
+  /// ph::Error (usage) on a value out of its range.
   void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
     segment::CutOptions options = result_.first_cut;
     options.value = value;
@@ -286,25 +287,25 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
 
-  /// Everything the last call found: segments with boxes and neighbours, the tree, times.
+  /// Everything that the last call found: segments with boxes and neighbours, the tree, times.
   const segment::Segmentation& result() const { return result_; }
   const std::vector<segment::Segment>& getSegments() const { return result_.segments; }
-  /// Supports and walls, which are no segments; Segment::on says on which of them one stands.
+  /// The supports and walls, which are not segments; Segment::on names the support of a segment.
   const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.surfaces; }
-  /// The points on each of them.
+  /// The points on each of these surfaces.
   std::vector<::pcl::PointIndices> getSurfaceIndices() const {
     return surface_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
-  /// The merge tree with what other cuts need.
+  /// The merge tree, with the data that other cuts need.
   const segment::SceneTree& getTree() const { return result_; }
-  /// The persistence of each segment; infinite for one that touches no other.
+  /// The persistence of each segment; infinite for a segment that touches no other.
   std::vector<double> getConfidences() const {
     std::vector<double> confidences;
     for (const segment::Segment& s : result_.segments) confidences.push_back(s.persistence);
     return confidences;
   }
-  /// The plane that was removed, as SACMODEL_PLANE has it: a x + b y + c z + d = 0. Without one no
-  /// values.
+  /// The removed plane in the form of SACMODEL_PLANE: a x + b y + c z + d = 0. Empty if no plane
+  /// was removed.
   void getPlane(::pcl::ModelCoefficients& coefficients) const {
     coefficients = ::pcl::ModelCoefficients();
     if (this->input_) coefficients.header = this->input_->header;
@@ -331,7 +332,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     if (!this->input_) return {};
     return labelled_cloud(*this->input_, result_.labels);
   }
-  /// The input cloud in the colours of its segments, the rest in grey. Empty without one.
+  /// The input cloud with segments in their colours and the rest in grey. Empty without an input
+  /// cloud.
   typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
     const auto coloured = ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>();
     if (this->input_) *coloured = coloured_cloud(*this->input_, result_);
