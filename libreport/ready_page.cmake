@@ -2,9 +2,9 @@
 # A page that was bundled elsewhere: an archive of the sources has one in it, for builds that have no
 # npm or no network.
 
-# ph_page_digest(VIEWER DIGEST): one SHA-256 of all files below VIEWER that a page is made of: that of
-# what `sha256sum` prints of them in the order of their names. viewer/build.mjs writes it into the
-# page.
+# ph_page_digest(VIEWER DIGEST): one SHA-256 of all files below VIEWER from which a page is made,
+# computed from the output of `sha256sum` for these files in the order of their names.
+# viewer/build.mjs writes it into the page.
 function(ph_page_digest viewer digest)
   file(GLOB_RECURSE sources RELATIVE ${viewer} ${viewer}/src/*)
   list(APPEND sources build.mjs package-lock.json)
@@ -18,7 +18,7 @@ function(ph_page_digest viewer digest)
   set(${digest} ${sum} PARENT_SCOPE)
 endfunction()
 
-# ph_page_belongs(PAGE DIGEST RESULT): whether PAGE is there and was made of the sources of this
+# ph_page_belongs(PAGE DIGEST RESULT): true if PAGE exists and was made from the sources with this
 # digest.
 function(ph_page_belongs page digest result)
   set(${result} FALSE PARENT_SCOPE)

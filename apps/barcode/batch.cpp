@@ -25,7 +25,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Only JSON and the report have room for representatives, and only JSON for loops.
+/// Only JSON and the report have room for representatives, and only JSON has room for loops.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
   if (!arguments.dry_run) require_significance(format, arguments);
@@ -43,7 +43,7 @@ void require_room(BarcodeFormat format, const Arguments& arguments) {
                           barcode_format_name(format)));
 }
 
-/// What each input of a batch has, in place of folders and `*`.
+/// The options that give each input of a batch its own output, instead of folders and `*`.
 Job job_of(const std::string& input, const std::string& name, const Arguments& arguments,
            BarcodeFormat format) {
   Job job{input, arguments.output, format};
@@ -58,7 +58,7 @@ Job job_of(const std::string& input, const std::string& name, const Arguments& a
   return job;
 }
 
-/// One job an input.
+/// One job per input.
 std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::string>& inputs,
                          BarcodeFormat format) {
   if (!arguments.is_batch())
@@ -94,7 +94,7 @@ void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
     app::prepare_outputs(surface.option(), surface.path);
 }
 
-/// No output replaces an input, or another output. @throws Error (usage).
+/// No output may replace an input or another output. @throws Error (usage).
 void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
                       const Arguments& arguments, app::Session& session) {
   const bool replaces = app::require_separate(inputs, outputs, arguments.common.force);
@@ -123,7 +123,7 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
   require_separate(inputs, outputs, arguments, session);
 }
 
-/// Outputs that are asked for and do not come.
+/// Warns about outputs that were asked for and will not be written.
 void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
   std::vector<std::string> unwritten, estimated;
   const bool is_named = arguments.output != "-";
@@ -139,7 +139,7 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
     const Options& options = arguments.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
     if (arguments.loops) unwritten.emplace_back("--loops");
-    // What bars take depends on these: on the cells that JSON has, for one.
+    // The memory of bars depends on these, for example on the cells that JSON needs.
     if (arguments.output_format)
       estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
     if (options.min_dim > 0) estimated.emplace_back("--min-dim");
@@ -152,11 +152,11 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
                              arguments.dry_run ? "--dry-run" : "--output-format none",
                              fmt::join(unwritten, ", ")));
   if (!estimated.empty())
-    session.note(fmt::format("--dry-run: nothing is done for {} but to estimate memory",
+    session.note(fmt::format("--dry-run: nothing is done for {} except to estimate memory",
                              fmt::join(estimated, ", ")));
 }
 
-/// Options of bars where the merge tree is all that is written.
+/// Options for bars that have no effect if only the merge tree is written.
 void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
   const bool is_seen = format != BarcodeFormat::none || !arguments.report.empty() ||
                        arguments.check ||
@@ -169,12 +169,13 @@ void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::
     if (std::ranges::find(kOfBars, scope->option) != kOfBars.end())
       given.push_back(fmt::format("--{}", scope->option));
   if (!given.empty())
-    session.note(fmt::format("nothing is done for {}: the merge tree is all that is written",
+    session.note(fmt::format("nothing is done for {}: only the merge tree is written",
                              fmt::join(given, ", ")));
 }
 
-/// One input of several: a line on stderr, whatever becomes of it. @return the exit code.
-/// @throws Error if the others need not be tried.
+/// Runs one of several inputs and writes one line to stderr, whatever the outcome. @return the exit
+/// code.
+/// @throws Error if the other inputs need not be tried.
 int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
   try {
     const Outcome outcome = run(job, arguments, session);
@@ -201,7 +202,7 @@ BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
                 fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
                             "--output-format says what else it is",
                             printable(arguments.output)));
-  // Pictures of several inputs need no barcodes beside them.
+  // Pictures of several inputs do not need barcodes beside them.
   const bool has_others =
       !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
   if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
@@ -235,7 +236,7 @@ int run_all(const Arguments& given, app::Session& session) {
   const BarcodeFormat format = output_format(given, session);
   if (given.joins) return run_join(given, format, session);
   Arguments arguments = given;
-  // JSON and the report show them.
+  // JSON and the report show cells.
   arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();
   require_room(format, arguments);
   const std::vector<std::string> inputs =

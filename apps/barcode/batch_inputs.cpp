@@ -9,7 +9,7 @@
 namespace ph::barcode {
 namespace {
 
-// Of what ph-barcode reads, compressed or not; a folder may have other files beside them.
+// The formats that ph-barcode reads, compressed or not; a folder may also hold other files.
 constexpr std::array<std::string_view, 26> kExtensions{
     ".csv",  ".tsv", ".txt",       ".dat",    ".xyz", ".xyzrgb",  ".pts", ".npy",   ".npz",
     ".png",  ".pgm", ".nii",       ".off",    ".ply", ".pcd",     ".bin", ".dipha", ".complex",

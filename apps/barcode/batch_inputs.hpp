@@ -7,7 +7,7 @@
 
 namespace ph::barcode {
 
-/// The inputs, with the files of a folder in its place.
+/// The inputs, with each folder replaced by its files.
 /// @throws Error (no_input) if a folder has no file of a known format.
 std::vector<std::string> with_files_of_folders(const Arguments& arguments);
 

@@ -36,7 +36,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Layers that were asked for, or why they are not looked at one by one.
+/// The number of layers requested for processing one by one, or why this does not apply.
 void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Arguments& arguments,
                    app::Session& session) {
   const int layers = arguments.common.slab_layers;
@@ -47,24 +47,24 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
   };
   const Engine engine = plan.options.engine;
   if (facts_of(engine).listed_dim(0) >= 0)
-    does_nothing(fmt::format("engine {} takes all of them at once", engine.name()));
+    does_nothing(fmt::format("engine {} takes all layers at once", engine.name()));
   else if (arguments.options.representatives != Representatives::none)
-    does_nothing("representatives need all of them at once");
+    does_nothing("representatives need all layers at once");
   else if (!cubical::can_be_cut(cubical->cubical_image(),
                                 {arguments.options.min_dim, *plan.options.max_dim}))
     does_nothing(cubical->cubical_image().extents.size() > 3
-                     ? "of four axes or more bars of dimensions between 0 and "
+                     ? "with four axes or more, bars of dimensions between 0 and "
                        "the highest but one "
-                       "need all of them at once"
+                       "need all layers at once"
                      : "no axis has more than one voxel");
   else
     session.explain(
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
-/// The files of the plots of the merge tree, in their order, before bars are
-/// computed, which may take long: there may be no tree. @throws Error (usage)
-/// if there is none.
+/// Opens the files of the merge tree's plots, in their order. This happens before the bars are
+/// computed, which may take long, because there may be no tree. @throws Error (usage) if there is
+/// none.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                                           const Arguments& arguments, const RunContext& context) {
   const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
@@ -86,15 +86,15 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   return pictures;
 }
 
-/// Whether bars of H1 get loops: only JSON has room for them.
+/// True if bars of H1 get loops: only JSON has room for them.
 bool writes_loops(const Job& job, const Arguments& arguments) {
   const Representatives kind = arguments.options.representatives;
   return job.format == BarcodeFormat::json && arguments.loops != LoopChoice::none &&
          (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
-/// Before anything is computed. @throws Error (usage) if loops are asked for
-/// that cannot be had.
+/// To be called before the computation. @throws Error (usage) if loops are requested that cannot be
+/// computed.
 void require_loops(const BuiltComplex& built, const Arguments& arguments) {
   if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
   const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
@@ -109,7 +109,7 @@ void require_loops(const BuiltComplex& built, const Arguments& arguments) {
                                               built.name));
 }
 
-/// What was computed of a complex.
+/// The results computed from a complex.
 struct Result {
   Barcode bars;
   std::vector<BarLoops> loops;
@@ -125,7 +125,7 @@ class Run {
 
   /// @throws Error.
   Outcome operator()() {
-    std::optional<Outputs> outputs;  // what cannot be created is said first
+    std::optional<Outputs> outputs;  // a file that cannot be created is reported first
     if (!arguments_.dry_run) outputs.emplace(job_);
     std::optional<Input> input(open());
     if (is_stored_) return run_stored(job_, *input, *outputs, arguments_, session_);
@@ -157,7 +157,7 @@ class Run {
     Input input = Input::open(files::path_of(job_.input), &context(), Input::Excess::stays_in_file);
     if (is_sealed_part(input.bytes()))
       throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
-                                                   "--join makes bars of all parts",
+                                                   "--join makes bars from all parts",
                                                    mark_place(input.name())));
     is_stored_ = arguments_.stored || (arguments_.format == Format::automatic && is_barcode(input));
     if (!is_stored_) return input;
@@ -165,7 +165,7 @@ class Run {
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: found a barcode, expected data", mark_place(input.name())));
     app::require_in_scope(arguments_.given, kBarcode,
-                          name_of(kBarcode));  // --dry-run is not
+                          name_of(kBarcode));  // --dry-run is not one
     return input;
   }
 
@@ -178,7 +178,7 @@ class Run {
     take_facts(loaded, estimated.built);
     explain_slabs(loaded.built, estimated, arguments_, session_);
     const app::BarHold results_are_written(session_);
-    // The edges, if they were made, were not there before.
+    // If the edges were listed, they were not there before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
     write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
     return {app::kOk, loaded.description};
@@ -216,15 +216,14 @@ class Run {
     return plan;
   }
 
-  /// Tells what is known of the complex once it is built.
+  /// Reports the facts about the complex that are known once it is built.
   void take_facts(Loaded& loaded, const RunFacts& facts) {
     barcode::take_facts(loaded.built, facts);
     promise_ = promise_of(loaded.built, facts);
     if (promise_) session_.note(fmt::format("{}: {}", loaded.name, *promise_));
   }
 
-  /// What was made is enough, unless the data are shown, checked, or taken as
-  /// they are.
+  /// The complex alone is enough, unless the data are shown, checked, or used directly.
   void give_back_data(Loaded& loaded, const RunPlan& plan) const {
     if (!job_.report.empty() || arguments_.check || plan.form == RipsForm::points) return;
     if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();
@@ -249,8 +248,7 @@ class Run {
     return result;
   }
 
-  /// Compares the bars with those of the oracle, over all edges of a Rips
-  /// filtration.
+  /// Compares the bars with the oracle's, over all edges of a Rips filtration.
   void check(const Loaded& loaded, RunPlan plan, Result& result) {
     const std::string_view engine = plan.options.engine.name();
     plan.options.engine = Engine::standard;
@@ -335,8 +333,8 @@ class Run {
   const Arguments& arguments_;
   app::Session& session_;
   Stopwatch watch_;
-  std::optional<app::BarHold> typing_;  // no bar of progress while somebody types the input
-  std::optional<std::string> promise_;  // what an approximation is worth
+  std::optional<app::BarHold> typing_;  // no progress bar while somebody types the input
+  std::optional<std::string> promise_;  // accuracy of an approximation
   bool is_stored_ = false;
 };
 
@@ -353,8 +351,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
-  // By now all that the run held has been given back; the heap keeps none of
-  // it.
+  // By now, everything that the run held has been freed; make the heap return it.
   app::give_back_freed_memory();
   session.loosen_heap_bound();
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));

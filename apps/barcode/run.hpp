@@ -14,7 +14,7 @@ inline constexpr app::Program kProgram{
     "take fewer points or voxels, a lower threshold or dimension (--max-dim), or raise "
     "--memory-limit"};
 
-/// One input and where its barcode goes.
+/// One input and the destination of its barcode.
 struct Job {
   std::string input;
   std::string output;
@@ -22,16 +22,16 @@ struct Job {
   std::vector<app::Plot> plots = {};
   std::string report = {};  ///< empty: none
   std::vector<Surface> surfaces = {};
-  Barcode* bars = nullptr;  ///< receives them, if it is there
+  Barcode* bars = nullptr;  ///< receives the bars, if not null
 };
 
-/// What became of it.
+/// The outcome of one input.
 struct Outcome {
   int code = 0;
   std::string summary;  ///< "1024 points in R^3, CSV: 57 bars"
 };
 
-/// Reads one input, computes its barcode and writes it. A stored barcode is there already.
+/// Reads one input, computes its barcode and writes it. A stored barcode is already computed.
 /// @throws Error.
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session);
 

@@ -36,7 +36,7 @@ std::string names_of(const std::vector<int>& dims) {
   return names;
 }
 
-/// The parts of a run that go together.
+/// The parts of a run that belong together.
 class Run {
  public:
   Run(const Arguments& arguments, app::Session& session)
@@ -51,7 +51,7 @@ class Run {
                           app::count_of(files_.size(), "barcode"));
     if (arguments.common.threads > 0 && files_.size() == 2 &&
         arguments.distance.kind != app::DistanceKind::sliced)
-      session.note("--threads does nothing: the distance of two barcodes is found by one thread");
+      session.note("--threads does nothing: one thread computes the distance of two barcodes");
     require_separate();
     if (arguments.writes_table()) {
       const std::string path = arguments.output_path();
@@ -100,7 +100,7 @@ class Run {
   }
 
  private:
-  /// No output replaces an input. @throws Error (usage).
+  /// No output may replace an input. @throws Error (usage).
   void require_separate() const {
     app::InputFiles inputs;
     for (const std::string& file : files_) inputs.add(file);
@@ -114,7 +114,7 @@ class Run {
       session_.explain("--force: not needed, no output is an input");
   }
 
-  /// @throws Error (usage) if there are several and a matrix is asked for.
+  /// @throws Error (usage) if there are several dimensions and a matrix is requested.
   std::vector<int> dims_to_compare(const std::vector<Barcode>& barcodes) const {
     const std::vector<int> there = app::dims_of(barcodes);
     for (const int dim : arguments_.dims)
@@ -128,7 +128,7 @@ class Run {
     return dims;
   }
 
-  /// The distances of two barcodes, and how their bars are paired.
+  /// The distances of two barcodes, and the pairs of their bars.
   PairDistances matched(const std::vector<Barcode>& barcodes, const std::vector<int>& dims,
                         std::vector<DimMatching>& matchings) const {
     PairDistances distances(2, dims, &context_.memory);
@@ -140,7 +140,7 @@ class Run {
     return distances;
   }
 
-  /// Text says it of each pair; elsewhere it is a number that looks like any other.
+  /// Text states this for each pair; in other formats it is a number that looks like any other.
   void note_infinite(const PairDistances& distances) const {
     if (table_ && !matrix_ && arguments_.table_format() == OutputFormat::text) return;
     for (std::size_t d = 0; d < distances.dims().size(); ++d) {
@@ -149,7 +149,7 @@ class Run {
         for (std::size_t b = 0; b < a; ++b) count += std::isinf(distances.at(d, a, b).value);
       if (count > 0)
         session_.note(fmt::format(
-            "H{}: {} infinite, for the numbers of infinite bars differ", distances.dims()[d],
+            "H{}: {} infinite, because the numbers of infinite bars differ", distances.dims()[d],
             count == 1 ? "1 distance is" : fmt::format("{} distances are", count)));
     }
   }

@@ -49,10 +49,10 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   return ph::read_cloud(input, options);
 }
 
-/// Whether the answer is a text on standard output.
+/// True if the answer is a text on standard output.
 bool prints(const Arguments& a) { return a.explain || !a.files.any(); }
 
-/// No output replaces an input. @throws Error (usage).
+/// No output may replace an input. @throws Error (usage).
 void require_separate(const Arguments& a, app::Session& session) {
   std::vector<app::Written> outputs = a.files.written();
   if (prints(a)) outputs.push_back({a.explain ? "--explain" : "the table", "-"});
@@ -60,7 +60,7 @@ void require_separate(const Arguments& a, app::Session& session) {
     session.explain("--force: not needed, no output is an input");
 }
 
-/// The library knows what is missing, the program which of its options help.
+/// The library knows what is missing, and the program knows which of its options help.
 Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
                                    const RunContext& context) {
   try {
@@ -76,7 +76,7 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
   }
 }
 
-/// Another cut of what is there.
+/// Another cut of the stored tree.
 void cut_again(Segmentation& s, const CutOptions& options, const RunContext& context) {
   static_cast<SceneCut&>(s) = cut(s, options, context);
   s.first_cut = options;
@@ -97,15 +97,15 @@ Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
   return s;
 }
 
-/// What was read, and what became of it.
+/// The input as it was read, and the result.
 struct Result {
-  std::optional<Cloud> cloud;  ///< none: a stored tree was read
-  std::string sha256;          ///< of the input, for a report
+  std::optional<Cloud> cloud;  ///< empty: a stored tree was read
+  std::string sha256;          ///< hash of the input, for a report
   Segmentation segmentation;
   double read_seconds = 0;
 };
 
-/// @param plane_guess of the frame before, if there was one.
+/// @param plane_guess plane of the frame before, if there was one.
 Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_guess,
                  const Outputs& outputs, app::Session& session) {
   const RunContext& context = session.context();
@@ -151,7 +151,8 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
   return result;
 }
 
-/// Of each segment. One without memory for it has none, with a note: the rest is not lost.
+/// The signature of each segment. If memory does not suffice for one, it stays empty, with a note:
+/// the other results are not lost.
 std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Session& session) {
   std::vector<std::optional<Barcode>> signatures(s.segments.size());
   for (const Segment& g : s.segments) {
@@ -170,7 +171,7 @@ std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Se
   return signatures;
 }
 
-/// What --verbose tells of the stages.
+/// The messages of --verbose about the stages.
 void explain_stages(const Segmentation& s, const Arguments& arguments, app::Session& session) {
   for (const Stage& stage : s.stages) {
     session.explain(
@@ -179,8 +180,8 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
   const SegmentOptions& options = arguments.options;
   if (s.method == options.method && !options.voxel && s.voxel > options.voxel_size()) {
     session.explain(
-        fmt::format("voxels of {:.4g} m in place of {} m: most points are too far apart "
-                    "to touch in smaller ones",
+        fmt::format("voxels of {:.4g} m instead of {} m: most points are too far apart "
+                    "to touch in smaller voxels",
                     s.voxel, options.voxel_size()));
   }
   if (!s.plane) return;
@@ -204,19 +205,19 @@ std::vector<std::string> notes_on(const Result& result, const Arguments& argumen
   return texts;
 }
 
-/// A cloud that is written as PLY, which has no place for where it was seen from; empty: none is.
+/// A cloud that is to be written as PLY, which cannot store the viewpoint; empty: none is.
 std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
   if (cloud == nullptr) return {};
   const auto& [x, y, z, qw, qx, qy, qz] = cloud->viewpoint;
   if (x == 0 && y == 0 && z == 0) return {};
   for (const std::string& path : {files.output, files.coloured})
     if (!path.empty() && cloud_format_of(path) == CloudFormat::ply)
-      return fmt::format("{}: PLY does not hold the viewpoint; with it goes --viewpoint {},{},{}",
+      return fmt::format("{}: PLY does not hold the viewpoint; read it with --viewpoint {},{},{}",
                          printable(path), x, y, z);
   return {};
 }
 
-/// The view for the next frame; a warning if the camera moved since the last one.
+/// The view for the next frame; warns if the camera moved since the last one.
 void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
   if (!s.plane) return;
   if (const auto motion = camera_motion(remembered.last, s))
@@ -242,7 +243,7 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 
-  // Before anything is written: the labels may not be there.
+  // Checked before any output: the labels may not exist.
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
     answer = explanation(s, (*labels)[0], (*labels)[1]);

@@ -16,7 +16,7 @@
 namespace ph::segment {
 namespace {
 
-/// A text of several lines as one: strings in JSON hold no line ends.
+/// A text of several lines as one line, because strings in JSON hold no line ends.
 std::string one_line(std::string_view text) {
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -56,7 +56,7 @@ class Stream {
       if (!arguments.common.force) known_.require_other(json());
       json_.emplace(json().path);
     }
-    // Of a long list of inputs there is one copy here, not one a frame.
+    // There is one copy of a long list of inputs here, not one per frame.
     one_.inputs = {};
     one_.frames_from.clear();
   }
@@ -77,7 +77,7 @@ class Stream {
  private:
   app::Written json() const { return {"--json", arguments_.files.json}; }
 
-  /// In the end the file of all frames would replace this one: there is no use in going on.
+  /// In the end the file of all frames would replace this one, so continuing is useless.
   void require_not_json(const std::string& input) {
     if (!json_) return;
     app::InputFiles frame;
@@ -86,16 +86,16 @@ class Stream {
     replaces_input_ = replaces_input_ || frame.replaced_by(json().path);
   }
 
-  /// No output replaces an input, nor another output. @throws Error (usage).
+  /// No output may replace an input or another output. @throws Error (usage).
   void require_separate(const Arguments& one) {
     std::vector<app::Written> outputs = one.files.written();
     if (outputs.empty()) return;
-    known_.add(one.input);  // not without need: a stream may go on for ever
+    known_.add(one.input);  // only if needed, because a stream may be endless
     if (json_) outputs.push_back(json());
     if (app::require_separate(known_, outputs, arguments_.common.force)) replaces_input_ = true;
   }
 
-  /// @throws Error if the others need not be tried.
+  /// @throws Error if the other frames need not be tried.
   void segment(Frame&& frame) {
     Arguments& one = one_;
     one.input = std::move(frame.input);
@@ -137,16 +137,16 @@ class Stream {
     const double cpu = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
     const auto frames = static_cast<double>(std::max<std::size_t>(frames_, 1));
     if (failures_ > 0) session_.note(fmt::format("{} of {} frames failed", failures_, frames_));
-    session_.note(fmt::format("{} frames in {:.2f} s: {:.1f} frames/s, {:.1f} ms CPU a frame",
+    session_.note(fmt::format("{} frames in {:.2f} s: {:.1f} frames/s, {:.1f} ms CPU per frame",
                               frames_, seconds, frames_ == 0 ? 0 : frames / seconds,
                               1e3 * cpu / frames));
   }
 
   const Arguments& arguments_;
-  Arguments one_;  // of the frame at hand
+  Arguments one_;  // for the current frame
   app::Session& session_;
   FrameSource source_;
-  app::InputFiles known_;  // and those of a pipe so far
+  app::InputFiles known_;  // including the names that came from a pipe so far
   bool replaces_input_ = false;
   std::optional<app::Output> json_;
   Remembered remembered_;

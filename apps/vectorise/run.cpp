@@ -21,7 +21,7 @@
 namespace ph::vectorise {
 namespace {
 
-/// The parts of a run that go together.
+/// The parts of a run that belong together.
 class Run {
  public:
   Run(const Arguments& arguments, app::Session& session)
@@ -63,7 +63,7 @@ class Run {
  private:
   bool is_fitting() const { return arguments_.fitted.empty(); }
 
-  /// No output replaces an input. @throws Error (usage).
+  /// No output may replace an input. @throws Error (usage).
   void require_separate() const {
     app::InputFiles inputs;
     for (const std::string& file : files_) inputs.add(file);
@@ -124,8 +124,8 @@ class Run {
     return euler_curve(bars_of(fit_, all, name, dropped_));
   }
 
-  /// Sample by sample: an image need not wait for the others. Only a grid that is to be fitted
-  /// needs the curves of all of them.
+  /// Works sample by sample, because an image need not wait for the others. Only a grid that must
+  /// be fitted needs the curves of all samples.
   Table euler_curves() {
     const bool knows_grid = !is_fitting() || (arguments_.grid && arguments_.grid->range);
     if (knows_grid && is_fitting()) add_euler_block(fit_, {}, arguments_);

@@ -19,7 +19,8 @@ namespace ph::report {
 namespace {
 
 constexpr Index kMostColumns = 3;  // of positions
-// Up to here positions are written as they are: the page finds the edges of a complex by them.
+// Up to this number of points, positions are written exactly, because the page derives the edges of
+// a complex from them.
 constexpr Index kMostExactPoints = 50'000;
 constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // in a page
 
@@ -28,7 +29,7 @@ const Complex* complex_as(const BarcodePage& page) {
   return page.complex ? std::get_if<Complex>(page.complex) : nullptr;
 }
 
-/// The image that the page shows: of two or three axes, and not too large.
+/// The image that the page shows: one with two or three axes that is not too large.
 std::optional<CubicalImage> image_of(const BarcodePage& page) {
   const auto* cubical = complex_as<Cubical>(page);
   if (!cubical) return std::nullopt;
@@ -38,7 +39,7 @@ std::optional<CubicalImage> image_of(const BarcodePage& page) {
   return image;
 }
 
-/// What the page cannot find out for itself.
+/// The data that the page cannot derive itself.
 ComplexArrays complex_of(const BarcodePage& page, const RunContext& context) {
   if (!page.points) return {};
   const PointsView& points = *page.points;
@@ -59,7 +60,7 @@ CloudMeta cloud_meta(const BarcodePage& page) {
 Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>& image) {
   Metadata meta;
   meta.title = page.title;
-  // Files of barcodes hold -f of superlevel sets; a reader of the page sees f.
+  // Files of barcodes hold -f for superlevel sets; a reader of the page sees f.
   const auto* cubical = complex_as<Cubical>(page);
   meta.negated = cubical ? cubical->cubical_image().superlevel : page.negated;
   const bool of_values = page.complex ? image.has_value() : meta.negated;
@@ -76,7 +77,7 @@ Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>&
   meta.provenance = page.provenance;
   if (cubical && !image)
     meta.provenance.notes.emplace_back("Image",
-                                       "not shown: too large, or not of two or three axes");
+                                       "not shown: too large, or without two or three axes");
   return meta;
 }
 
@@ -128,7 +129,7 @@ void write_page(const Sink& sink, const BarcodePage& page, const RunContext& con
     meta.provenance.notes.emplace_back("Sets of voxels", note);
   ReportFile report(sink, meta, context);
   add_pictures(report, std::span(&page.barcode, 1), meta);
-  // Doubled coordinates mean something on an image that is there only.
+  // Doubled coordinates mean something only if the page has the image.
   const bool cells =
       page.complex && (page.barcode.cell_kind() != CellKind::grid || image.has_value());
   add_bars(report, page.barcode, "bars", cells);
@@ -141,7 +142,7 @@ void write_page(const Sink& sink, const BarcodePage& page, const RunContext& con
     leaf_of = shown.contracted.leaf_of;
   }
   if (image) add_image(report, *image, leaf_of);
-  // The vertices of a listed complex come in the order of its list.
+  // The vertices of a listed complex have the order of its list.
   if (complex_as<ExplicitComplex>(page)) leaf_of = {};
   if (page.points) add_points(report, *page.points, page.point_ids, leaf_of);
   add_complex(report, cells_shown);

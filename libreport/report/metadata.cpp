@@ -11,7 +11,7 @@ namespace {
 
 using json::integer, json::number, json::object;
 
-// Values that are left out where there is nothing.
+// Values that are left out if they are empty.
 std::string text(std::string_view value) { return value.empty() ? "" : json::string(value); }
 std::string number_if(const std::optional<double>& value) { return value ? number(*value) : ""; }
 std::string point_if(const std::optional<std::array<double, 3>>& values) {
@@ -106,7 +106,7 @@ std::string provenance(const Provenance& p) {
                  {"notes", notes.empty() ? "" : "{" + notes + "}"}});
 }
 
-/// "<" is in texts only.
+/// "<" occurs in texts only.
 std::string without_tags(std::string_view json) {
   std::string text;
   text.reserve(json.size());
@@ -122,7 +122,7 @@ std::string without_tags(std::string_view json) {
 }  // namespace
 
 std::string title_of(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);  // all of it if there is none
+  return path.substr(path.rfind('/') + 1);  // the whole text if there is none
 }
 
 std::string metadata_json(const Metadata& m) {

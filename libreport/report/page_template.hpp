@@ -4,14 +4,14 @@
 
 namespace ph::report {
 
-/// Where the payload goes: in the template exactly once.
+/// The marker for the payload, which the template has exactly once.
 inline constexpr std::string_view kPayloadMarker = "<!--ph:payload-->";
 
-/// The page without its payload, as viewer/ builds it; empty where it is not built in.
+/// The page without its payload, as viewer/ builds it; empty if this build has none.
 std::string_view page_template();
 
-/// For whoever wants a report, before anything is computed. @throws Error (not_built_in) "option:
-/// …" if there is no template.
+/// To be called by anyone who wants a report, before the computation. @throws Error (not_built_in)
+/// "option: …" if there is no template.
 void require_built_in();
 
 }  // namespace ph::report

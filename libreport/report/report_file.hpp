@@ -12,12 +12,12 @@
 
 namespace ph::report {
 
-/// A report while it is written: the page up to the marker, the metadata, arrays in any order, the
-/// rest of the page. docs/reference/report-format.md says what each array is.
-/// All functions throw Error (cancelled) and what the sink throws.
+/// A report that is being written: the page up to the marker, the metadata, arrays in any order,
+/// the rest of the page. docs/reference/report-format.md describes each array. All functions throw
+/// Error (cancelled) and the errors of the sink.
 class ReportFile {
  public:
-  /// @throws Error (not_built_in) without a page.
+  /// @throws Error (not_built_in) if this build has no page.
   ReportFile(const Sink& sink, const Metadata& metadata, const RunContext& context);
   template <ArrayNumber T>
   void add(std::string_view name, std::span<const T> numbers, const ArrayForm& form = {}) {
@@ -27,9 +27,9 @@ class ReportFile {
   void add(std::string_view name, const std::vector<T>& numbers, const ArrayForm& form = {}) {
     add(name, std::span<const T>(numbers), form);
   }
-  /// The voxels of an image, as they are stored.
+  /// The voxels of an image, in their stored type.
   void add_voxels(std::string_view name, const CubicalImage& image);
-  /// Writes what is seen where scripts do not run. @param pictures SVG documents.
+  /// Writes the pictures for readers without scripts. @param pictures SVG documents.
   void add_pictures(std::span<const std::string> pictures);
   /// Writes the rest of the page.
   void finish();

@@ -20,12 +20,12 @@ namespace {
 
 using segment::Method, segment::SceneTree, segment::Segmentation;
 
-constexpr double kStepsAVoxel = 8;  // positions are stored at least as exactly
+constexpr double kStepsAVoxel = 8;  // stored positions have at most this error
 
-/// The points that are shown: all of a cloud but its holes.
+/// The points that are shown: all points of a cloud except its holes.
 struct ShownPoints {
-  std::vector<std::uint32_t> index;   ///< in the cloud
-  std::vector<std::uint32_t> vertex;  ///< of the tree; kNone: none
+  std::vector<std::uint32_t> index;   ///< index in the cloud
+  std::vector<std::uint32_t> vertex;  ///< vertex of the tree; kNone: none
   std::vector<float> xyz;
 };
 
@@ -56,8 +56,7 @@ std::uint32_t read_as(const std::byte* at) {
   return static_cast<std::uint32_t>(value);
 }
 
-/// Ground truth of the points that are shown; nothing if the cloud has no field of whole numbers by
-/// the name of label.
+/// Ground truth of the points that are shown; empty if the cloud has no integer field named label.
 std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& points) {
   const CloudField* field = cloud.find("label");
   if (!field || field->count != 1) return {};
@@ -81,7 +80,7 @@ std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& point
   std::vector<std::uint32_t> truth;
   for (const std::uint32_t i : points.index) {
     truth.push_back(read(cloud.data.data() + i * cloud.stride + field->offset));
-    if (truth.back() >= UINT16_MAX) return {};  // a page has 16 bits for them
+    if (truth.back() >= UINT16_MAX) return {};  // a page has 16 bits for labels
   }
   return truth;
 }
@@ -120,8 +119,8 @@ void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
     add_labels(report, "points/truth", truth, false);
 }
 
-/// The bars of a length, in the order of the barcode file. Their cells are points: one of each
-/// voxel, since the page shows no voxels.
+/// The bars of positive length, in the order of the barcode file. Their cells are points, one of
+/// each voxel, because the page shows no voxels.
 Barcode bars_of(const Segmentation& s) {
   std::vector<Index> point(s.cells.size(), -1);
   for (std::size_t k = 0; k < s.points.size(); ++k) {
@@ -141,7 +140,7 @@ Barcode bars_of(const Segmentation& s) {
   return bars;
 }
 
-/// The vertex that gave birth to each of these bars.
+/// The birth vertex of each of these bars.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   std::vector<std::uint32_t> vertices;
   for (std::size_t i = 0; i < barcode.size(); ++i)
@@ -150,8 +149,8 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   return vertices;
 }
 
-/// The segments and surfaces of the segmentation: the label and the surface of each leaf, and how
-/// many voxels of a leaf lie on each surface that was found, for other cuts.
+/// The segments and surfaces of the segmentation: the label and the surface of each leaf, and, for
+/// other cuts, how many voxels of a leaf lie on each surface that was found.
 void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree& contracted) {
   const std::size_t leaves = contracted.leaf_birth.size();
   std::vector<std::uint32_t> labels(leaves);
@@ -213,7 +212,7 @@ Metadata metadata_of(const ScenePage& page) {
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
   CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
-  // A camera sees y downwards; what else there may be has z upwards.
+  // Cameras have y downwards; other clouds have z upwards.
   if (s.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.plane)

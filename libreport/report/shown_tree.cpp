@@ -13,7 +13,7 @@
 namespace ph::report {
 namespace {
 
-// A page stays interactive with so many merges; those of the lowest levels are contracted.
+// With up to this many merges a page stays interactive; merges at the lowest levels are contracted.
 constexpr std::size_t kMostMerges = 100'000;
 
 std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
@@ -23,7 +23,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
     options.merge_equal_points.reset();
     return tree_of(rips.with(std::move(options), context), context);
   }
-  // Some points may be no vertices.
+  // Some points may not be vertices.
   if (rips.graph(RipsForm::forest, context).has_names()) return std::nullopt;
   return merge_tree(rips, context);
 }
@@ -44,7 +44,7 @@ std::optional<MergeTree> tree_of(const Alpha& alpha, const RunContext& context) 
   return merge_tree(alpha, context);
 }
 
-/// The vertex of the tree that gave birth to each bar of H0, as far as it is known.
+/// The birth vertex of each bar of H0 in the tree, as far as it is known.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
   std::vector<std::uint32_t> vertices;
   std::vector<Index> extents;
@@ -60,16 +60,17 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical*
   return vertices;
 }
 
-/// The same to three digits.
+/// The same number, rounded to three digits.
 double rounded(double x) {
   const std::string digits = fmt::format("{:.3g}", x);
   floating_from_chars(digits.data(), digits.data() + digits.size(), x);
   return x;
 }
 
-/// Between two neighbouring levels, ascending, that are farther apart than `least`, and farther
-/// than all others. The upper one is at least a tenth of the largest: gaps far below it are chance.
-/// @param width how far apart two of them are.
+/// The middle of the widest gap between two neighbouring levels, ascending, if it is wider than
+/// `least`. The upper level is at least a tenth of the largest, because gaps far below it occur by
+/// chance.
+/// @param width distance between two levels.
 template <class Width>
 std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
                                        Width width) {
@@ -85,12 +86,12 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
   return middle;
 }
 
-/// Where the levels of the largest merges have their widest gap, as a ratio: what lies above is
-/// much more persistent than what lies below. Without a wide one, of basins the widest difference;
-/// else the largest level, which leaves the fewest parts; `from` without merges.
+/// A cut at the widest ratio between neighbouring levels of the largest merges: levels above it are
+/// much more persistent than levels below. If no ratio is wide, it is the widest difference for
+/// basins; else the largest level, which leaves the fewest parts; `from` without merges.
 double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRule rule,
                   double from) {
-  constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64
+  constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64 levels
   constexpr double least_ratio = 1.2;
   std::vector<double> levels;
   for (const auto& kept : contracted.merges) {
@@ -108,8 +109,8 @@ double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRu
   return cut.value_or(levels.back());
 }
 
-/// What the values are of a complex whose points enter together, which has clusters at a value.
-/// Else empty: minima lie at different depths.
+/// The meaning of the values of a complex whose points enter together, and which therefore has
+/// clusters at a value. Otherwise empty, because minima lie at different depths.
 std::string_view label_of_values(const AnyComplex& complex) {
   if (std::holds_alternative<Rips>(complex)) return "distance";
   const auto* alpha = std::get_if<Alpha>(&complex);

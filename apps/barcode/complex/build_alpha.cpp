@@ -36,7 +36,7 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   if (!options.period.empty() && std::ssize(options.period) != points.cols())
     throw Error(ErrorKind::usage,
                 fmt::format("--period: found {} numbers for {} axes, expected one for all, or one "
-                            "an axis",
+                            "per axis",
                             options.period.size(), points.cols()));
   options.threshold = arguments.threshold.value_or(kInfinity);
   if (options.weights.empty() && options.threshold < 0)
@@ -46,7 +46,8 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   try {
     const bool is_weighted = !options.weights.empty();
     const Alpha alpha(points, options, context);
-    // A triangulation is many blocks, each too small to go back to the system by itself.
+    // A triangulation consists of many blocks, each too small to be returned to the system by
+    // itself.
     app::give_back_freed_memory();
     BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";

@@ -8,7 +8,8 @@
 namespace ph::barcode {
 
 /// The alpha complex of points, or another complex of their Delaunay triangulation.
-/// @param weights one a point, or none. @param ids of the points in the input; empty: their own.
+/// @param weights one per point, or none. @param ids of the points in the input; empty: their own
+///     numbers.
 /// @throws Error (usage) if an option does not fit the points; Error (bad_data).
 BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
                          const std::vector<Index>& ids, const std::string& name,

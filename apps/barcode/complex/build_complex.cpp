@@ -22,11 +22,11 @@
 namespace ph::barcode {
 namespace {
 
-/// Builds from each kind of data the complexes that make sense of it.
+/// Builds the complexes that make sense for each kind of data.
 class Builder {
  public:
-  /// @param read what is said of the data; they are visited. @param dropped how many points of the
-  /// input are not among them.
+  /// @param read the description of the data, which are visited. @param dropped how many points of
+  /// the input are not among them.
   Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
           const ReadResult& read, std::size_t dropped)
       : name_(name),
@@ -95,7 +95,7 @@ class Builder {
   }
 
  private:
-  /// The complex to build: the one asked for, or the first that makes sense.
+  /// The complex to build: the requested one, or the first that makes sense.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
     const bool is_free = arguments_.complex == ComplexKind::automatic;
     const ComplexKind kind = is_free ? *kinds.begin() : arguments_.complex;
@@ -189,7 +189,7 @@ class Builder {
       return built;
     });
   }
-  /// The points stay where they are, see build_complex.
+  /// The points stay in place, see build_complex.
   Rips rips_of(const Points& points, RipsOptions options) const {
     return Rips::borrowed(points, std::move(options), context_);
   }
@@ -198,7 +198,8 @@ class Builder {
     return Rips(distances, std::move(options), context_);
   }
 
-  /// Numbers from a file that has one for each point of the input, those left out among them.
+  /// Numbers from a file that has one for each point of the input, including points that were left
+  /// out.
   /// @param path empty: none.
   std::vector<double> values_by_point(const std::string& path, Index points,
                                       double least = std::numeric_limits<double>::lowest(),
@@ -244,7 +245,7 @@ class Builder {
   }
 
   /// Values of the vertices for the lower star of listed simplices: from --values, or from the
-  /// vertices' own lines.
+  /// lines of the vertices.
   std::vector<double> vertex_values(const SimplicesInput& input) const {
     if (!input.vertex_values.empty()) return input.vertex_values;
     const SimplexList& list = input.simplices;
@@ -256,7 +257,7 @@ class Builder {
                               "--values gives them in a file",
                               mark_place(input.name), v));
     };
-    // Each vertex needs a line: where ids go beyond the lines, one is missing.
+    // Each vertex needs a line: if ids exceed the number of lines, one is missing.
     if (largest >= static_cast<Index>(list.size())) fail_at(largest);
     std::vector<double> values(static_cast<std::size_t>(largest + 1),
                                std::numeric_limits<double>::quiet_NaN());
@@ -268,7 +269,7 @@ class Builder {
     return values;
   }
 
-  /// Faces as triangles around their first corner.
+  /// Splits faces into triangles around their first corner.
   static SimplexList triangles_of(const Mesh& mesh) {
     SimplexList list;
     for (std::size_t f = 0; f < mesh.faces(); ++f) {
@@ -288,12 +289,12 @@ class Builder {
   const Arguments& arguments_;
   const RunContext& context_;
   const Format format_;
-  const std::vector<bool>& periodic_;  // axes of an image that its file says close up
-  const std::vector<Index>& ids_;      // of the points in the input; empty: all are there
+  const std::vector<bool>& periodic_;  // axes that the file of the image declares periodic
+  const std::vector<Index>& ids_;      // numbers of the points in the input; empty: all are there
   const std::size_t dropped_;
 };
 
-/// 1 + x, with all digits of x where they would be lost in the sum.
+/// 1 + x as text, with the digits of x that the sum would lose.
 std::string one_and(double x) {
   constexpr double least = 1e-6;
   return x < least ? "1 + " + shortest(x) : shortest(1 + x);
@@ -317,7 +318,7 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
     const double late = 2 * sample->covering_radius;
     text = fmt::format(
         "{} of {} points, covering radius {}: bars longer than {} are real and "
-        "come at most so much late",
+        "are at most this much late",
         sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
   }
   if (const auto& epsilon = rips->options().approximation; epsilon && facts.edges) {
@@ -340,7 +341,7 @@ std::optional<std::string> hidden_points(const BuiltComplex& built) {
   constexpr std::size_t most_named = 10;
   if (!built.alpha || built.alpha->hidden.empty()) return std::nullopt;
   const std::span<const Index> hidden(built.alpha->hidden);
-  return fmt::format("{} hidden by others with larger weights, and not in the complex: {}{}",
+  return fmt::format("{} hidden by points with larger weights and not in the complex: {}{}",
                      app::count_of(hidden.size(), "point"),
                      fmt::join(hidden.first(std::min(hidden.size(), most_named)), ", "),
                      hidden.size() > most_named ? ", …" : "");

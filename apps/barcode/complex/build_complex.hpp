@@ -10,38 +10,39 @@
 
 namespace ph::barcode {
 
-/// A complex with what the user is told about it.
+/// A complex with the facts that the user is told about it.
 struct BuiltComplex {
   AnyComplex complex;
   std::string name;                 ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
-  std::optional<double> threshold;  ///< that its values obey; nothing: all are there
-  bool empty = false;               ///< there are no points or cells at all
+  std::optional<double> threshold;  ///< threshold of its values; empty: all values are there
+  bool empty = false;               ///< true if there are no points or cells at all
   // As in BarcodeInfo.
   std::string vertex_weights = {};
   std::string metric = {};
-  std::optional<CubicalOptions> cubical = std::nullopt;  ///< of an image
+  std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
-  /// The same image listed cube by cube, which the oracle of --check takes; null: it takes the
+  /// The same image listed cube by cube, for the oracle of --check; null: the oracle uses the
   /// complex itself.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
 
-/// The points of an alpha complex that have no part in it, one line; nothing if all have.
+/// One line about the points that are not part of an alpha complex; empty if there are none.
 std::optional<std::string> hidden_points(const BuiltComplex& built);
 
-/// Gives a Rips complex, which is known once it is built as planned, its threshold and subsample.
+/// Adds the threshold and subsample of a Rips complex, which are known once it is built.
 void take_facts(BuiltComplex& built, const RunFacts& facts);
-/// What an approximation or a subsample is worth, one line; nothing if there is none.
+/// One line about the accuracy of an approximation or a subsample; empty if there is none.
 std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts& facts);
 
-/// The merge tree of all points. Nothing where the complex was sampled, approximated or cut, and
-/// where report::whole_tree has none. @throws Error (resource, cancelled).
+/// The merge tree of all points. Empty if the complex was sampled, approximated or cut, and if
+/// report::whole_tree has none. @throws Error (resource, cancelled).
 std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context);
 
-/// Calls `work`. Data may be wrong in a way that no reader can know, such as a point without
-/// direction or distances that overflow. @throws Error (bad_data) "name: …"; others as they are.
+/// Calls `work`. Data may be wrong in ways that no reader can detect, such as a point without a
+/// direction or distances that overflow. @throws Error (bad_data) "name: …"; other errors
+/// unchanged.
 template <class Work>
 decltype(auto) in_name_of(const std::string& name, Work&& work) {
   try {
@@ -53,12 +54,13 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
 }
 
 /// Chooses the complex that the arguments ask for, or the one that suits the data. A Rips complex
-/// refers to the points of the input, which stay as long as it has its input.
-/// @param name of the input, for messages. @param dropped how many points were left out of it.
+/// refers to the points of the input, which must live as long as the complex.
+/// @param name of the input, for messages. @param dropped how many points of the input were left
+///     out.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context);
-/// The same from data that are needed again.
+/// Builds the complex from data that are needed again.
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context);
 

@@ -7,12 +7,13 @@
 
 namespace ph::barcode {
 
-/// What the arguments say of images, for one. @param periodic the axes that its file says close up.
-/// @throws Error (usage) if there are not so many axes.
+/// The options for one image, from the arguments. @param periodic the axes that its file declares
+/// periodic.
+/// @throws Error (usage) if the image has fewer axes.
 CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
                                const std::vector<bool>& periodic);
 
-/// What a barcode's origin says of them.
+/// These options, as the origin of a barcode states them.
 void describe(const CubicalOptions& options, BarcodeInfo& info);
 
 }  // namespace ph::barcode

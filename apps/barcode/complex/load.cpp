@@ -15,7 +15,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Bytes of what was read that stay while the complex is built.
+/// Bytes of the data that remain while the complex is built.
 std::size_t size_of(const ReadResult& read) {
   struct Size {
     std::size_t operator()(const Points& points) const {
@@ -43,7 +43,7 @@ bool is_given(const Arguments& arguments, std::string_view option) {
                              [&](const auto* scope) { return scope->option == option; });
 }
 
-/// Why there can be no NaN in what was read; empty: there may be some.
+/// Why the data cannot contain NaN; empty: they may contain some.
 std::string_view why_no_nan(const ReadResult& read) {
   if (read.format == Format::perseus) return "a Perseus file has none";
   if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
@@ -53,7 +53,7 @@ std::string_view why_no_nan(const ReadResult& read) {
   return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
 }
 
-/// Whether all rows may be dimension, birth and death: bars that a file does not say it has.
+/// True if every row may be dimension, birth and death: bars in a file that does not say so.
 bool may_be_bars(const ReadResult& read) {
   constexpr double most = 9;  // dimensions
   const auto is_bar = [](double dim, double birth, double death) {
@@ -74,7 +74,7 @@ bool may_be_bars(const ReadResult& read) {
   return true;
 }
 
-/// What could not be read as data, with a hint if it can be read as bars.
+/// The error for data that could not be read, with a hint if they can be read as bars.
 [[noreturn]] void fail_to_read(const Job& job, const Error& error, Format format,
                                const RunContext& context) {
   bool has_bars = false;
@@ -85,7 +85,7 @@ bool may_be_bars(const ReadResult& read) {
     try {
       has_bars =
           read_stored_barcode(Input::open(files::path_of(job.input), &context)).bars.size() > 0;
-    } catch (const std::exception&) {  // it cannot, either
+    } catch (const std::exception&) {  // it cannot be read again either
     }
   }
   if (!has_bars) throw;
@@ -107,13 +107,13 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
-  // Scanners mark holes by NaN: they are no error unless somebody says so.
+  // Scanners mark holes by NaN: such NaN are an error only if an option says so.
   if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
                             mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
-  // A batch says it in its one line an input.
+  // A batch reports it in its one line per input.
   if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
     session.note(what);
   else
@@ -140,7 +140,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   if (cubical && cubical->cubical_image().extents.size() == 1 &&
       is_given(arguments, "construction") &&
       arguments.options.representatives == Representatives::none)
-    session.note("--construction does nothing: of one axis both have the same bars");
+    session.note("--construction does nothing: with one axis, both have the same bars");
   if (const auto hidden = hidden_points(built)) session.note(fmt::format("{}: {}", name, *hidden));
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,

@@ -28,19 +28,19 @@ class Stopwatch {
   std::vector<std::pair<std::string, double>> laps_;
 };
 
-/// All that is kept of an input: the complex, and what the results say about it.
+/// Everything that is kept of an input: the complex, and the facts that results state about it.
 struct Loaded {
   BuiltComplex built;
   std::string name;  ///< of the input, printable
   std::string description;
   std::vector<Index> point_ids;
-  // What the complex refers to, or what a report shows; counted in the budget.
+  // The data that the complex refers to or that a report shows; counted in the budget.
   std::optional<NamedData> data = {};
   std::unique_ptr<MemoryClaim> claim = {};
 };
 
-/// Reads an input and builds its complex; says what was read, and what it was guessed to be.
-/// @throws Error as the readers and complexes do.
+/// Reads an input, builds its complex, and reports what was read and what was guessed.
+/// @throws Error like the readers and complexes.
 Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
             app::Session& session, Stopwatch& watch);
 

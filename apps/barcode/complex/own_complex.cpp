@@ -26,8 +26,7 @@ std::vector<std::string_view>& names() {
 
 void add_complex(OwnComplex complex) {
   if (std::ranges::find(names(), complex.name) != names().end())
-    throw Error(ErrorKind::usage,
-                fmt::format("complex {}: there is one of that name", complex.name));
+    throw Error(ErrorKind::usage, fmt::format("complex {}: this name is taken", complex.name));
   names().push_back(complex.name);
   added().push_back(std::move(complex));
 }

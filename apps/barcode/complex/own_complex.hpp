@@ -9,18 +9,19 @@
 
 namespace ph::barcode {
 
-/// A complex of points that a program adds to those of --complex.
+/// A complex of points that a program adds to the choices of --complex.
 struct OwnComplex {
   std::string_view name;  ///< as in --complex NAME
   std::string_view what;  ///< one phrase, for --help
-  /// Builds it whole; a threshold is applied to its bars. Its vertices are the points by number.
+  /// Builds the whole complex; a threshold is applied to its bars. Its vertices are the points, by
+  /// number.
   std::function<ExplicitComplex(PointsView points, const RunContext& context)> of_points;
 };
 
-/// Before the command line is read. @throws Error (usage) if the name is taken.
+/// To be called before the command line is read. @throws Error (usage) if the name is taken.
 void add_complex(OwnComplex complex);
 
-/// Those added so far.
+/// The complexes added so far.
 std::span<const OwnComplex> own_complexes();
 /// The names that --complex knows, "auto" first.
 std::span<const std::string_view> complex_names();

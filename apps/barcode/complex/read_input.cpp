@@ -15,19 +15,19 @@
 namespace ph::barcode {
 namespace {
 
-/// What a result does with a mesh that has no values, as a note; empty: it is no such mesh.
+/// A note on what results do with a mesh that has no values; empty for other data.
 std::string note_on_mesh(const ReadResult& read, const Arguments& a) {
   const auto* const mesh = std::get_if<Mesh>(&read.data);
   if (a.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
       !mesh->values.empty())
     return {};
   return fmt::format(
-      "the {} faces are not used, the vertices are points; --values FILE has values of the "
+      "the {} faces are not used, the vertices are points; --values FILE gives values of the "
       "vertices and filters the mesh",
       mesh->faces());
 }
 
-/// A row for each time, of what was read. @throws Error (bad_data) if it is no table.
+/// Turns the data into one row per time. @throws Error (bad_data) if they are not a table.
 Points series_of(const std::string& name, ReadResult& read) {
   if (auto* const points = std::get_if<Points>(&read.data)) return std::move(*points);
   const auto* const image = std::get_if<Image>(&read.data);
@@ -41,7 +41,7 @@ Points series_of(const std::string& name, ReadResult& read) {
   return series;
 }
 
-/// Puts the windows of a time series in the place of what was read.
+/// Replaces the data by the windows of a time series.
 void embed(const std::string& name, const Arguments::Delay& delay, std::size_t dropped,
            const RunContext& context, ReadResult& read) {
   if (dropped > 0)
@@ -51,7 +51,7 @@ void embed(const std::string& name, const Arguments::Delay& delay, std::size_t d
                             mark_place(name), dropped));
   const Points series = series_of(name, read);
   const auto [dimension, lag] = delay;
-  // A point has the numbers of `dimension` rows, of which there are so many.
+  // A point has the numbers of `dimension` rows.
   context.memory.require(static_cast<std::size_t>(series.size()) * sizeof(double) *
                          static_cast<std::size_t>(std::min(dimension, series.rows())));
   Points points;
@@ -73,7 +73,7 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
   options.context = &context;
   options.dropped = &dropped;
   Format format = arguments.format;
-  // A row for each time, however many numbers it has; arrays may have one axis.
+  // A row for each time, with any number of columns; arrays may have one axis.
   if (arguments.delay && format == Format::automatic && !detail::format_by_content(input))
     format = Format::points;
   ReadResult read = read_any(input, format, options, files::path_of(arguments.values));

@@ -11,13 +11,13 @@ namespace ph::barcode {
 struct NamedData {
   std::string name;  ///< of the input, printable
   ReadResult read;
-  std::size_t dropped = 0;  ///< points that were left out
-  std::string sha256 = {};  ///< of the bytes that were read; empty: nobody wants to know
+  std::size_t dropped = 0;  ///< number of points that were left out
+  std::string sha256 = {};  ///< hash of the bytes that were read; empty: not needed
 };
-/// @throws Error as the readers.
+/// @throws Error like the readers.
 NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context);
 
-/// Points, and the vertices of a mesh; nothing of other data.
+/// Points, or the vertices of a mesh; empty for other data.
 std::optional<PointsView> points_of(const ReadResult& read);
 
 }  // namespace ph::barcode

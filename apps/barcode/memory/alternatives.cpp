@@ -28,7 +28,7 @@ std::string text_of(const Fit& fit, const Arguments& arguments) {
   bool has_loops = arguments.loops.has_value();
   for (const auto& [setting, value] : fit.changes) {
     changes.push_back(app::kWords.setting(setting, value));
-    // Without cycles of H1 --loops is refused.
+    // Without cycles of H1, --loops is refused.
     const bool ends_loops =
         setting == Setting::representatives || (setting == Setting::max_dim && value == "0");
     if (has_loops && ends_loops) {
@@ -39,7 +39,7 @@ std::string text_of(const Fit& fit, const Arguments& arguments) {
   return text_of(fmt::format("{}", fmt::join(changes, " ")), fit);
 }
 
-/// The smallest of a few larger voxels with which the image of points fits; empty: none does.
+/// The smallest of a few larger voxels with which the image of points fits; empty if none does.
 std::string larger_voxel(const NamedData& data, const Arguments& arguments,
                          const RunContext& context) {
   for (const double times : {1.5, 2.0, 4.0, 8.0, 16.0}) {
@@ -63,7 +63,7 @@ std::string larger_voxel(const NamedData& data, const Arguments& arguments,
 }  // namespace
 
 std::string alternatives(const Job& job, const Arguments& arguments, app::Session& session) {
-  if (job.input == "-") return "";  // was read and is gone
+  if (job.input == "-") return "";  // was read and freed again
   try {
     const RunContext& context = session.context();
     const Input input =
@@ -78,7 +78,7 @@ std::string alternatives(const Job& job, const Arguments& arguments, app::Sessio
     for (const Fit& fit : what_fits(built.complex, arguments.options, context))
       texts.push_back(text_of(fit, arguments));
     if (texts.empty()) return "";
-    // How many cells of an image are critical no estimate knows.
+    // No estimate knows how many cells of an image are critical.
     const bool is_image = std::holds_alternative<Image>(data.read.data);
     return fmt::format("what {} fit: {}", is_image ? "may" : "would", fmt::join(texts, "; "));
   } catch (const Error& error) {

@@ -34,10 +34,11 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   const int listed = static_cast<int>(estimate.cells.size()) - 1;
   if (listed < *estimate.options.max_dim + 1)
     text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
-  // Part of what was taken are pages of code, which any input takes.
+  // Part of the measured memory is code pages, which any input needs.
   constexpr double code = 2 << 20;
   const double low = std::max({0.0, taken - code, estimate.bytes_low});
-  // What building gave back may not fit what comes next: at worst nothing of it is used again.
+  // Memory that was freed after building may not fit the next allocations: at worst, none of it is
+  // used again.
   const double high =
       std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
   return text + fmt::format("memory   {} to {}\n", format_size(low), format_size(high));

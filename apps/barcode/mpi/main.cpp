@@ -19,7 +19,7 @@ constexpr ph::app::Program kProgram{
     "take more ranks on more machines, ask for less (--max-dim), or raise "
     "--memory-limit"};
 
-/// MPI is not started for it: it may be missing where the program is only asked.
+/// Such an option works without MPI, which may be missing where the program is only asked for help.
 bool is_help_asked(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -38,7 +38,7 @@ int print_help(int argc, char** argv) {
   });
 }
 
-/// By default ranks of one machine share it.
+/// By default, the ranks of one machine share its memory and cores.
 void share_machine(ph::app::CommonOptions& options, int ranks) {
   const auto count = static_cast<unsigned>(ranks);
   if (!options.memory_limit) options.memory_limit = ph::machine_memory() / count;
@@ -59,13 +59,13 @@ int main(int argc, char** argv) {
         return transport.rank() == 0 ? ph::app::answer_command_line(*answer) : 0;
     } catch (const ph::Error&) {
       if (transport.rank() == 0) throw;
-      transport.wait_for_all();  // rank 0 says why, and ends all
+      transport.wait_for_all();  // rank 0 prints the reason and ends all ranks
     }
     share_machine(arguments.common, transport.ranks_here());
     const bool is_first = transport.rank() == 0;
-    // Notes come once; another rank that wants to be heard has to fail, or be asked to speak.
+    // Only rank 0 prints notes; another rank speaks only if it fails or with --verbose.
     arguments.common.quiet = arguments.common.quiet || (!is_first && !arguments.common.verbose);
-    // A bar is that of the first rank; lines of JSON say whose they are.
+    // Only the first rank shows a bar; lines of JSON name their rank.
     if (arguments.common.progress == ph::app::ProgressMode::json)
       arguments.common.rank = transport.rank();
     else if (!is_first)

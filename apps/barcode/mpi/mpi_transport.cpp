@@ -12,14 +12,14 @@ namespace ph::barcode {
 namespace {
 
 constexpr int kTag = 1;
-// Counts of MPI are ints: a message goes in pieces of at most so many bytes.
+// Counts in MPI are ints: a message is sent in pieces of at most this many bytes.
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 
-/// Waits for what was begun, and sleeps meanwhile, longer and longer: MPI itself would take all of
-/// a core, which another rank may need.
+/// Waits for a pending operation, and sleeps longer and longer meanwhile: MPI itself would use a
+/// whole core, which another rank may need.
 void wait_for(MPI_Request& request) {
   using std::chrono::microseconds;
-  constexpr int kBusy = 200;  // times that it asks at once
+  constexpr int kBusy = 200;  // number of immediate polls
   constexpr microseconds kMost(200);
   int is_done = 0;
   for (int i = 0; i < kBusy && is_done == 0; ++i) MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
@@ -79,7 +79,7 @@ void MpiTransport::wait_for_all() {
 
 int MpiTransport::finish(int code) {
   if (code != 0) {
-    // What was said goes through MPICH's own pipes, which an abort cuts.
+    // Output goes through MPICH's own pipes, which an abort cuts.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     MPI_Abort(MPI_COMM_WORLD, code);
   }

@@ -33,7 +33,7 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
     options.kind = kind.value_or(options.kind);
     plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
   }
-  // Pixels may exceed the memory: nothing is complete before all is drawn.
+  // Pixels may exceed the memory: no file is completed before everything is drawn.
   if (barcode_) {
     write_barcode(barcode_->file(), bars, job_.format, info);
     barcode_->commit();

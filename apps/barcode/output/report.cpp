@@ -24,11 +24,10 @@ namespace {
 
 using report::ReportFile;
 
-// Bars of a dimension in both barcodes: their distance takes seconds at most.
+// Number of bars of a dimension in both barcodes up to which their distance takes seconds.
 constexpr std::size_t kMostComparedBars = 40'000;
 
-/// The points that the page shows; nothing where there are none, or where cells are those of a
-/// grid.
+/// The points that the page shows; empty if there are none, or if cells belong to a grid.
 std::optional<PointsView> shown_points(const Shown& shown) {
   if (std::holds_alternative<Cubical>(shown.built.complex)) return std::nullopt;
   const auto points = points_of(shown.data.read);
@@ -36,13 +35,14 @@ std::optional<PointsView> shown_points(const Shown& shown) {
   return points;
 }
 
-/// Whether the first axis of an image is x: its format says so, or it was made of points.
+/// True if the first axis of an image is x: its format says so, or it was made from points.
 bool has_axes_of_space(const ReadResult& read) {
   return read.format == Format::nifti || read.format == Format::dipha ||
          std::holds_alternative<Points>(read.data);
 }
 
-/// Whether pairs within a distance are the edges: all points are vertices, all enter at once.
+/// True if the edges at a distance are all pairs within it: all points are vertices and enter
+/// together.
 bool is_euclidean(const Shown& shown, const Arguments& arguments) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
          arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
@@ -67,7 +67,7 @@ report::Provenance provenance_of(const Shown& shown, const Arguments& arguments)
   return provenance;
 }
 
-/// The barcode is there already: it is worth showing without its tree.
+/// The barcode is complete: show it even without its tree.
 std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Session& session) {
   const RunContext& context = session.context();
   try {
@@ -83,9 +83,9 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
   return std::nullopt;
 }
 
-/// The distances of two barcodes, one a dimension that either has.
-/// @param matched receives the numbers of the bars that they pair.
-/// @return where they would take long: "H1: 50000 bars".
+/// The distances of two barcodes, one per dimension that either has.
+/// @param matched receives the numbers of the bars that are paired.
+/// @return the dimensions that would take long: "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,
                                        std::vector<std::uint32_t>& matched, app::Session& session) {
   const Barcode &a = barcodes[0], &b = barcodes[1];
@@ -99,7 +99,7 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
     }
     const auto [distance, pairs] = app::matching_of(bars[0], bars[1], {}, session.context());
     meta.distances.push_back({dim, distance.value});
-    // Numbers of bars: those of a dimension come one after another in each barcode.
+    // Numbers of bars: bars of one dimension are consecutive in each barcode.
     const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
     const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
     for (const auto& [i, j] : pairs)
@@ -159,7 +159,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   }
   std::vector<std::uint32_t> matched;
   const auto left_out = add_distances(meta, std::span(barcodes).first<2>(), matched, session);
-  for (const std::string& what : left_out)  // not each format has room for them
+  for (const std::string& what : left_out)  // some formats have no room for them
     session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);

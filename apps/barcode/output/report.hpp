@@ -11,27 +11,27 @@
 
 namespace ph::barcode {
 
-/// What the report of a barcode shows.
+/// The contents of a barcode's report.
 struct Shown {
   const Barcode& barcode;
   const BarcodeInfo& info;
   const NamedData& data;
   const BuiltComplex& built;
-  std::optional<RipsForm> form;        ///< of a Rips complex
+  std::optional<RipsForm> form;        ///< for a Rips complex
   std::optional<std::string> promise;  ///< as promise_of
   std::vector<std::string> warnings;
 };
 
 /// Writes the interactive report; the caller commits the file. Beside the barcode it has the points
-/// or the image, and the merge tree of H0 unless the complex was subsampled, approximated or cut,
-/// or there is no memory for it, which a note says.
+/// or the image, and the merge tree of H0. The tree is missing if the complex was subsampled,
+/// approximated or cut, or if memory does not suffice, which a note says.
 /// @throws Error (io, resource, cancelled).
 void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
                   app::Session& session);
 
 /// --compare: reads two barcodes, writes their distances and the report of both. @return the exit
 /// code.
-/// @throws Error as read_barcode and OutputFile.
+/// @throws Error like read_barcode and OutputFile.
 int run_comparison(const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::barcode

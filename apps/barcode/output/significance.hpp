@@ -9,13 +9,13 @@
 
 namespace ph::barcode {
 
-/// Before anything is computed. @throws Error (usage) if p-values are asked for that have no place,
-/// or that would mean nothing.
+/// To be called before the computation. @throws Error (usage) if p-values are requested that no
+/// output can hold or that would be meaningless.
 void require_significance(BarcodeFormat format, const Arguments& arguments);
 
-/// By bar its p-value, times the number of bars of its dimension that were tested; NaN of
-/// components and of bars that never die.
-/// @param filtration what the bars are of.
+/// For each bar its p-value, multiplied by the number of tested bars of its dimension; NaN for
+/// components and for bars that never die.
+/// @param filtration the filtration of the bars.
 std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration);
 
 }  // namespace ph::barcode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done with barcodes that were computed earlier.
+// Processes barcodes that were computed earlier.
 #include "barcode/output/stored.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +49,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
     session.explain(what);
   else
     session.note(what);
-  // Others have no room for what JSON has beside the bars, and nobody expects it there.
+  // Other formats have no room for the data that JSON holds beside the bars, and nobody expects
+  // them there.
   const bool loses_p =
       job.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
   if (loses_p || (job.format == BarcodeFormat::json && !left_out.empty()))
@@ -61,7 +62,7 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
   info.peak_memory = app::peak_memory();
   note_absent_dims(barcode, arguments.look, session);
   const app::BarHold results_are_written(session);
-  // Who computed the bars is not who converts them.
+  // The program that converts the bars is not the one that computed them.
   const bool is_known = !origin.program.empty();
   outputs.write(barcode, is_known ? origin : info, look_of(arguments.look, origin.superlevel), {},
                 session.context());
@@ -80,11 +81,11 @@ DistanceFormat distance_format(const Arguments& arguments) {
   if (arguments.output_format)
     throw Error(ErrorKind::usage,
                 fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
-                            "without it they are text",
+                            "without it, distances are text",
                             barcode_format_name(*format)));
   throw Error(ErrorKind::usage,
               fmt::format("--output: found {}, expected FILE.csv or FILE.json with --compare; "
-                          "other names are text",
+                          "other names give text",
                           printable(arguments.output)));
 }
 

@@ -12,24 +12,25 @@
 
 namespace ph::barcode {
 
-/// What helps where barcodes are too large for the memory.
+/// A hint for barcodes that are too large for the memory.
 inline std::string fewer_bars() {
   return "take fewer bars, or raise " + mark(Setting::memory_limit);
 }
 
-/// Reads a stored barcode and writes it as a job says: converted, drawn, in a report.
-/// @throws Error (usage) on a plot of anything else; Error as read_barcode and OutputFile.
+/// Reads a stored barcode and writes what the job asks for: a converted file, a plot, a report.
+/// @throws Error (usage) on a plot of anything else; Error like read_barcode and OutputFile.
 Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
                    app::Session& session);
 
 /// The formats of the distances of two barcodes.
 enum class DistanceFormat { text, csv, json };
-/// The distances of two barcodes as a file.
+/// The file of the distances of two barcodes.
 std::string distances_file(const std::vector<report::Distance>& distances,
                            std::span<const Barcode> barcodes,
                            const std::vector<std::string>& left_out, const Arguments& arguments,
                            DistanceFormat format);
-/// As --output-format and the extension of -o say. @throws Error (usage) on any other format.
+/// The format that --output-format or the extension of -o selects. @throws Error (usage) on any
+/// other format.
 DistanceFormat distance_format(const Arguments& arguments);
 
 }  // namespace ph::barcode

@@ -20,7 +20,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Options of what only one input at a time can have. @throws Error (usage).
+/// Refuses options that require a single input. @throws Error (usage).
 void require_batch_options(const Arguments& arguments) {
   constexpr std::array<std::string_view, 13> kOfOne{
       "plot",    "plot-kind",    "dims",        "title", "size",
@@ -62,7 +62,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
   const auto kept =
       kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
         if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
-          return "is another part, or of other inputs or options";
+          return "is another part, or belongs to other inputs or options";
         const bool is_complete = std::ranges::all_of(
             there.results(), [](const auto& result) { return result.failure.empty(); });
         return is_complete ? "" : "has inputs that failed";
@@ -70,7 +70,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
   return kept.has_value();
 }
 
-/// Of several failures the first one's code.
+/// If several fail, the code of the first failure counts.
 int code_of(std::span<const InputsPart::Result> results) {
   const auto failed =
       std::ranges::find_if(results, [](const auto& r) { return r.code != app::kOk; });
@@ -93,7 +93,7 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& 
     if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
   if (arguments.resumes && is_there(path, whole, part, own, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
-  app::Output output(path);  // what cannot be created is said first
+  app::Output output(path);  // a file that cannot be created is reported first
   InputsPart done(whole, part);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (InputsPart::part_of(i, parts) == part) done.add(run_one(i, inputs[i], arguments, session));

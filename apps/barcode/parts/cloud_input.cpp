@@ -16,7 +16,7 @@ CloudInput read_cloud_input(const std::string& input, const Arguments& arguments
   const std::string_view why = arguments.part ? "--part" : "several ranks";
   if (arguments.options.max_dim != 0)
     throw Error(ErrorKind::usage,
-                fmt::format("{} with --complex rips: there are components alone, expected "
+                fmt::format("{} with --complex rips: only components are computed, expected "
                             "--max-dim 0",
                             why));
   if (arguments.rips.distance != PointDistance::euclidean)

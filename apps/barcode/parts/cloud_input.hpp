@@ -10,20 +10,20 @@
 
 namespace ph::barcode {
 
-/// A point cloud of which some blocks will be looked at, and what is wanted of them.
+/// A point cloud of which some blocks are to be processed, and the requested results.
 struct CloudInput {
   NamedData data;
   PointsView points;  ///< of the data
   CloudPartOptions options;
 };
 
-/// @param input stays in its file where it lies there as in memory.
-/// @throws Error (usage) on anything but points, and where more than components is wanted.
+/// @param input stays in its file if the file has the layout of memory.
+/// @throws Error (usage) on anything but points, and if more than components is requested.
 CloudInput read_cloud_input(const std::string& input, const Arguments& arguments,
                             app::Session& session);
 
-/// The part of a file, if it is that part of that cloud, whole, and not older than it. A file that
-/// is another is said to be, and has to be computed anew.
+/// The part from a file, if it is this part of this cloud, complete, and not older than the cloud.
+/// Any other file is reported and must be computed anew.
 std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
                                          const CloudInput& cloud, int part, int parts,
                                          app::Session& session);

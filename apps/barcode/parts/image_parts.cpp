@@ -40,7 +40,7 @@ ImagePart of_file(const PartFile& file, const RunContext& context) {
   }
 }
 
-/// Joins, with the names of the files in what is said of parts that do not belong together.
+/// Joins parts; errors about parts that do not belong together name their files.
 void join(ImagePart& all, ImagePart next, const std::string& before, const std::string& path,
           const RunContext& context) {
   try {
@@ -133,7 +133,7 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
     const std::string& before = parts[i - 1].second;
     if (next.parts() == all.parts() && next.first() <= all.last())
       throw Error(ErrorKind::bad_data,
-                  fmt::format("{}: {} is there twice, in {}, too", path, words_of(next), before));
+                  fmt::format("{}: {} is there twice, also in {}", path, words_of(next), before));
     join(all, std::move(next), before, path, context);
   }
   if (is_part_path(job.output)) {

@@ -11,10 +11,10 @@
 
 namespace ph::barcode {
 
-/// The barcodes of some of several inputs, computed apart from the others.
+/// The barcodes of some of several inputs, computed separately from the others.
 class InputsPart {
  public:
-  /// What all parts have in common.
+  /// The facts that all parts share.
   struct Whole {
     std::vector<std::string> inputs, options;  ///< options as they were typed
     int parts = 1;
@@ -22,33 +22,33 @@ class InputsPart {
   };
   struct Result {
     std::size_t input = 0;  ///< its number
-    int code = 0;           ///< what the program would exit with
-    std::string failure;    ///< why there are no bars; empty: they are there
+    int code = 0;           ///< exit code of the program for this input
+    std::string failure;    ///< why there are no bars; empty: the bars are there
     Barcode bars;
   };
 
   InputsPart(Whole whole, int part) : whole_(std::move(whole)), numbers_{part} {}
 
   const Whole& whole() const { return whole_; }
-  /// Which parts it has, ascending.
+  /// The parts that it has, ascending.
   std::span<const int> numbers() const { return numbers_; }
   bool is_whole() const { return numbers_.size() == static_cast<std::size_t>(whole_.parts); }
   /// By input, ascending.
   std::span<const Result> results() const { return results_; }
-  /// Of which part an input is. Neighbours, which are often alike, are dealt out in turn.
+  /// The part that an input belongs to. Neighbours, which are often alike, are dealt out in turn.
   static int part_of(std::size_t input, int parts) {
     return static_cast<int>(input % static_cast<std::size_t>(parts));
   }
 
-  /// Inputs come ascending.
+  /// Inputs must come in ascending order.
   void add(Result result) { results_.push_back(std::move(result)); }
-  /// @throws Error (bad_data) if the other is not of the same inputs and options, or has a part
+  /// @throws Error (bad_data) if the other part has different inputs or options, or contains a part
   /// that
-  ///         this one has; nothing has changed then.
+  ///         this one has; in that case nothing has changed.
   void join(InputsPart other);
 
   std::vector<std::byte> bytes() const;
-  /// @throws Error (bad_data) on what `bytes` has not made.
+  /// @throws Error (bad_data) on bytes that `bytes` did not write.
   static InputsPart of_bytes(std::span<const std::byte> bytes);
 
  private:

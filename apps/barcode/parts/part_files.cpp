@@ -16,7 +16,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Bars longer than what the user wants to see.
+/// Keeps only bars longer than the user's limit.
 Barcode longer_than(double length, const Barcode& bars) {
   Barcode kept(bars.cell_kind());
   for (std::size_t i = 0; i < bars.size(); ++i) {

@@ -13,31 +13,33 @@
 
 namespace ph::barcode {
 
-/// A part that was read, and where it came from.
+/// A part that was read, and the name of its file.
 struct PartFile {
   std::string path;
   std::vector<std::byte> bytes;
 };
 
-/// Whether a path is to hold a part: it ends in .ph.
+/// True if a path is meant to hold a part: it ends in .ph.
 bool is_part_path(const std::string& path);
 
-/// Where part I of P of an input goes: a folder, which is created, gets a file of that name.
+/// The path of part I of P of an input: for a folder, which is created, a file named after the
+/// part.
 /// @param part from 0 on. @throws Error (cannot_create).
 std::string part_path(const std::string& output, const std::string& name, int part, int parts);
 
-/// All of a part file. @throws Error as Input::open.
+/// The whole content of a part file. @throws Error like Input::open.
 std::vector<std::byte> read_part_file(const std::string& path, app::Session& session);
 
-/// What --resume may keep: all of a part file that is there, if no input is younger.
+/// The file that --resume may keep: the whole content of an existing part file, if no input is
+/// newer.
 std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
                                                      std::span<const std::string> inputs,
                                                      app::Session& session);
 
-/// The part that --resume may keep, of such a file. What is damaged or another is said to be, and
-/// has to be computed anew.
-/// @param of_bytes makes a part of bytes; throws Error (bad_data) on what is none.
-/// @param why_not says why a part is not the one that is wanted; nothing: it is.
+/// The part of such a file that --resume may keep. A file that is damaged or holds another part is
+/// reported and must be computed anew.
+/// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
+/// @param why_not says why a part is not the requested one; empty: it is.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
     const std::string& path, std::span<const std::string> inputs, app::Session& session,
@@ -57,10 +59,10 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
   return std::nullopt;
 }
 
-/// Writes a part, which appears when it is complete. @return its size, for people.
+/// Writes a part; the file appears once it is complete. @return its size, as text for users.
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
-/// Writes bars that are whole again, without those that the user does not want to see.
+/// Writes the bars of a complete result, without bars below the user's limit.
 Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
                    app::Session& session);
 

@@ -8,15 +8,16 @@
 
 namespace ph::barcode {
 
-/// An image of which some layers will be looked at, and what is wanted of them.
+/// An image of which some layers are to be processed, and the requested results.
 struct PartInput {
   Image image;
   ImagePartOptions options;
   std::string description;  ///< "image of 64 x 96 voxels, PGM"
 };
 
-/// @param input stays in its file where it lies there as in memory. @param keeps_cells of bars.
-/// @throws Error (usage) on anything but an image, and on options that are not for one.
+/// @param input stays in its file if the file has the layout of memory. @param keeps_cells true if
+///     bars keep their cells.
+/// @throws Error (usage) on anything but an image, and on options that do not apply to one.
 PartInput read_part_input(const std::string& input, bool keeps_cells, const Arguments& arguments,
                           app::Session& session);
 

@@ -20,7 +20,7 @@ namespace ph::barcode {
 
 namespace {
 
-/// No output replaces an input, or another output. @throws Error (usage).
+/// No output may replace an input or another output. @throws Error (usage).
 void require_separate(const Job& job, const Arguments& arguments) {
   app::InputFiles inputs;
   for (const std::string& input : arguments.inputs) inputs.add(input);
@@ -40,7 +40,7 @@ int run_part(const Arguments& arguments, app::Session& session) {
           : run_batch_part(with_files_of_folders(arguments), arguments, session);
   session.note(outcome.summary);
   if (barcode_format_of_path(arguments.output))
-    session.note(fmt::format("{}: a part, whatever its name says; --join makes bars of parts",
+    session.note(fmt::format("{}: a part, whatever its name says; --join makes bars from parts",
                              printable(arguments.output)));
   return outcome.code;
 }
@@ -58,9 +58,9 @@ int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& ses
       const std::string_view found = kind_of_part(bytes);
       if (kind.empty()) kind = found;
       if (found != kind)
-        throw Error(
-            ErrorKind::bad_data,
-            fmt::format("part: found one of kind '{}', expected '{}' as the others", found, kind));
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("part: found one of kind '{}', expected '{}' as in the others",
+                                found, kind));
     } catch (const Error& error) {
       throw Error(error.kind(), fmt::format("{}: {}", path, error.marked()));
     }

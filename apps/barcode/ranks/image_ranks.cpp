@@ -22,8 +22,8 @@
 namespace ph::barcode {
 namespace {
 
-/// The first layers of all parts if layers are shared out by what is in them: rank 0 looks at a
-/// sample of the image, and tells the others.
+/// The first layers of all parts if layers are distributed by their content: rank 0 examines a
+/// sample of the image and tells the others.
 std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
                               app::Session& session) {
   std::vector<Index> layers;
@@ -38,7 +38,7 @@ std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
   if (is_unequal(forecast)) {
     layers = forecast.first_layers;
     session.explain(
-        fmt::format("ranks begin with layers {}: else one would take {:.1f} times the mean",
+        fmt::format("ranks begin with layers {}: otherwise one would take {:.1f} times the mean",
                     fmt::join(layers, ", "), forecast.longest));
   }
   ByteWriter to;
@@ -77,7 +77,7 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
         [&] { return kept_image_part(result.kept, job.input, input, rank, parts, session); },
         [&] { return ImagePart(input.image, rank, parts, input.options, context); },
         [&](const ImagePart& part) {
-          if (!part.has_loops()) return true;  // they need voxels, which no file of a part has
+          if (!part.has_loops()) return true;  // loops need voxels, which no part file has
           session.note("--resume does nothing for loops of volumes: they are computed anew");
           return false;
         }));
@@ -85,7 +85,7 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
   const bool has_loops = own && own->has_loops();
   if (has_loops && arguments.common.slab_layers > 0)
     session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
-  std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
+  std::optional<ImageLoops> loops;  // loops take the voxels before the part is destroyed
   if (has_loops) loops.emplace(*own, arguments.options.field, context);
 
   const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);

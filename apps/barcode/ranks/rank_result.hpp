@@ -10,33 +10,33 @@
 
 namespace ph::barcode {
 
-/// The bars of all ranks, and what JSON says of them.
+/// The bars of all ranks, and their description in JSON.
 struct RankBars {
   Barcode bars;
   BarcodeInfo info;
 };
 
-/// What a rank has when all of them are joined.
+/// The result of a rank once all ranks are joined.
 struct RankResult {
-  std::string kept;              ///< where --resume keeps the part of this rank; empty: nowhere
+  std::string kept;              ///< where --resume keeps the part of this rank; empty: not kept
   std::optional<RankBars> bars;  ///< on rank 0
 };
 
-/// Computes an image on all ranks, or with --dry-run says what they will take.
+/// Computes an image on all ranks, or with --dry-run prints what they will need.
 RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
                           app::Session& session);
-/// Computes the components of a point cloud on all ranks, some blocks of it on each.
-/// @throws Error (usage) as read_cloud_input.
+/// Computes the components of a point cloud on all ranks, with some blocks on each.
+/// @throws Error (usage) like read_cloud_input.
 RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
                           app::Session& session);
 
-/// Where --resume keeps the part of a rank.
+/// The file in which --resume keeps the part of a rank.
 std::string kept_path(const Arguments& arguments, int rank, int parts);
 
-/// The part of this rank: with --resume taken from its file, if `find_kept` finds it there; else
-/// `compute` makes it, and with --resume it is written there.
-/// @param find_kept gives an optional part. @param compute gives a part.
-/// @param can_keep says whether a file can stand for a part.
+/// The part of this rank. With --resume, it is read from its file if `find_kept` accepts it;
+/// otherwise `compute` makes it, and with --resume it is then written to the file.
+/// @param find_kept returns an optional part. @param compute returns a part.
+/// @param can_keep returns true if a file can replace a part.
 template <class FindKept, class Compute, class CanKeep>
 auto kept_or_computed(const std::string& kept, const Arguments& arguments, app::Session& session,
                       FindKept&& find_kept, Compute&& compute, CanKeep&& can_keep) {
@@ -54,7 +54,7 @@ auto kept_or_computed(const std::string& kept, const Arguments& arguments, app::
   return part;
 }
 
-/// What --verbose says of a rank that is done.
+/// The message of --verbose for a rank that has finished.
 void explain_costs(const Post& post, app::Session& session);
 
 }  // namespace ph::barcode

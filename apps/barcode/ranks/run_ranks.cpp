@@ -31,7 +31,7 @@ int run_ranks(const Arguments& arguments, Transport& transport,
   std::vector<app::Written> written{{"--output", job.output}};
   for (const app::Plot& plot : job.plots) written.push_back({plot.option, plot.path});
   app::require_separate(inputs, written, arguments.common.force);
-  // What cannot be created is said first.
+  // A file that cannot be created is reported first.
   std::optional<Outputs> outputs;
   if (transport.rank() == 0 && !arguments.dry_run) outputs.emplace(job);
 
@@ -44,7 +44,7 @@ int run_ranks(const Arguments& arguments, Transport& transport,
     session.note(outcome.summary);
     code = outcome.code;
   }
-  // Parts are kept until the result is there.
+  // Parts are kept until the result has been written.
   wait_for_all();
   std::error_code ignored;
   if (arguments.resumes && !result.kept.empty())

@@ -7,8 +7,8 @@
 
 namespace ph::barcode {
 
-/// Computes an image, or the components of points, on all ranks, each of which calls it with the
-/// same arguments; rank 0 writes.
+/// Computes an image, or the components of points, on all ranks; each rank calls it with the same
+/// arguments, and rank 0 writes.
 /// @param wait_for_all returns once all ranks have called it.
 /// @return the exit code of this rank. @throws Error.
 int run_ranks(const Arguments& arguments, Transport& transport,

@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names) {
-  constexpr std::size_t kLongestWord = 64;  // nobody mistypes more; keeps the cost bounded
+  constexpr std::size_t kLongestWord = 64;  // nobody mistypes more; bounds the cost
   if (typed.empty() || typed.size() > kLongestWord) return std::nullopt;
   const auto word_of = [](std::string_view name) {
     return name.substr(std::min(name.find_first_not_of('-'), name.size()));
@@ -43,8 +43,8 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
   std::optional<std::string_view> best;
   std::size_t best_distance = 0;
   for (const std::string_view name : names) {
-    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit, and so does a
-    // word before an option's ("--plot-title" for "--title").
+    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit; so does an
+    // extra word before an option's name ("--plot-title" for "--title").
     const std::string_view known = word_of(name);
     const bool part = (word.size() >= 3 && (known.starts_with(word) || known.ends_with(word))) ||
                       (name.starts_with("--") && word.size() > known.size() + 1 &&
@@ -55,7 +55,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
       best_distance = distance;
     }
   }
-  // Of what is typed two thirds are right at least, and no more than two letters wrong.
+  // At least two thirds of the typed letters must be right, and at most two wrong.
   const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);
   if (best_distance > enough) return std::nullopt;
   return best;

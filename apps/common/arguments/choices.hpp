@@ -8,7 +8,7 @@
 
 namespace ph::app {
 
-/// The name nearest to what was typed, if any is near enough to be what was meant.
+/// The name nearest to the typed one, if any is near enough to be the intended one.
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names);
 

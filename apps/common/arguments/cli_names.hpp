@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The classes of CLI11 by name: its header takes seconds to compile, and few files call it.
+// Declares the classes of CLI11: its header takes seconds to compile, and few files call it.
 
 namespace CLI {
 

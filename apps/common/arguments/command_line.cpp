@@ -34,9 +34,9 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::string name = typed.substr(0, typed.find('='));
   const std::vector<std::string> known = long_names(app);
   const std::vector<std::string_view> views(known.begin(), known.end());
-  // One dash where there should be two: find the name all the same.
+  // One dash instead of two: find the name anyway.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // One letter away from another name, but what is meant is the dimension.
+  // One letter away from another name, but the dimension is meant.
   const std::string_view word = std::string_view(dashed).substr(2);
   const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
   const auto most = std::ranges::find_if(
@@ -48,7 +48,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
                                                  : "--help all lists the options"));
 }
 
-/// What CLI11 says, on one line.
+/// The message of CLI11, on one line.
 std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
@@ -56,7 +56,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The same for a missing or a repeated value, in our words and with all names of the option:
+/// The same for a missing or repeated value, in our own words and with all names of the option:
 /// "--threshold, --max-scale: the value is missing".
 std::string about_values(const CLI::App& app, const std::string& text) {
   std::string names = text.substr(0, text.find(':'));
@@ -76,7 +76,7 @@ std::string name_of(const CLI::Option& option) {
   return names.empty() ? option.get_name() : "--" + names.front();
 }
 
-/// What says nothing of the result: how it is computed, and what is told meanwhile.
+/// Options that do not affect the result: how it is computed, and which messages appear meanwhile.
 bool is_common(const CLI::Option& option) {
   return option.get_group() == kLimitsTopic.name || option.get_group() == kMessagesTopic.name;
 }
@@ -84,7 +84,8 @@ bool is_common(const CLI::Option& option) {
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
-  app.set_help_flag();  // ours comes below: it must not depend on the order of the options
+  app.set_help_flag();  // our own check follows below: it must not depend on the order of the
+                        // options
   app.option_defaults()->group(std::string(kLimitsTopic.name));
   add_value(app, "--threads", "N", "threads to use (default: one for each core)",
             [&options](const std::string& text) {
@@ -191,7 +192,7 @@ std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions
     return program_and_version(app.get_name()) + "\n" +
            (options.verbose ? build_information() + manual.built_in() : "");
   }
-  // Of all options: whatever takes a path takes none of these.
+  // For all options: nothing that takes a path accepts one of these.
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results()) require_given(name_of(*option), value);
   return std::nullopt;

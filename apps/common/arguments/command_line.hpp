@@ -17,51 +17,52 @@ enum class ProgressMode { automatic, bar, json, none };
 
 /// The options that all programs share.
 struct CommonOptions {
-  int threads = 0;                            ///< 0: one for each core
-  std::optional<std::uint64_t> memory_limit;  ///< bytes; default: what the machine has
-  int slab_layers = 0;                        ///< of images, as RunContext has it
+  int threads = 0;                            ///< 0: one per core
+  std::optional<std::uint64_t> memory_limit;  ///< bytes; default: the memory of the machine
+  int slab_layers = 0;                        ///< layers of images, as in RunContext
   ProgressMode progress = ProgressMode::automatic;
-  std::optional<int> rank;  ///< of one of several processes: lines of progress say it
+  std::optional<int> rank;  ///< stated in lines of progress
   bool quiet = false;
   bool verbose = false;
-  bool force = false;               ///< an output may replace an input
+  bool force = false;               ///< outputs may replace inputs
   std::optional<std::string> help;  ///< the topic of --help
   bool version = false;
 };
 
-/// Registers them. `options` must outlive `app`.
+/// Registers the common options. `options` must outlive `app`.
 void add_common_options(CLI::App& app, CommonOptions& options);
 
-/// An option with a value that a function of yours reads: strict, its errors pass unchanged. Given
-/// twice it is an error. @param names "--max-dim" or "-o,--output". @param placeholder "D".
+/// Adds an option whose value is read by a given function: strict, and its errors pass unchanged.
+/// An option that is given twice is an error. @param names "--max-dim" or "-o,--output". @param
+/// placeholder "D".
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
                        const std::string& description,
                        const std::function<void(const std::string& value)>& take);
 
-/// The same for a value that is one of some names: `take` gets the position of the one given.
+/// The same for a value from a list of names: `take` receives the position of the given one.
 CLI::Option* add_choice(CLI::App& app, const std::string& names,
                         const std::vector<std::string_view>& choices,
                         const std::string& description,
                         const std::function<void(std::size_t)>& take);
-/// The same for a path, which is not empty; it is put into `path`, which outlives `app`.
+/// The same for a path that is not empty; it is stored in `path`, which must outlive `app`.
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
                       const std::string& description, std::string& path);
 
 /// The command line as it was typed, under the program's own name.
 std::vector<std::string> typed_command(std::string_view program, int argc, const char* const* argv);
-/// The options that were given, each as a long name and its values, in the order of --help: for a
-/// command line that does the same again. Without common options, without INPUT.
-/// @param without long names that are left out, without dashes.
+/// The given options, each as a long name and its values, in the order of --help. A command line
+/// with them does the same again. Common options and INPUT are left out.
+/// @param without long names to leave out, without dashes.
 std::vector<std::string> given_options(const CLI::App& app,
                                        std::span<const std::string_view> without);
 
 /// Parses the command line; prints nothing.
-/// @return the answer to --help or --version, which is all that is left to do.
+/// @return the answer to --help or --version, if one was asked for.
 /// @throws Error (usage) that names the option and the nearest known one.
 std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
                                               const char* const* argv, const Manual& manual);
 
-/// Prints the answer to --help and its like. @return the exit code.
+/// Prints the answer to --help and similar options. @return the exit code.
 int answer_command_line(const std::string& answer);
 
 /// "ph-barcode 0.1.0"

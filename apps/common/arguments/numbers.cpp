@@ -19,7 +19,8 @@ namespace {
                                             expected, hint.empty() ? "" : "; ", hint));
 }
 
-/// What from_chars reads of a text, and how much of it; an optional '+' is accepted.
+/// The number that from_chars reads from a text, and how many characters it used; an optional '+'
+/// is accepted.
 struct Read {
   double value = 0;
   std::string_view rest;
@@ -36,7 +37,7 @@ Read read_number(std::string_view text) {
 
 constexpr std::string_view kNumber = "a number";
 
-/// Calls `use(part)` for what stands between the commas of a list.
+/// Calls `use(part)` for each part between the commas of a list.
 template <class Use>
 void for_each_part(std::string_view list, Use&& use) {
   for (;;) {

@@ -8,10 +8,11 @@
 
 namespace ph::app {
 
-// Values of options as the user typed them. Strict, and the same in every locale. All throw
-// ph::Error (usage) that names the option, what was found and what was expected.
+// Values of options as the user typed them. The parsing is strict, and the same in every locale.
+// All functions throw ph::Error (usage) that names the option, what was found and what was
+// expected.
 
-/// A number; `inf` is one, NaN is not.
+/// A number; `inf` is accepted, NaN is not.
 double parse_number(std::string_view option, std::string_view text);
 /// Several numbers separated by commas. @param count how many; 0: at least one.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
@@ -19,7 +20,7 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
 /// A whole number from `least` to `most`.
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t least,
                            std::int64_t most = INT64_MAX);
-/// Several of them separated by commas, at least one.
+/// Several whole numbers separated by commas, at least one.
 std::vector<std::int64_t> parse_integers(std::string_view option, std::string_view text,
                                          std::int64_t least, std::int64_t most = INT64_MAX);
 /// A number of bytes: `4GiB`, `500MB`, `1e9`, `64k` (binary: Ki Mi Gi Ti; decimal: k M G T).

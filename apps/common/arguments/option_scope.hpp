@@ -9,22 +9,23 @@
 
 namespace ph::app {
 
-/// What an option may meet: kinds of input, complexes, methods. A bit each; a program names them.
+/// The situations that an option may meet: kinds of input, complexes, methods. Each has one bit;
+/// each program names its own.
 using Situations = std::uint32_t;
 
-/// Where an option does something. Given anywhere else it is a misunderstanding, and refused: an
-/// option that is ignored gives an answer to a question that nobody asked.
+/// The situations in which an option has an effect. In any other situation the option is refused as
+/// a misunderstanding: ignoring it would answer a question that nobody asked.
 struct OptionScope {
   std::string_view option;     ///< "metric": a long name, without dashes
-  Situations where;            ///< it does something in any of them
-  std::string_view meant_for;  ///< what they are: "points"
+  Situations where;            ///< it has an effect in any of these
+  std::string_view meant_for;  ///< the word for them: "points"
 };
 
-/// Those of a program's options that were given, in the order of --help.
+/// The options of a program that were given, in the order of --help.
 std::vector<const OptionScope*> given_scopes(const CLI::App& app,
                                              std::span<const OptionScope> scopes);
 
-/// @param here where the program finds itself: one situation. @param found what that is.
+/// @param here the actual situation, one bit. @param found the word for it.
 /// @throws Error (usage): "--metric: makes sense for points only, found an image".
 void require_in_scope(std::span<const OptionScope* const> given, Situations here,
                       std::string_view found);

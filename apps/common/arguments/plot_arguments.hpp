@@ -15,16 +15,16 @@ namespace ph::app {
 struct Plot {
   std::string path;
   std::string kind;               ///< a word of --plot-kind
-  std::string option = "--plot";  ///< that named the path
+  std::string option = "--plot";  ///< option that named the path
 
-  /// Whether its name ends in .png; what ends in nothing known is SVG.
+  /// True if its name ends in .png; an unknown ending means SVG.
   bool is_png() const;
   bool is_svg() const;  ///< by its name
-  /// Whether it shows bars: a barcode, a diagram, Betti curves.
+  /// True if it shows bars: a barcode, a diagram, Betti curves.
   bool shows_bars() const { return plot_kind_named(kind).has_value(); }
 };
 
-/// @throws Error (usage) unless the name ends in .svg or .png, or is that of a folder; Error
+/// @throws Error (usage) unless the name ends in .svg or .png, or names a folder; Error
 /// (not_built_in) on a PNG that this build cannot draw.
 void require_known_format(const Plot& plot);
 
@@ -35,32 +35,32 @@ std::string drawn(const Plot& plot, const What& what, const PlotOptions& options
   return plot.is_png() ? png_plot(what, options, context) : svg_plot(what, options);
 }
 
-/// An option that says how plots look, and which plots can look so.
+/// An option for the look of plots, and the plots to which it applies.
 struct PlotLook {
   std::string option;
   bool (*fits)(const Plot& plot);
-  std::string meant_for;  ///< "bars": in the message that no plot fits
+  std::string meant_for;  ///< "bars": for the message that no plot fits
 };
 
-/// --plot, --plot-kind and how plots look, as they were typed.
+/// --plot, --plot-kind and the look of plots, as they were typed.
 struct PlotArguments {
   std::vector<std::string> paths, kinds;
-  PlotOptions look;             ///< of all of them: title, size, axis, dimensions
-  std::vector<PlotLook> looks;  ///< the options that said so
+  PlotOptions look;             ///< look of all plots: title, size, axis, dimensions
+  std::vector<PlotLook> looks;  ///< the options that set the look
 
-  /// Each picture with its kind: in turn, the last kind counts for the rest.
-  /// @param usual kind of all if none is given.
+  /// Pairs each picture with its kind, in turn; the last kind applies to the rest.
+  /// @param usual kind of all pictures if none is given.
   /// @throws Error (usage) if there are more kinds than pictures, two pictures in one file, or a
-  /// look that none of them can have.
+  /// look that applies to none of them.
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers those that all programs have, as the first ones of the topic `pictures`. @param kinds
-/// outlives `app`, as `to` does.
+/// Registers the options that all programs share, as the first ones of the topic `pictures`. @param
+/// kinds outlives `app`, as `to` does.
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
                       const std::string& description, PlotArguments& to);
 
-/// Registers one more look. @param take puts the text of the option into `to.look`.
+/// Registers one more option for the look. @param take stores the text of the option in `to.look`.
 void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
                    const std::string& what, PlotArguments& to,
                    std::function<void(const std::string& text)> take);

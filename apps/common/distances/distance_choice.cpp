@@ -12,7 +12,7 @@
 namespace ph::app {
 namespace {
 
-/// Bars by which of their ends are infinite: the death, the birth, both.
+/// Counts of bars by their infinite ends: the death, the birth, both.
 std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   std::array<std::size_t, 3> counts{};
   for (const Bar& bar : bars) {
@@ -22,7 +22,7 @@ std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   return counts;
 }
 
-/// Appends the bars in no pair: those of both go to the diagonal.
+/// Appends the bars without a pair: bars of both diagrams go to the diagonal.
 void add_diagonal(std::vector<std::pair<std::int64_t, std::int64_t>>& pairs, std::size_t a,
                   std::size_t b) {
   std::vector<bool> has_pair[] = {std::vector<bool>(a), std::vector<bool>(b)};
@@ -115,7 +115,7 @@ std::string text_of(const DistanceBounds& distance, const DistanceChoice& choice
   if (distance.lower > choice.limits.at_most)
     return fmt::format("more than {}: from {} to {}", shortest(choice.limits.at_most), lower,
                        value);
-  // Without a relative error they differ by rounding only.
+  // Without a relative error, the bounds differ by rounding only.
   if (choice.limits.relative_error > 0 && distance.lower < distance.value)
     return fmt::format("{} (at least {})", value, lower);
   return value;

@@ -15,54 +15,54 @@
 namespace ph::app {
 
 enum class DistanceKind { bottleneck, wasserstein, sliced };
-/// Their names on the command line and in files.
+/// The names of the distances on the command line and in files.
 inline constexpr std::array<std::string_view, 3> kDistanceKinds{"bottleneck", "wasserstein",
                                                                 "sliced"};
 
-/// Which distance of barcodes is meant, and how much of it has to be known.
+/// The distance of barcodes to compute, and the required accuracy.
 struct DistanceChoice {
   DistanceKind kind = DistanceKind::bottleneck;
   double wasserstein_order = 1;
   double wasserstein_ground = kInfinity;
-  int directions = 50;    ///< of the sliced distance
-  DistanceLimits limits;  ///< of the others
+  int directions = 50;    ///< for the sliced distance
+  DistanceLimits limits;  ///< for the other distances
 
   std::string_view name() const { return kDistanceKinds[static_cast<std::size_t>(kind)]; }
   /// p; infinite for the bottleneck distance.
   double order() const;
-  /// The norm in which a pair of bars is apart; none for the sliced distance.
+  /// The norm that measures a pair of bars; none for the sliced distance.
   std::optional<double> ground() const;
 };
 
 /// "Wasserstein distance (order 2, ground norm inf)"
 std::string words_of(const DistanceChoice& choice);
 
-/// The distance of bars of one dimension. @throws Error as the functions of ph/distances.hpp.
+/// The distance of bars of one dimension. @throws Error like the functions of ph/distances.hpp.
 DistanceBounds distance_of(std::span<const Bar> a, std::span<const Bar> b,
                            const DistanceChoice& choice,
                            const RunContext& context = default_context());
 
-/// A distance, and which bars it pairs.
+/// A distance, and the bars that it pairs.
 struct DiagramMatching {
   DistanceBounds distance;  ///< infinite: then there are no pairs
-  /// Places in `a` and in `b`, ascending; -1 is the diagonal, and comes last. Each bar of both is
-  /// in one pair.
+  /// Indices into `a` and into `b`, ascending; -1 is the diagonal and comes last. Each bar of both
+  /// is in one pair.
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
 };
 /// @param choice not the sliced distance, which pairs nothing. The bottleneck distance is exact,
-///        whatever its limits. @throws Error as the functions of ph/distances.hpp.
+///        whatever its limits. @throws Error like the functions of ph/distances.hpp.
 DiagramMatching matching_of(std::span<const Bar> a, std::span<const Bar> b,
                             const DistanceChoice& choice,
                             const RunContext& context = default_context());
 
-/// The dimensions of which any of the barcodes has bars, ascending.
+/// The dimensions in which any of the barcodes has bars, ascending.
 std::vector<int> dims_of(std::span<const Barcode> barcodes);
 
 /// Why two diagrams are infinitely far apart: "1 and 2 bars that never die".
 std::string why_infinite(std::span<const Bar> a, std::span<const Bar> b);
 
-/// What is known of a distance, for people: "0.5", "0.5 (at least 0.497)", "more than 0.2: from 0.3
-/// to 0.5", "inf: 1 and 2 bars that never die".
+/// A distance with its bounds, as text: "0.5", "0.5 (at least 0.497)", "more than 0.2: from 0.3 to
+/// 0.5", "inf: 1 and 2 bars that never die".
 std::string text_of(const DistanceBounds& distance, const DistanceChoice& choice,
                     std::span<const Bar> a, std::span<const Bar> b);
 

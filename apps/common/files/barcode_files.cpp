@@ -16,8 +16,8 @@ namespace {
 constexpr std::array<std::string_view, 7> kBarcodes{".csv",   ".json",    ".ripser", ".pers",
                                                     ".dipha", ".diagram", ".npy"};
 
-/// What changes the bars of one input, but for the threshold, which differs from input to input.
-/// Empty where a file does not say it.
+/// The settings that affect the bars of an input, except the threshold, which differs from input to
+/// input. Empty for settings that a file does not state.
 std::vector<std::pair<std::string_view, std::string>> ways_of(const BarcodeInfo& info) {
   const auto flag = [](bool is_set) { return std::string(is_set ? "true" : "false"); };
   const auto numbers = [](const std::vector<int>& all) {
@@ -55,7 +55,7 @@ void SameOrigin::add(const std::string& name, const BarcodeInfo& info) {
   }
   if (differences.empty()) return;
   is_told_ = true;
-  session_.note(fmt::format("{} was not computed as {} was: {}", printable(name),
+  session_.note(fmt::format("{} was not computed in the same way as {}: {}", printable(name),
                             printable(first_name_), fmt::join(differences, "; ")));
 }
 

@@ -13,18 +13,18 @@
 
 namespace ph::app {
 
-/// The inputs, with the barcode files of folders in place of these, by name.
-/// @param others extensions of files that are taken, too, with their dot: ".png".
-/// @throws Error (no_input) on a folder without any.
+/// The inputs, with each folder replaced by its barcode files, sorted by name.
+/// @param others extensions of files that are accepted as well, with their dot: ".png".
+/// @throws Error (no_input) on a folder without such files.
 std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
                                        std::span<const std::string_view> others = {});
 
-/// Opens an input; no progress is drawn while it is typed. @throws Error as Input::open.
+/// Opens an input; no progress is drawn while it is typed. @throws Error like Input::open.
 Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
 
-/// Whether barcodes that are compared were computed in the same way, as far as their files say it
-/// (JSON does): a note says in what the first one that differs from the first of all does so.
+/// Checks that compared barcodes were computed in the same way, as far as their files say so (JSON
+/// does): a note names the first file that differs from the first of all, and the difference.
 class SameOrigin {
  public:
   explicit SameOrigin(Session& session) : session_(session) {}
@@ -32,15 +32,15 @@ class SameOrigin {
 
  private:
   Session& session_;
-  std::string first_name_;                                       // empty: none has said anything
+  std::string first_name_;  // empty: no file has stated any setting
   std::vector<std::pair<std::string_view, std::string>> first_;  // option, value
   bool is_told_ = false;
 };
 
-/// Barcodes that were read: what they take is counted as long as this lives.
+/// Barcodes that were read; their memory is counted as long as this object lives.
 class StoredBarcodes {
  public:
-  /// @throws Error as open_input and read_barcode; Error (resource) if they do not fit.
+  /// @throws Error like open_input and read_barcode; Error (resource) if they do not fit.
   StoredBarcodes(const std::vector<std::string>& paths, Session& session);
 
   const std::vector<Barcode>& all() const { return barcodes_; }

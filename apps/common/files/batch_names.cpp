@@ -28,7 +28,7 @@ std::string stem(const std::string& name) {
   return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
 }
 
-/// The file name behind the names of its folders: "monday/../run/a.txt" is "monday-run-a.txt".
+/// The file name prefixed by the names of its folders: "monday/../run/a.txt" is "monday-run-a.txt".
 std::string name_with_folders(const std::string& path) {
   std::string joined;
   for (std::size_t begin = 0; begin < path.size();) {

@@ -7,14 +7,14 @@
 
 namespace ph::app {
 
-/// Names for the outputs of inputs: the shortest that only one of them has, without extension, with
-/// it, or with folders. Two inputs may still have the same: the same file named twice.
+/// Names for the outputs of inputs: the shortest unique name of each input, without extension, with
+/// it, or with folders. Two inputs have the same name only if the same file was named twice.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 
-/// Whether a path has a place for the name of each input: it is FOLDER/, or the file has a `*`.
+/// True if a path has a place for the name of each input: it is FOLDER/, or the file has a `*`.
 bool names_each(const std::string& path);
 
-/// The file of one of several inputs: a folder gets a file of its name, a `*` becomes its name.
+/// The file for one of several inputs: in a folder, a file with its name; a `*` becomes its name.
 /// @param extension with its dot, for a folder.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
 
@@ -22,15 +22,15 @@ std::string filled(const std::string& pattern, const std::string& name, std::str
 /// @throws Error (usage) if it is neither a folder nor has a `*`; Error (cannot_create).
 void prepare_outputs(std::string_view option, const std::string& pattern);
 
-/// The files of a folder whose names end in one of these, whatever their case, by name.
-/// @param what they would be, for the message. @throws Error (no_input) if there are none.
+/// The files of a folder whose names end in one of these, in any case, sorted by name.
+/// @param what the word for such files in the message. @throws Error (no_input) if there are none.
 std::vector<std::string> files_in(const std::string& folder,
                                   std::span<const std::string_view> extensions,
                                   std::string_view what);
 
 bool is_folder(const std::string& path);
 
-/// Fine if it is there already. @throws Error (cannot_create).
+/// Creates a folder; an existing one is fine. @throws Error (cannot_create).
 void create_folder(const std::string& path);
 
 }  // namespace ph::app

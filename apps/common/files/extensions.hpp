@@ -5,7 +5,8 @@
 
 namespace ph::app {
 
-/// Whether the name of a file has an extension. A leading dot hides a file; it starts none.
+/// True if the name of a file has an extension. A leading dot marks a hidden file, not an
+/// extension.
 bool has_extension(std::string_view path);
 
 /// "o.tsv: the extension names no format, writing csv"

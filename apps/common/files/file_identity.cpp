@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What there is to harm: a pipe or a terminal has nothing to lose, but mixes what two write to it.
+/// True if there is something to lose: a pipe or a terminal has no contents, but it mixes the
+/// output of two writers.
 enum class Harm { lost, mixed };
 
 bool is_null_device(const files::Status& status) {
@@ -27,7 +28,7 @@ bool is_null_device(const files::Status& status) {
 std::optional<FileIdentity> identity(const std::optional<files::Status>& status, Harm harm) {
   if (!status || status->kind == files::Kind::folder) return std::nullopt;
   const bool keeps = status->kind == files::Kind::regular;
-  // Not all systems tell others apart.
+  // Not all systems can tell other devices apart.
   const bool mixes = harm == Harm::mixed && status->inode != 0 && !is_null_device(*status);
   if (!keeps && !mixes) return std::nullopt;
   return FileIdentity{status->device, status->inode, {}};
@@ -41,7 +42,7 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
   const fs::path absolute = fs::absolute(files::path_of(path), error);
   const fs::path place = fs::weakly_canonical(absolute, error);
   if (error) return std::nullopt;
-  // A batch creates folders later: the file is known by the nearest one that is there.
+  // A batch creates folders later: the file is identified by the nearest folder that exists.
   fs::path folder = place.parent_path();
   auto status = files::status_of(folder);
   while (!status) {
@@ -97,11 +98,11 @@ void require_distinct(std::span<const Written> outputs) {
   const auto reject = [](const Written& one, const Written& other) {
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: {} is written by {}, too; expected a file for each", one.option,
+        fmt::format("{}: {} is also written by {}; expected a file for each", one.option,
                     one.path == "-" ? "standard output" : printable(one.path), other.option));
   };
   for (const Written& output : outputs) {
-    // Wherever that goes.
+    // The destination does not matter.
     if (output.path == "-") {
       if (standard) reject(output, *standard);
       standard = &output;

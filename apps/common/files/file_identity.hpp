@@ -17,19 +17,19 @@ struct Written {
   std::string path;
 };
 
-/// A file by whatever name: by its place on the disk, or, as long as it is not there, by the
-/// nearest folder above it that is. "-" is what standard output goes to.
+/// The identity of a file, whatever its name: its place on the disk or, if it does not exist yet,
+/// the nearest existing folder above it. "-" is the destination of standard output.
 struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
-  std::string name;  ///< the way from that folder; empty: the file is there
+  std::string name;  ///< the path from that folder; empty: the file exists
   auto operator<=>(const FileIdentity&) const = default;
 };
 
 /// The inputs of a run, which no output may replace.
 class InputFiles {
  public:
-  /// @param path as Input::open takes it: "-" is what standard input comes from, "FILE.npz:NAME" is
-  /// a part of FILE.npz. What is no file has nothing to lose.
+  /// @param path as in Input::open: "-" is the source of standard input, "FILE.npz:NAME" is a part
+  /// of FILE.npz. A path that is not a file has nothing to lose.
   void add(const std::string& path);
   /// @throws Error (usage) "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;
@@ -41,14 +41,15 @@ class InputFiles {
 };
 
 /// The path of an input or an output. @throws Error (usage) "--output: found /dev/fd/4, …" if it
-/// stands for a descriptor that was not open when the program started: it may be our own by now.
+/// stands for a descriptor that was not open when the program started, because by now the program
+/// itself may use this descriptor.
 std::string require_given(std::string_view option, const std::string& path);
 
-/// @throws Error (usage) "--report: x is written by --plot, too" if two outputs are one file, or go
+/// @throws Error (usage) "--report: x is also written by --plot" if two outputs are one file, or go
 /// to one pipe or device other than /dev/null.
 void require_distinct(std::span<const Written> outputs);
 
-/// Both: each output is a file of its own, and none of the inputs.
+/// Checks both: each output is a separate file, and none is an input.
 /// @param force outputs may replace inputs. @return whether one does.
 bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force);
 

@@ -45,7 +45,7 @@ constexpr std::string_view kFrame =
 complete -o bashdefault -o default -F {function} {command}
 )";
 
-/// What may follow an option that has a value.
+/// The words that may follow an option with a value.
 std::string bash_case(const OptionText& option) {
   const Values& values = option.values;
   std::string body;

@@ -8,7 +8,7 @@
 namespace ph::app {
 namespace {
 
-/// In single quotes, as fish reads it.
+/// The text in single quotes, as fish reads it.
 std::string fish_quoted(std::string_view text) {
   return fmt::format("'{}'", with_backslashes(text, "\\'"));
 }
@@ -22,8 +22,8 @@ std::string fish_line(std::string_view command, const OptionText& option) {
   if (!option.placeholder.empty()) line += values.is_file ? " -r" : " -x";
   if (values.is_file && values.extensions.empty()) line += " -F";
   std::string choices = fmt::format("{}", fmt::join(values.words, " "));
-  // All files, those of the right kind first: each call lists all, so the first one to be asked for
-  // an ending decides the order of the rest.
+  // Offers all files, those of the right kind first. Each call lists all files; therefore the first
+  // call for an ending decides the order of the rest.
   for (const std::string& extension : values.extensions)
     choices += fmt::format("{}(__fish_complete_suffix {})", choices.empty() ? "" : " ", extension);
   if (!values.extensions.empty()) line += " -k";

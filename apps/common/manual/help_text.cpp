@@ -14,11 +14,11 @@
 namespace ph::app {
 namespace {
 
-constexpr std::size_t kWidth = 80;  // of a terminal
-constexpr std::size_t kText = 27;   // column of what stands beside a name
+constexpr std::size_t kWidth = 80;  // columns of a terminal
+constexpr std::size_t kText = 27;   // column of the text beside a name
 constexpr std::string_view kAll = "all";
 
-/// What other programs read.
+/// Topics for other programs to read.
 struct Page {
   std::string_view name;
   std::string (*text)(const Described& program);
@@ -27,7 +27,7 @@ constexpr std::array kPages{Page{"man", man_page}, Page{"markdown", markdown_pag
                             Page{"bash", bash_completion}, Page{"zsh", zsh_completion},
                             Page{"fish", fish_completion}};
 
-/// A name with a text beside it, or in the lines below if it is long or has lines itself.
+/// A name with a text beside it, or below it if the name is long or has several lines.
 std::string entry(std::string_view name, std::string_view text) {
   std::string lines = fmt::format("  {}", name);
   std::size_t column = name.find('\n') == name.npos ? columns_of(lines) : kWidth;
@@ -42,14 +42,14 @@ std::string entry(std::string_view name, std::string_view text) {
   return lines;
 }
 
-/// The names of an option and its placeholder, in lines if it is long.
+/// The names of an option and its placeholder, in lines if they are long.
 std::string head_in_lines(const OptionText& option) {
   constexpr std::size_t kIndent = 8;
   const std::vector<std::string> lines = wrapped_list(option.head(), kWidth - kIndent);
   return fmt::format("{}", fmt::join(lines, fmt::format("\n{:{}}", "", kIndent)));
 }
 
-/// The same without the alternatives that are too many for a line.
+/// The same without alternatives, if they are too many for a line.
 std::string short_head(const OptionText& option) {
   constexpr std::size_t kEnough = 40;
   const std::vector<std::string> lines = wrapped_list(option.head(), kEnough);

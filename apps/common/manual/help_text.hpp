@@ -8,14 +8,15 @@
 
 namespace ph::app {
 
-/// The topic of --help without one.
+/// The topic that --help shows without an argument.
 inline constexpr std::string_view kUsual = "usual";
 
-/// All that --help takes: the topics of the program, `all`, and what other programs read: `man`,
-/// `markdown`, and the shells.
+/// All arguments of --help: the topics of the program, `all`, and the outputs for other programs:
+/// `man`, `markdown`, and the shells.
 std::vector<std::string_view> help_topics(const Manual& manual);
 
-/// The answer to `--help TOPIC`. @throws Error (usage) on an unknown topic, with the list.
+/// The answer to `--help TOPIC`. @throws Error (usage) on an unknown topic, with the list of
+/// topics.
 std::string help_text(const Described& program, std::string_view topic);
 
 }  // namespace ph::app

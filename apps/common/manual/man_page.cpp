@@ -12,9 +12,10 @@
 namespace ph::app {
 namespace {
 
-constexpr std::size_t kSourceWidth = 76;  // of the lines of the page's source
+constexpr std::size_t kSourceWidth = 76;  // columns of the lines in the page's source
 
-/// One character that is not ASCII, as roff names it. @param rest begins with it; it is taken off.
+/// One character outside ASCII, by its roff name. @param rest begins with the character, which is
+/// removed.
 std::string special_character(std::string_view& rest) {
   if (constexpr std::string_view kDots = "…"; rest.starts_with(kDots)) {
     rest.remove_prefix(kDots.size());
@@ -28,7 +29,7 @@ std::string special_character(std::string_view& rest) {
   return fmt::format("\\[u{:04X}]", code);
 }
 
-/// A text as roff has it. @param is_typed it is something to type: its dashes are not hyphens.
+/// A text in roff. @param is_typed true for text to type, whose dashes are not hyphens.
 std::string roff(std::string_view text, bool is_typed) {
   std::string escaped;
   while (!text.empty()) {
@@ -42,7 +43,7 @@ std::string roff(std::string_view text, bool is_typed) {
       escaped += "\\e";
     else if (c == '-' && is_typed)
       escaped += "\\-";
-    else if (c == '^' || c == '~' || c == '`')  // ASCII's, not accents
+    else if (c == '^' || c == '~' || c == '`')  // the ASCII characters, not accents
       escaped += fmt::format("\\({}", c == '^' ? "ha" : c == '~' ? "ti" : "ga");
     else
       escaped += c;
@@ -50,7 +51,7 @@ std::string roff(std::string_view text, bool is_typed) {
   return escaped;
 }
 
-/// In lines; none of them begins like a request.
+/// The text in lines, none of which looks like a roff request.
 std::string roff_lines(std::string_view text) {
   std::string escaped;
   for (const std::string_view word : words_of(text)) {
@@ -64,7 +65,7 @@ std::string roff_lines(std::string_view text) {
   return lines;
 }
 
-/// The names of an option in bold, its value in italics; a list may be broken behind its bars.
+/// The names of an option in bold and its value in italics; a list may be broken after its bars.
 std::string roff_head(const OptionText& option) {
   std::string head;
   for (const std::string& name : option.names)

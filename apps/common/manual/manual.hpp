@@ -9,18 +9,18 @@ namespace ph::app {
 
 /// A group of options, which `--help NAME` shows.
 struct Topic {
-  std::string_view name;   ///< "rips"; an option says its topic by it
+  std::string_view name;   ///< "rips"; options refer to their topic by it
   std::string_view title;  ///< "Rips complexes"
 };
 
-/// Those that all programs have, the last ones of each.
+/// The topics that all programs have; they come last in each program.
 inline constexpr Topic kLimitsTopic{"limits", "Threads and memory"};
 inline constexpr Topic kMessagesTopic{"messages", "Messages, version, help"};
 
-/// A command line that runs in the root of the repository.
+/// A command line that can be run in the root of the repository.
 struct Example {
-  std::string_view command;  ///< whole, with the name of the program
-  std::string_view what;     ///< it gives: a sentence without its full stop
+  std::string_view command;  ///< the whole command, with the name of the program
+  std::string_view what;     ///< its effect: a sentence without its full stop
 };
 
 /// A format of files.
@@ -33,16 +33,16 @@ struct FormatList {
   std::vector<FormatText> formats;
 };
 
-/// What a program says of itself beside its options. Help texts, manual page, reference page and
-/// completions are made of it and of the options.
+/// The description of a program beside its options. Help texts, manual page, reference page and
+/// completions are made from it and the options.
 struct Manual {
   std::string_view program;
-  std::string_view phrase;                     ///< "barcodes of points and images"
-  std::string_view paragraph;                  ///< what it does, from what, to what
-  std::span<const std::string_view> usages;    ///< what may follow its name, a line each
-  std::span<const std::string_view> commands;  ///< words in place of the first input: "plot"
+  std::string_view phrase;     ///< "barcodes of points and images"
+  std::string_view paragraph;  ///< what it computes, from which input, to which output
+  std::span<const std::string_view> usages;    ///< the command lines that it accepts, one per line
+  std::span<const std::string_view> commands;  ///< words that may replace the first input: "plot"
   std::span<const Topic> topics;               ///< in the order in which they are shown
-  std::span<const std::string_view> usual;     ///< options used most, by long name, with dashes
+  std::span<const std::string_view> usual;  ///< the most common options, by long name, with dashes
   std::span<const Example> examples;
   std::vector<FormatList> (*formats)();
   std::string_view see_also;  ///< another program of libph

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMarkdownWidth = 100;
 
-/// The option that a word begins with: "--voxel" of "--voxel;".
+/// The option that a word begins with: "--voxel" in "--voxel;".
 std::string_view option_in(std::string_view word) {
   if (!word.starts_with("--") || word.size() < 3) return {};
   const auto is_part = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
@@ -20,7 +20,7 @@ std::string_view option_in(std::string_view word) {
   return word.substr(0, static_cast<std::size_t>(end - word.begin()));
 }
 
-/// A text with its options as references, in lines. What Markdown would take for its own is
+/// A text with its options as references, in lines. Characters with a meaning in Markdown are
 /// escaped.
 std::string markdown_text(const Described& program, std::string_view text) {
   std::string marked;

@@ -43,7 +43,7 @@ OptionText text_of(const CLI::Option& option) {
   return text;
 }
 
-/// A name that can stand in the scripts of shells; else that of the manual.
+/// The name of the program if shell scripts can contain it; otherwise the name in the manual.
 std::string command_name(std::string_view started_as, const Manual& manual) {
   const std::string_view name = started_as.substr(started_as.rfind('/') + 1);
   const auto is_plain = [](char c) {
@@ -127,7 +127,7 @@ Described described(const CLI::App& app, const Manual& manual, std::string_view 
     if (option.name() == "--help")
       for (const std::string_view name : help_topics(manual))
         option.values.words.emplace_back(name);
-  // The order of topics is that of the manual; within one, that of the program.
+  // Topics follow the order of the manual; options within a topic follow the order of the program.
   const auto place = [&](const OptionText& option) {
     const auto found = std::ranges::find(manual.topics, option.topic, &Topic::name);
     if (found == manual.topics.end())

@@ -23,7 +23,7 @@ else
 fi
 )";
 
-/// What completes a value: the part behind `message:` of a specification of _arguments.
+/// The completion of a value: the part after `message:` in a specification of _arguments.
 std::string zsh_action(const Values& values) {
   std::string files = "_files";
   if (!values.extensions.empty()) {
@@ -33,7 +33,7 @@ std::string zsh_action(const Values& values) {
     files = fmt::format("_files -g \"*.({})\"", fmt::join(endings, "|"));
   }
   if (values.words.empty()) return values.is_file ? files : " ";
-  // Behind `minkowski:` the word goes on.
+  // After `minkowski:` the word continues.
   std::string whole, begun;
   for (const std::string& word : values.words)
     (word.ends_with(':') ? begun : whole) += " " + with_backslashes(word, ":");

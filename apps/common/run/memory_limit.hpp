@@ -6,9 +6,9 @@
 
 namespace ph::app {
 
-/// Lets the kernel refuse memory: behind the budget of a RunContext, which counts large containers
-/// only, this bounds all the others. An allocation then fails with std::bad_alloc. The limit that
-/// the process was started with is never passed, and comes back in the end.
+/// Makes the kernel refuse memory. The budget of a RunContext counts only large containers; this
+/// limit bounds all other memory. An allocation beyond it fails with std::bad_alloc. The limit with
+/// which the process was started is never exceeded, and is restored at the end.
 class HeapBound {
  public:
   HeapBound();
@@ -16,17 +16,17 @@ class HeapBound {
   HeapBound(const HeapBound&) = delete;
   HeapBound& operator=(const HeapBound&) = delete;
 
-  /// Bounds what the process may have to `bytes` more than it has now.
+  /// Limits the memory of the process to `bytes` more than it has now.
   void bound(std::size_t bytes);
-  /// Lets go of a little of the bound, once and for all: after a run that met it, addresses between
-  /// blocks still in use are lost to the next one.
+  /// Relaxes the limit a little, for good: after a run that reached it, addresses between blocks
+  /// still in use are lost to the next run.
   void loosen();
 
  private:
   void set(std::uint64_t limit) const;
 
-  std::optional<std::uint64_t> at_start_;  // none: it is not known, nothing is bounded
-  std::optional<std::uint64_t> bound_;     // what was set, if it is below
+  std::optional<std::uint64_t> at_start_;  // empty: it is unknown, and there is no limit
+  std::optional<std::uint64_t> bound_;     // the limit that was set, if it is lower
 };
 
 }  // namespace ph::app

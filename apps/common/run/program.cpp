@@ -24,7 +24,7 @@ bool advises(const Error& error, Setting setting) {
                              [setting](const Remedy& remedy) { return remedy.setting == setting; });
 }
 
-/// What report_current_exception does while there is memory for a message.
+/// The work of report_current_exception if there is memory for a message.
 int report_with_memory(std::string_view prefix, std::string_view memory_advice) {
   const auto report = [&](std::string_view what, int code) {
     print_line(fmt::format("{}: {}", prefix, what));
@@ -51,7 +51,7 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
     return report(fmt::format("out of memory: a container would be too large; {}", memory_advice),
                   kResource);
   } catch (const std::system_error& error) {
-    // What threads throw if the system has no room for another one.
+    // Thrown by threads if the system has no room for another one.
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report("cannot create a thread; use fewer (--threads)", kResource);
     return report(fmt::format("internal error: {}; please report", error.what()), kInternal);

@@ -31,7 +31,7 @@ ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet, std::optional<
   try {
     repeater_ = std::jthread([this](const std::stop_token& stop) { repeat(stop); });
   } catch (const std::system_error&) {
-    return;  // no room for a thread: only what is reported is shown
+    return;  // no room for a thread: only reports are shown
   }
 }
 
@@ -87,7 +87,7 @@ void ProgressReporter::repeat(const std::stop_token& stop) {
       if (!stop.stop_requested() && Clock::now() >= last_shown_ + kLongestSilence) show();
     }
   } catch (const std::bad_alloc&) {
-    return;  // the computation will say so
+    return;  // the computation will report the stop
   }
 }
 

@@ -13,21 +13,21 @@
 
 namespace ph::app {
 
-/// Shows progress on stderr: a bar on a terminal, a JSON object a line, or nothing. A bar appears
-/// only after half a second, with the first report, and any message wipes it away. Where a stage
-/// has nothing to report for most of a second (a large array is moved, a file is read in one piece)
-/// what was last reported is shown again, so that a program that computes is heard every second.
-/// Lines of JSON come so from the start, and are never held back.
+/// Shows progress on stderr: a bar on a terminal, one JSON object per line, or nothing. A bar
+/// appears only after half a second, with the first report, and any message erases it. If a stage
+/// has nothing to report for most of a second (a large array is moved, a file is read in one
+/// piece), the last report is shown again, so that a computing program gives a sign of life every
+/// second. Lines of JSON do this from the start, and are never held back.
 class ProgressReporter {
  public:
-  /// @param rank of one of several processes that compute together.
+  /// @param rank of this process, if several compute together.
   ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank = std::nullopt);
   ~ProgressReporter();
 
   bool active() const { return mode_ == ProgressMode::bar || mode_ == ProgressMode::json; }
   void report(const Progress& progress);
-  /// Wipes the bar and draws none until as many calls of `release` and another report: the terminal
-  /// belongs to results, or to somebody who types.
+  /// Erases the bar and draws none until `release` was called equally often and another report
+  /// comes: the terminal belongs to results, or to somebody who types.
   void hold();
   void release();
 
@@ -41,7 +41,7 @@ class ProgressReporter {
   ProgressMode mode_;
   std::optional<int> rank_;
   Clock::time_point start_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   Progress last_{"start", 0, 0};
   Clock::time_point last_shown_;
   bool has_report_ = false;  // since the start or the last hold

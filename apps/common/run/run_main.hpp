@@ -13,8 +13,9 @@
 namespace ph::app {
 
 /// The main function of a program that runs in one session.
-/// @param parse reads the command line; gives the answer to --help and its like, or nothing.
-/// @param run called with the arguments and the session; gives the exit code.
+/// @param parse reads the command line; returns the answer to --help and similar options, or
+///     nothing.
+/// @param run called with the arguments and the session; returns the exit code.
 /// @return the exit code.
 template <class Arguments, class Run>
 int run_main(const Program& program, int argc, const char* const* argv,
@@ -25,7 +26,7 @@ int run_main(const Program& program, int argc, const char* const* argv,
     Session session(program.name, arguments.common, std::move(stop));
     return run(arguments, session);
   };
-  return run_program(program, std::ref(body));  // a function of its own would need memory
+  return run_program(program, std::ref(body));  // a separate function would need memory
 }
 
 }  // namespace ph::app

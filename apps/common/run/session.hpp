@@ -13,10 +13,10 @@
 
 namespace ph::app {
 
-/// One run of a program: the context its computations run in and the way it talks to the user.
+/// One run of a program: the context of its computations and its communication with the user.
 class Session {
  public:
-  /// Sets up threads, memory limit, progress and stopping as the common options say.
+  /// Sets up threads, memory limit, progress and stopping from the common options.
   Session(std::string_view program, const CommonOptions& options, std::stop_token stop);
   ~Session();
   Session(const Session&) = delete;
@@ -25,15 +25,15 @@ class Session {
   const RunContext& context() const { return context_; }
   const CommonOptions& options() const { return options_; }
 
-  /// The most memory that was resident so far, beyond what it was at the start; bytes.
+  /// The largest resident memory so far, beyond its value at the start; bytes.
   std::uint64_t memory_taken() const;
 
-  /// One line on stderr in the words of the programs: `program: text`. Nothing with --quiet.
+  /// Writes one line to stderr in the form of the programs: `program: text`. Silent with --quiet.
   void note(const Message& text);
   /// The same, only with --verbose.
   void explain(const Message& text);
 
-  /// After a run that met the memory limit, see HeapBound::loosen.
+  /// To be called after a run that reached the memory limit, see HeapBound::loosen.
   void loosen_heap_bound() { heap_.loosen(); }
 
  private:
@@ -47,9 +47,9 @@ class Session {
   std::uint64_t memory_at_start_;
 };
 
-/// As long as it lives no progress bar is drawn, and none after it before something is reported:
-/// while results are written, which may go to the same terminal, while input is typed, and where
-/// the next thing to come is not known.
+/// While it lives, no progress bar is drawn, and after it none until the next report. For times
+/// when results are written, which may go to the same terminal, when input is typed, and when the
+/// next step is unknown.
 class BarHold {
  public:
   explicit BarHold(Session& session);
@@ -61,11 +61,11 @@ class BarHold {
   ProgressReporter& progress_;
 };
 
-/// Whether one of the inputs is typed: standard input, "-", and that is a terminal.
+/// True if one of the inputs is typed: standard input, "-", if that is a terminal.
 bool is_typed(std::initializer_list<std::string_view> paths);
 
 /// An output file whose temporary name is removed even if a signal ends the program at once. Open
-/// outputs before long computations: what cannot be created is said first.
+/// outputs before long computations, so that failures to create them are reported first.
 class Output {
  public:
   explicit Output(const std::string& path);
@@ -79,10 +79,10 @@ class Output {
 
  private:
   OutputFile file_;
-  int slot_ = -1;  // in the table of names to remove
+  int slot_ = -1;  // index in the table of names to remove
 };
 
-/// Largest resident memory of the process so far, bytes.
+/// The largest resident memory of the process so far, bytes.
 std::uint64_t peak_memory();
 
 }  // namespace ph::app

@@ -7,10 +7,10 @@
 
 namespace ph::app {
 
-/// Turns SIGINT, SIGTERM and SIGHUP into a stop request while it lives; there is one at a time.
-/// The first signal requests a stop; if the process is still there 0.06 s later, or on a second
-/// signal, it ends at once: registered temporary files are removed, nothing is unwound. Where no
-/// thread can be created the first signal does so.
+/// Turns SIGINT, SIGTERM and SIGHUP into a stop request while it lives; there is one at a time. The
+/// first signal requests a stop. If the process still exists 0.06 s later, or on a second signal,
+/// it ends at once: registered temporary files are removed, and nothing is unwound. If no thread
+/// can be created, the first signal ends the process.
 class SignalWatch {
  public:
   SignalWatch();
@@ -19,7 +19,7 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   std::stop_token token() const { return stop_.get_token(); }
-  /// The first signal that came; 0: none.
+  /// The first signal received; 0: none.
   static int received();
 
  private:
@@ -29,8 +29,8 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// While it lives the process does not end of a signal: for files that have a name which is not
-/// theirs. For one thread at a time.
+/// While it lives, signals do not end the process: for files with a name that is not their own yet.
+/// For one thread at a time.
 class SignalsWait {
  public:
   SignalsWait();
@@ -39,13 +39,13 @@ class SignalsWait {
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
 
-/// From now on the process ends with kIo and one line when it reads what is mapped of a file and is
-/// there no more: the file became shorter, or its disk failed. Registered temporary files are
-/// removed. @param program whose message it is; lives as long as the process.
+/// From now on, the process ends with kIo and one line if it reads mapped bytes of a file that no
+/// longer exist, because the file was shortened or its disk failed. Registered temporary files are
+/// removed. @param program named in the message; lives as long as the process.
 void end_where_mapped_files_shrink(std::string_view program);
 
-/// Has a file removed if a signal ends the process at once. @return a slot to forget it by; -1 if
-/// the name is empty or too long, or if there are too many.
+/// Registers a file to remove if a signal ends the process at once. @return a slot for
+/// unregistering it; -1 if the name is empty or too long, or if there are too many.
 int remember_temporary(const std::string& path);
 void forget_temporary(int slot);
 

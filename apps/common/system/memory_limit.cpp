@@ -11,7 +11,7 @@
 namespace ph::app {
 namespace {
 
-// Sanitizers map far more than the program asks for.
+// Sanitizers map far more memory than the program requests.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSanitized = true;
 #else
@@ -30,12 +30,12 @@ HeapBound::~HeapBound() {
 }
 
 void HeapBound::bound(std::size_t bytes) {
-  // Small blocks, the allocator's own and stacks of threads.
+  // Reserve for small blocks, the allocator's own data and stacks of threads.
   constexpr std::uint64_t slack = std::uint64_t{16} << 20;
-  const auto now = status_bytes("VmData:");  // what RLIMIT_DATA counts
+  const auto now = status_bytes("VmData:");  // the memory that RLIMIT_DATA counts
   std::uint64_t limit = 0;
   if (!at_start_ || !now) return;
-  // The free end of the heap is there, but not taken.
+  // The free end of the heap is reserved but not used.
   const std::uint64_t taken = *now - std::min<std::uint64_t>(*now, mallinfo2().keepcost);
   if (__builtin_add_overflow(taken + slack, bytes, &limit)) return;
   if (limit >= *at_start_) return;

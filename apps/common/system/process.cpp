@@ -14,16 +14,18 @@ namespace ph::app {
 namespace {
 
 /// Occupies the standard descriptors that the caller closed, so that no file we open becomes
-/// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
+/// "standard output" by accident. They are opened the wrong way round on purpose: using them is an
+/// error.
 void occupy_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0 &&
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
-      static_cast<void>(open("/", O_PATH));  // is always there, and neither read nor written
+      static_cast<void>(open("/", O_PATH));  // always exists, is neither read nor written
 }
 
-/// Freed blocks are kept for the next stage up to a size: to map and fault in each anew costs a
-/// short run a tenth of its time. Beyond it vectors that grow would leave holes that nobody counts.
+/// Freed blocks are kept for the next stage up to a size, because mapping and faulting in each
+/// block anew would cost a short run a tenth of its time. Beyond this size, growing vectors would
+/// leave holes that nobody counts.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
@@ -46,7 +48,7 @@ bool is_given(int descriptor) {
 void give_back_freed_memory() { malloc_trim(0); }
 
 std::uint64_t peak_memory() {
-  // Not what getrusage says: that includes the program that started this one.
+  // Not the value of getrusage, which includes the program that started this one.
   if (const auto peak = status_bytes("VmHWM:")) return *peak;
   rusage usage{};
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024

@@ -2,16 +2,16 @@
 #pragma once
 namespace ph::app {
 
-/// Sets up what the program needs of the process: standard descriptors that are open and pass bytes
-/// as they are, errors in place of signals where nobody reads an output or a disk is full, an
+/// Sets up the process for the program: standard descriptors that are open and pass bytes
+/// unchanged, errors instead of signals if nobody reads an output or a disk is full, and an
 /// allocator that keeps freed blocks.
 void prepare_process();
 
-/// Whether a descriptor is open and was when the program started: not one of its own, which all
-/// close in programs that it starts.
+/// True if a descriptor is open and was open when the program started: not a descriptor of its own,
+/// which is closed in programs that it starts.
 bool is_given(int descriptor);
 
-/// The allocator keeps none of the blocks that were freed.
+/// Makes the allocator return all freed blocks.
 void give_back_freed_memory();
 
 }  // namespace ph::app

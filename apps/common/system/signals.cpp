@@ -20,8 +20,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch nothing but lock-free atomics and memory that does not move, hence the
-// globals; they belong to the process as signals do.
+// A handler may touch only lock-free atomics and memory that does not move, hence the globals; like
+// signals, they belong to the process.
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> first_signal{0};
@@ -35,7 +35,7 @@ std::string_view program_name;
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// Never runs on a thread that is waited for: that one has signals blocked.
+// Never runs on a thread that is waited for, because that thread has signals blocked.
 [[noreturn]] void end_at_once(int signal) {
   while (must_wait.load()) {
     const timespec millisecond{0, 1'000'000};
@@ -55,9 +55,9 @@ void on_signal(int signal) {
   errno = saved;
 }
 
-/// Comes at the instruction that reads, never within a message or a call of the system.
+/// This signal comes at the instruction that reads, never within a message or a system call.
 void on_lost_page(int signal, siginfo_t* what, void*) {
-  if (what->si_code != BUS_ADRERR) {  // a fault of ours: as if there were no handler
+  if (what->si_code != BUS_ADRERR) {  // a fault of ours: behave as if there were no handler
     std::signal(signal, SIG_DFL);
     return;
   }
@@ -93,7 +93,7 @@ SignalWatch::SignalWatch() {
   sigemptyset(&action.sa_mask);
   for (const int signal : kSignals) {
     struct sigaction was {};
-    // nohup and shells that put a job into the background ignore signals for us: leave it so.
+    // nohup and shells with background jobs ignore signals for us: leave them ignored.
     if (sigaction(signal, nullptr, &was) == 0 && was.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
@@ -102,7 +102,7 @@ SignalWatch::SignalWatch() {
 SignalWatch::~SignalWatch() {
   if (!thread_.joinable()) return;
   const char byte = 0;
-  if (write(pipe_ends[1], &byte, 1) != 1) {  // the end of the pipe is as good
+  if (write(pipe_ends[1], &byte, 1) != 1) {  // the end of the pipe serves as well
     wake_descriptor = -1;
     close(pipe_ends[1]);
   }
@@ -122,9 +122,9 @@ void SignalWatch::watch() {
   } while (got < 0 && errno == EINTR);
   if (got != 1 || byte == 0) return;
   stop_.request_stop();
-  // Unwinding normally takes a few milliseconds and ends with the byte 0 of the destructor. What
-  // takes longer is cut short: returning gigabytes to the system takes time too, and the whole
-  // must not take 0.2 s.
+  // Unwinding normally takes a few milliseconds and ends with the byte 0 from the destructor.
+  // Anything longer is cut short: returning gigabytes to the system takes time as well, and
+  // everything together must not take 0.2 s.
   pollfd done{pipe_ends[0], POLLIN, 0};
   int ready = 0;
   do {

@@ -13,8 +13,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch nothing but lock-free atomics and memory that does not move, hence the
-// globals; they belong to the process as signals do.
+// A handler may touch only lock-free atomics and memory that does not move, hence the globals; like
+// signals, they belong to the process.
 constexpr std::size_t kSlots = 64;
 constexpr std::size_t kLongestName = 4096;
 

@@ -3,7 +3,7 @@
 
 namespace ph::app {
 
-/// Removes the files of `remember_temporary`. A handler of signals may call it.
+/// Removes the files registered by `remember_temporary`. A signal handler may call it.
 void remove_temporaries();
 
 }  // namespace ph::app

@@ -58,7 +58,7 @@ std::string build_information() {
   line("fmt", fmt_version());
   line("CLI11", CLI11_VERSION);
   line("linked", PH_IS_STATIC ? "statically" : "dynamically");
-  // Of the library that is there, which may be younger than its headers if it is a shared one.
+  // The version of the library in use; a shared one may be newer than its headers.
   line("libpng", png_get_libpng_ver(nullptr));
   line("PNG plots", png_plot_support().empty() ? "no" : png_plot_support());
   line("zlib", zlibVersion());

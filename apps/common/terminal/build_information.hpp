@@ -4,7 +4,8 @@
 
 namespace ph::app {
 
-/// What --version --verbose says of any program: compiler, build, libraries; a line each.
+/// The part of --version --verbose that all programs share: compiler, build, libraries; one per
+/// line.
 std::string build_information();
 
 }  // namespace ph::app

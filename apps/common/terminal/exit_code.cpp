@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array kStatuses{
     ExitStatus{kOk, "Done"},
-    ExitStatus{kDifference, "A check found a difference; the result is written all the same"},
+    ExitStatus{kDifference, "A check found a difference; the result is written anyway"},
     ExitStatus{kUsage, "The command line makes no sense"},
     ExitStatus{kBadData, "The data are malformed"},
     ExitStatus{kNoInput, "An input is missing or cannot be read"},
@@ -16,7 +16,7 @@ constexpr std::array kStatuses{
                "A feature was left out when the program was built, or the machine has no GPU"},
     ExitStatus{kInternal, "A bug of the program; please report it"},
     ExitStatus{kCannotCreate, "An output cannot be created"},
-    ExitStatus{kIo, "Reading or writing broke off"},
+    ExitStatus{kIo, "Reading or writing failed midway"},
     ExitStatus{kResource, "The memory limit, or another one, would be exceeded"},
     ExitStatus{kHangup, "Stopped by a hang-up"},
     ExitStatus{kInterrupted, "Stopped by Ctrl-C"},

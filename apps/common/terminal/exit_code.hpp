@@ -7,10 +7,11 @@
 
 namespace ph::app {
 
-/// What the programs return to the shell: sysexits and the shell's own numbers for signals.
+/// The codes that the programs return to the shell: sysexits and the shell's own numbers for
+/// signals.
 enum ExitCode : int {
   kOk = 0,
-  kDifference = 1,  ///< a check found a difference; the result is written all the same
+  kDifference = 1,  ///< a check found a difference; the result is written anyway
   kUsage = 64,
   kBadData = 65,
   kNoInput = 66,
@@ -27,12 +28,12 @@ enum ExitCode : int {
 /// The exit code of a kind of error; a cancelled run counts as interrupted.
 int exit_code(ErrorKind kind);
 
-/// What a code means, for users: a sentence without its full stop.
+/// The meaning of a code, for users: a sentence without its full stop.
 struct ExitStatus {
   ExitCode code;
   std::string_view what;
 };
-/// All of them, by number.
+/// All codes, by number.
 std::span<const ExitStatus> exit_statuses();
 
 }  // namespace ph::app

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kWipe = "\r\x1b[K";
 
-// Of the process, as standard error is.
+// One per process, like standard error.
 std::mutex mutex;
 bool status_is_shown = false;
 
@@ -35,7 +35,7 @@ void wipe() {
 }  // namespace
 
 void print_line(std::string_view line) {
-  // A name of 4096 bytes, each of them escaped, must not hide what comes after it.
+  // A name of 4096 bytes, all of them escaped, must not hide the text after it.
   constexpr std::size_t longest = std::size_t{1} << 15;
   const std::string text = printable(line, longest) + "\n";
   const std::scoped_lock lock(mutex);

@@ -6,7 +6,7 @@
 
 namespace ph::app {
 
-/// The option that a setting is, without its dashes: "max-dim".
+/// The option for a setting, without its dashes: "max-dim".
 std::string option_name(Setting setting);
 
 /// Settings as options: "--nan drop".

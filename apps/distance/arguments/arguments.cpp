@@ -24,11 +24,11 @@ using app::DistanceKind;
 using app::parse_integer;
 using app::parse_number;
 
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // of anything that is counted
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest number of anything that is counted
 
 [[noreturn]] void reject(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
-/// @param least the smallest number that is taken.
+/// @param least the smallest accepted number.
 double parse_finite(const char* option, const std::string& text, double least) {
   const double number = parse_number(option, text);
   if (!(number >= least) || std::isinf(number))
@@ -134,7 +134,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   });
 }
 
-/// @throws Error (usage) on a name of another format. @param expected "FILE.npy or FILE.csv".
+/// @throws Error (usage) on a name with another format. @param expected "FILE.npy or FILE.csv".
 void require_format(const char* option, const std::string& path,
                     std::initializer_list<BarcodeFormat> formats, const char* expected) {
   if (path.empty() || path == "-") return;
@@ -144,18 +144,18 @@ void require_format(const char* option, const std::string& path,
         fmt::format("{}: found {}, expected {}, or - for CSV", option, printable(path), expected));
 }
 
-/// @throws Error (usage) on the name of something that distances are not written as.
+/// @throws Error (usage) on a name with a format that cannot hold distances.
 void require_table_format(const Arguments& a) {
   if (!a.output || a.output_format) return;
   const auto format = barcode_format_of_path(*a.output);
   if (format && *format != BarcodeFormat::csv && *format != BarcodeFormat::json)
     reject(
-        fmt::format("--output: found {}, expected FILE.csv or FILE.json, other names are text; "
+        fmt::format("--output: found {}, expected FILE.csv or FILE.json, other names give text; "
                     "--matrix writes .npy",
                     printable(*a.output)));
 }
 
-/// Standard output has one of them.
+/// Standard output can have only one of them.
 void require_one_on_standard_output(const Arguments& a) {
   std::string first = a.writes_table() && a.output_path() == "-" ? "--output" : "";
   for (const auto& [option, path] : {std::pair{"--matching", a.matching}, {"--matrix", a.matrix}})

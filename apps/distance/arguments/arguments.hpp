@@ -17,7 +17,7 @@ enum class OutputFormat { text, csv, json };
 struct Arguments {
   app::CommonOptions common;
   std::vector<std::string> inputs;
-  std::vector<int> dims;  // empty: all that there are
+  std::vector<int> dims;  // empty: all dimensions
   app::DistanceChoice distance;
 
   std::optional<std::string> output;
@@ -27,16 +27,16 @@ struct Arguments {
 
   std::string groups;  // path; empty: none
   PermutationOptions test;
-  // The options that were given of those that do nothing somewhere.
+  // The given options that have no effect in some situations.
   std::vector<const app::OptionScope*> given;
 
   std::string output_path() const { return output.value_or("-"); }
-  /// Whether distances or tests are written. A matrix takes their place, unless they are asked for.
+  /// True if distances or tests are written. A matrix replaces them, unless they are requested.
   bool writes_table() const { return matrix.empty() || !groups.empty() || output || output_format; }
   OutputFormat table_format() const;
 };
 
-/// Parses the command line. @return the answer to --help or --version, which is all that is left.
+/// Parses the command line. @return the answer to --help or --version, if one was asked for.
 /// @throws Error (usage).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 

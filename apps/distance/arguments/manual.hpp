@@ -4,7 +4,7 @@
 
 namespace ph::distance_program {
 
-/// What ph-distance says of itself.
+/// The manual of ph-distance.
 const app::Manual& manual();
 
 }  // namespace ph::distance_program

@@ -11,11 +11,11 @@ namespace ph::distance_program {
 constexpr app::Situations situation_of(app::DistanceKind kind) {
   return 1U << static_cast<unsigned>(kind);
 }
-/// How many barcodes there are; what is wanted of them.
+/// The situations of a run: the number of barcodes and the requested results.
 inline constexpr app::Situations kTwo = 1U << 3, kMany = 1U << 4, kGroups = 1U << 5,
                                  kNoGroups = 1U << 6, kMatching = 1U << 7;
 
-/// All options that do nothing in some of them.
+/// All options that have no effect in some of them.
 std::span<const app::OptionScope> option_scopes();
 
 }  // namespace ph::distance_program

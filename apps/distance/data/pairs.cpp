@@ -9,7 +9,7 @@
 namespace ph::distance_program {
 namespace {
 
-/// A distance that is to be found.
+/// A distance to compute.
 struct Task {
   std::size_t bars;
   std::uint32_t dim, a, b;  // places
@@ -26,7 +26,7 @@ std::pmr::vector<Task> tasks_of(const std::vector<Barcode>& barcodes,
     for (std::uint32_t a = 0; a < barcodes.size(); ++a)
       for (std::uint32_t b = 0; b < a; ++b) tasks.push_back({bars[a] + bars[b], d, a, b});
   }
-  // The longest first: no thread is left with a long one in the end.
+  // The longest first, so that no thread is left with a long one in the end.
   std::ranges::sort(tasks, std::ranges::greater(), &Task::bars);
   return tasks;
 }
@@ -47,11 +47,11 @@ PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int
   const std::pmr::vector<Task> tasks = tasks_of(barcodes, distances, context);
   const auto find = [&](const Task& task, const RunContext& its_context) {
     const int dim = distances.dims()[task.dim];
-    // In the order of the inputs: what is said of a fault names the first one.
+    // In the order of the inputs, so that an error names the first faulty one.
     distances.at(task.dim, task.a, task.b) = app::distance_of(
         barcodes[task.b].bars(dim), barcodes[task.a].bars(dim), choice, its_context);
   };
-  // A single pair has all threads and all memory, and says how far it is.
+  // A single pair gets all threads and all memory, and reports its progress.
   if (barcodes.size() == 2) {
     for (const Task& task : tasks) find(task, context);
     return distances;

@@ -12,7 +12,7 @@ namespace ph::distance_program {
 /// The distances of all pairs of barcodes, in each of some dimensions.
 class PairDistances {
  public:
-  /// @param count barcodes, at least 2.
+  /// @param count number of barcodes, at least 2.
   PairDistances(std::size_t count, std::vector<int> dims, std::pmr::memory_resource* memory)
       : count_(count), dims_(std::move(dims)), bounds_(memory) {
     bounds_.resize(dims_.size() * pairs());
@@ -21,7 +21,7 @@ class PairDistances {
   std::size_t count() const { return count_; }
   const std::vector<int>& dims() const { return dims_; }
   std::size_t pairs() const { return count_ * (count_ - 1) / 2; }
-  /// Of two barcodes, b < a, in the dimension at a place of dims().
+  /// The distance of two barcodes, b < a, in the dimension at an index of dims().
   DistanceBounds& at(std::size_t dim, std::size_t a, std::size_t b) {
     return bounds_[dim * pairs() + a * (a - 1) / 2 + b];
   }
@@ -37,8 +37,9 @@ class PairDistances {
   std::pmr::vector<DistanceBounds> bounds_;  // by dimension, then by row of the lower triangle
 };
 
-/// Threads share them, those with the most bars first. The result does not depend on the threads.
-/// @throws Error as the functions of ph/distances.hpp.
+/// Threads share the pairs, those with the most bars first. The result does not depend on the
+/// threads.
+/// @throws Error like the functions of ph/distances.hpp.
 PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int> dims,
                            const app::DistanceChoice& choice, const RunContext& context);
 

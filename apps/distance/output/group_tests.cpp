@@ -13,7 +13,7 @@
 namespace ph::distance_program {
 namespace {
 
-/// Which barcodes are infinitely far apart; nothing if none are.
+/// A pair of barcodes that are infinitely far apart; empty if there is none.
 void require_finite(const PairDistances& distances, std::size_t d,
                     const std::vector<Barcode>& barcodes, const std::vector<std::string>& inputs) {
   const int dim = distances.dims()[d];

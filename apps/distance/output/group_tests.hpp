@@ -11,13 +11,14 @@
 namespace ph::distance_program {
 
 /// Tests in each dimension whether the groups differ.
-/// @throws Error (bad_data) on an infinite distance, with the names of both; Error (cancelled).
+/// @throws Error (bad_data) on an infinite distance, with the names of both barcodes; Error
+///     (cancelled).
 std::vector<PermutationTest> tests_of(const PairDistances& distances, const Groups& groups,
                                       const std::vector<Barcode>& barcodes,
                                       const std::vector<std::string>& inputs,
                                       const Arguments& arguments, const RunContext& context);
 
-/// Writes them: a test for each of the dimensions; in JSON with the distances.
+/// Writes the tests, one per dimension; in JSON with the distances.
 void write_tests(OutputFile& file, const std::vector<PermutationTest>& tests,
                  const PairDistances& distances, const Groups& groups,
                  const std::vector<std::string>& inputs, const Arguments& arguments);

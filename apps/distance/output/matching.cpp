@@ -16,12 +16,12 @@ namespace {
 
 /// Two bars, one of each barcode, or a bar and a point of the diagonal.
 struct Pair {
-  std::array<std::int64_t, 2> places;  // among the bars of the dimension; -1: the diagonal
+  std::array<std::int64_t, 2> places;  // index among the bars of the dimension; -1: the diagonal
   std::array<std::array<double, 2>, 2> ends;
   double cost;
 };
 
-/// 0 where both are infinite.
+/// The difference; 0 if both are infinite.
 double difference(double x, double y) { return x == y ? 0 : x - y; }
 
 Pair pair_of(const DimMatching& m, std::size_t k, double ground) {

@@ -17,8 +17,8 @@ struct DimMatching {
   app::DiagramMatching matching;
 };
 
-/// Writes all pairs with the ends of their bars, and what each costs: its distance in the ground
-/// norm. Where a bar goes to the diagonal, its partner is the point of the diagonal nearest to it.
+/// Writes all pairs with the ends of their bars and the cost of each pair: its distance in the
+/// ground norm. If a bar goes to the diagonal, its partner is the nearest point of the diagonal.
 void write_matching(OutputFile& file, std::span<const DimMatching> matchings, bool is_json,
                     const app::DistanceChoice& choice, const std::vector<std::string>& inputs);
 

@@ -10,17 +10,17 @@
 
 namespace ph::distance_program {
 
-/// The columns that name a distance, and their cells.
+/// The columns that describe a distance, and their cells.
 inline constexpr std::string_view kChoiceColumns = "distance,order,ground,directions";
 std::string choice_cells(const app::DistanceChoice& choice);
-/// Members of a document that say what it is and which distance it has; without braces.
+/// Members of a document that state its format and distance; without braces.
 /// @param format its name.
 std::string document_members(std::string_view format, const app::DistanceChoice& choice,
                              const std::vector<std::string>& inputs);
 /// The first line of text: "bottleneck distance (…) of a.csv and b.csv".
 std::string heading(const app::DistanceChoice& choice, const std::vector<std::string>& inputs);
 
-/// Writes the distances: by dimension, then in the order of the inputs.
+/// Writes the distances by dimension, then in the order of the inputs.
 void write_distances(OutputFile& file, const PairDistances& distances,
                      const std::vector<Barcode>& barcodes, const std::vector<std::string>& inputs,
                      const Arguments& arguments);
@@ -30,7 +30,7 @@ void write_distances(OutputFile& file, const PairDistances& distances,
 void write_matrix(OutputFile& file, const PairDistances& distances, bool is_npy,
                   const std::vector<std::string>& inputs);
 
-/// The distances of a document, as a member of it: "distances": […].
+/// The distances, as a member of a document: "distances": […].
 void write_distance_rows(OutputFile& file, const PairDistances& distances);
 
 }  // namespace ph::distance_program

@@ -28,7 +28,7 @@ std::vector<std::string_view> names_of_presets() {
   return names;
 }
 
-/// Units a metre: of the pixels of a depth image.
+/// Units per metre of the pixels of a depth image.
 double depth_scale(const std::string& text) {
   const double scale = length("--depth-scale", text);
   if (scale < 1)
@@ -79,13 +79,13 @@ void add_input_options(CLI::App& app, Arguments& a) {
                "order of size");
 }
 
-/// Whether an input is a depth image, by its name, where a camera is given.
+/// True if an input is a depth image by its name, where a camera is given.
 bool may_be_image(const std::string& path) {
   constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
                                                           ".PGM", ".npy", ".NPY"};
   return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
 }
-/// Without one, an array of NumPy is a cloud.
+/// Without a camera, a NumPy array is a cloud.
 bool must_be_image(const std::string& path) {
   return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
 }
@@ -177,7 +177,8 @@ bool Arguments::is_stream() const {
   const std::vector<app::Written> outputs = files.of_each_frame();
   const auto names_frames = [](const app::Written& output) { return app::names_each(output.path); };
   if (std::ranges::any_of(outputs, names_frames)) return true;
-  // A folder is one only if its results have a place; else it is an input that cannot be read.
+  // A folder is accepted only if its results have a place; otherwise it is an input that cannot be
+  // read.
   return files.any() && !inputs.empty() && app::is_folder(inputs.front()) &&
          std::ranges::all_of(outputs, app::is_folder, &app::Written::path);
 }

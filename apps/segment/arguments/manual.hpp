@@ -4,7 +4,7 @@
 
 namespace ph::segment {
 
-/// What the program says of itself beside its options.
+/// The manual of the program.
 const app::Manual& manual();
 
 }  // namespace ph::segment

@@ -17,7 +17,7 @@ constexpr app::Situations kScene = kCloud | kDepthImage, kAnyInput = kScene | kS
 constexpr std::string_view kOfScenes = "clouds and depth images",
                            kOfBoth = "--method surface and supervoxels";
 
-/// Where input, method and plane each have a say, `meant_for` names the one that is rarest.
+/// If input, method and plane all restrict an option, `meant_for` names the rarest restriction.
 constexpr std::array kScopes{
     OptionScope{"color", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},
     OptionScope{"camera", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},

@@ -5,14 +5,14 @@
 
 namespace ph::segment {
 
-/// What is looked at, how, and whether a plane is removed: options differ in where they do
-/// something. One bit of each line applies to a run.
+/// The situations of a run: the kind of input, the method, and whether a plane is removed. Options
+/// differ in where they have an effect. One bit of each line applies to a run.
 enum Situation : app::Situations {
   kCloud = 1 << 0,       ///< a point cloud
   kDepthImage = 1 << 1,  ///< with its camera
   kStoredTree = 1 << 2,  ///< that --tree wrote
 
-  kPaper = 1 << 3,  ///< methods, of a tree that by which it was made
+  kPaper = 1 << 3,  ///< methods; for a tree, the one that made it
   kSurface = 1 << 4,
   kSupervoxels = 1 << 5,
 
@@ -20,14 +20,14 @@ enum Situation : app::Situations {
   kNoPlane = 1 << 7,
 };
 
-/// All options that do nothing in some of them.
+/// All options that have no effect in some of them.
 std::span<const app::OptionScope> option_scopes();
 
-/// @throws Error (usage) on an option that does nothing with such an input.
+/// @throws Error (usage) on an option that has no effect with such an input.
 void require_input(std::span<const app::OptionScope* const> given, Situation input);
-/// The same of a method.
+/// The same for a method.
 void require_method(std::span<const app::OptionScope* const> given, Method method);
-/// The same of the removal of the plane.
+/// The same for the removal of the plane.
 void require_plane(std::span<const app::OptionScope* const> given, bool plane);
 
 }  // namespace ph::segment

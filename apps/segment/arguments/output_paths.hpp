@@ -11,7 +11,7 @@
 
 namespace ph::segment {
 
-/// What a file holds.
+/// The content of a file.
 enum class OutputKind {
   cloud,
   labels,
@@ -27,13 +27,14 @@ enum class OutputKind {
 
 struct OutputPaths;
 
-/// An option that asks for a file.
+/// An option that requests a file.
 struct OutputOption {
   OutputKind kind;
   std::string_view option;         ///< "--output"
-  std::string OutputPaths::*path;  ///< null: --plot, which may ask for several
-  std::string_view names, help;    ///< of the command line
-  /// What its name may end in; a file in a folder of results ends in the first. Empty: in anything.
+  std::string OutputPaths::*path;  ///< null: --plot, which may request several
+  std::string_view names, help;    ///< as on the command line
+  /// The endings that its name may have; a file in a folder of results has the first one. Empty:
+  /// any ending.
   std::span<const std::string_view> extensions;
   bool shows_labels = false, shows_colours = false;  ///< labels of segments, colours of points
 };
@@ -41,35 +42,35 @@ struct OutputOption {
 /// All of them, in the order of --help.
 std::span<const OutputOption> output_options();
 
-/// The files to write. An empty path: not asked for.
+/// The files to write. An empty path: not requested.
 struct OutputPaths {
   std::string output;            ///< the cloud with its labels
-  std::string labels;            ///< one label a point
-  std::string surfaces;          ///< one number of a surface a point
+  std::string labels;            ///< one label per point
+  std::string surfaces;          ///< one number of a surface per point
   std::string json;              ///< the summary
   std::string tree;              ///< the merge tree
   std::string barcode;           ///< H0
-  std::string coloured;          ///< the cloud with a colour a segment
-  std::string picture;           ///< the image with a colour a segment
-  std::string report;            ///< the page to look at
-  std::vector<app::Plot> plots;  ///< figures of what is in it
-  PlotOptions look = {};         ///< of the figures
+  std::string coloured;          ///< the cloud with one colour per segment
+  std::string picture;           ///< the image with one colour per segment
+  std::string report;            ///< the interactive page
+  std::vector<app::Plot> plots;  ///< figures of its contents
+  PlotOptions look = {};         ///< look of the figures
 
-  /// Calls visit(option, path, plot) for each file that is asked for; `plot` is null of all others.
+  /// Calls visit(option, path, plot) for each requested file; `plot` is null for all but plots.
   template <class Visit>
   void each(Visit&& visit) const {
     each_of(*this, visit);
   }
-  /// Those that are asked for, with their options.
+  /// The requested files, with their options.
   std::vector<app::Written> written() const;
-  /// Of these the ones that a stream has for each of its frames.
+  /// Of these files, the ones that a stream writes for each of its frames.
   std::vector<app::Written> of_each_frame() const;
-  /// Those of one frame. @param name what stands for it in the names of its files.
+  /// The files of one frame. @param name of the frame in the names of its files.
   OutputPaths filled(const std::string& name) const;
 
   bool any() const { return !written().empty(); }
   bool to_standard_output() const;
-  /// Whether one of them shows that: &OutputOption::shows_labels.
+  /// True if one of them has this property: &OutputOption::shows_labels.
   bool show(bool OutputOption::*what) const;
 
  private:

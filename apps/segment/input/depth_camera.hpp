@@ -5,8 +5,8 @@
 
 namespace ph::segment {
 
-/// Reads what --camera names, and says what is not in plain sight: nominal values, a lens.
-/// @throws Error as ph::read_camera does.
+/// Reads the camera that --camera names, and reports anything not obvious: nominal values, a lens.
+/// @throws Error like ph::read_camera.
 void load_camera(DepthInput& image, app::Session& session);
 
 }  // namespace ph::segment

@@ -14,7 +14,7 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::size_t kMostName = 1 << 16;  // bytes: systems have some 4 096
+constexpr std::size_t kMostName = 1 << 16;  // bytes; systems allow about 4 096
 
 }  // namespace
 
@@ -52,7 +52,7 @@ std::optional<std::string> FrameList::read_name() {
     if (line->ends_with('\r')) line->pop_back();
     if (const std::size_t nul = line->find('\0'); nul != std::string::npos)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("--frames-from: found a NUL behind '{}', expected names, one a line",
+                  fmt::format("--frames-from: found a NUL behind '{}', expected one name per line",
                               printable(line->substr(0, nul))));
     if (!line->empty()) return line;
   }
@@ -71,7 +71,7 @@ std::optional<std::string> FrameList::read_line() {
     if (looked_at > kMostName)
       throw Error(ErrorKind::bad_data,
                   fmt::format("--frames-from: found a line of more than {} bytes, '{}', expected "
-                              "names, one a line",
+                              "one name per line",
                               kMostName, printable(read_, 40)));
     std::array<char, 1 << 12> some{};
     const std::ptrdiff_t got = files::read_some(file_, some.data(), some.size());

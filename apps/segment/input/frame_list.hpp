@@ -8,7 +8,7 @@
 
 namespace ph::segment {
 
-/// The lines of a list of frames, a file or a pipe, each as soon as it is there.
+/// The lines of a list of frames, a file or a pipe, each as soon as it has arrived.
 class FrameList {
  public:
   /// @param path "-" is standard input. @param context outlives the list.
@@ -18,12 +18,12 @@ class FrameList {
   FrameList(const FrameList&) = delete;
   FrameList& operator=(const FrameList&) = delete;
 
-  /// The names that are known by now: all that are in a file, none of a pipe, which may have no
-  /// end. `next` gives them all the same. @throws as `next`.
+  /// The names known so far: all names of a file, none of a pipe, which may have no end. `next`
+  /// returns them all the same. @throws like `next`.
   const std::deque<std::string>& known();
-  /// Waits for the next name. @return none: that was all.
-  /// @throws Error (io) if reading breaks off; Error (bad_data) on a NUL and on a line longer than
-  ///         names are; Error (cancelled).
+  /// Waits for the next name. @return empty after the last one.
+  /// @throws Error (io) if reading fails midway; Error (bad_data) on a NUL and on a line longer
+  ///         than names can be; Error (cancelled).
   std::optional<std::string> next();
 
  private:
@@ -33,8 +33,8 @@ class FrameList {
   const RunContext& context_;
   std::string name_;  // printable
   int file_ = -1;
-  bool is_file_ = false;  // else its end may never come
-  std::string read_;      // what came behind the last line
+  bool is_file_ = false;  // otherwise its end may never come
+  std::string read_;      // the bytes after the last line
   std::deque<std::string> ahead_;
 };
 

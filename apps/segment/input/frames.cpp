@@ -13,13 +13,13 @@
 namespace ph::segment {
 namespace {
 
-// Depth images last.
+// Depth images come last.
 constexpr std::array<std::string_view, 9> kExtensions = {".pcd", ".ply",  ".xyz", ".xyzrgb", ".csv",
                                                          ".pts", ".tree", ".png", ".pgm"};
 constexpr std::size_t kImages = 2;
 
-/// The files of a folder that may be frames, by name. Arrays of NumPy may be labels of an earlier
-/// run, and are none.
+/// The files of a folder that may be frames, sorted by name. NumPy arrays do not count, because
+/// they may be labels of an earlier run.
 std::vector<std::string> frames_in(const std::string& folder, bool depth_images) {
   std::span<const std::string_view> extensions = kExtensions;
   if (!depth_images) extensions = extensions.first(extensions.size() - kImages);
@@ -43,7 +43,7 @@ FrameSource::FrameSource(const Arguments& a, const RunContext& context)
   if (!a.frames_from.empty()) list_.emplace(a.frames_from, context);
 }
 
-/// Those of the inputs.
+/// The names of the inputs.
 void FrameSource::take_names() {
   names_ = app::output_names(inputs_);
   for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -88,7 +88,7 @@ std::optional<Frame> FrameSource::next() {
   return Frame{*std::move(input), std::move(files)};
 }
 
-/// The frames to come are not known: the name without extension, or one with a number behind it.
+/// Later frames are unknown: the name is the one without extension, or one with a number appended.
 std::string FrameSource::name_of(const std::string& input) {
   std::string stem = app::output_names({input}).front();
   const auto [known, is_new] = taken_.emplace(stem, 1);

@@ -13,19 +13,19 @@
 
 namespace ph::segment {
 
-/// What the files say besides the segmentation.
+/// The facts that files state beside the segmentation.
 struct RunInfo {
   std::string program;      ///< name and version
   std::string input;        ///< path of the input
-  double read_seconds = 0;  ///< wall-clock time of reading it
-  bool from_tree = false;   ///< a stored tree was cut
-  /// What each segment is called in the files; empty: by its label.
+  double read_seconds = 0;  ///< wall-clock time of reading the input
+  bool from_tree = false;   ///< true if a stored tree was cut
+  /// The name of each segment in the files; empty: its label.
   std::vector<std::uint32_t> numbers = {};
-  /// Of each segment, none of one for which there was no memory; empty: not asked for.
+  /// For each segment, empty for a segment for which memory did not suffice; empty: not requested.
   std::vector<std::optional<Barcode>> signatures = {};
   // For the report.
-  std::string sha256 = {};                 ///< of the input
-  std::vector<std::string> warnings = {};  ///< what the user was told
+  std::string sha256 = {};                 ///< hash of the input
+  std::vector<std::string> warnings = {};  ///< messages that the user got
 
   std::uint32_t number_of(std::uint32_t label) const {
     return label == 0 || numbers.empty() ? label : numbers[label - 1];
@@ -35,16 +35,16 @@ struct RunInfo {
 /// Where the barcode of a segmentation came from.
 BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
 
-/// The files that the command line asks for: opened before the computation, complete or absent.
+/// The files that the command line requests: opened before the computation; they end up complete or
+/// absent.
 class Outputs {
  public:
   /// @throws Error (usage) on an unknown extension; Error (cannot_create).
   explicit Outputs(const Arguments& arguments);
 
-  /// @throws Error (usage) if a file asks for rows and columns of an unorganised cloud.
+  /// @throws Error (usage) if a file needs rows and columns and the cloud is unorganised.
   void require_suitable(Index height) const;
-  /// @param cloud null: a stored tree was cut.
-  /// Writes and completes all of them.
+  /// @param cloud null: a stored tree was cut. Writes and completes all files.
   void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
              const RunContext& context);
 
@@ -52,7 +52,7 @@ class Outputs {
   struct File {
     OutputKind kind;
     app::Output output;
-    const app::Plot* plot;  ///< what a plot shows
+    const app::Plot* plot;  ///< the content of a plot
   };
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info, const RunContext& context) const;

@@ -115,7 +115,7 @@ double seconds_of(const Segmentation& s) {
   return seconds;
 }
 
-/// The time that the paper's Table I states: the complex, its homology, the components.
+/// The time that Table I of the paper states: the complex, its homology, the components.
 double table_seconds(const Segmentation& s) {
   double seconds = 0;
   for (const Stage& stage : s.stages) {

@@ -11,7 +11,7 @@
 
 namespace ph::vectorise {
 
-/// LO,HI,N, or N alone: then the range is fitted.
+/// LO,HI,N, or N alone: in that case the range is fitted.
 struct AxisArgument {
   std::optional<std::array<double, 2>> range;
   std::size_t count = 0;
@@ -29,7 +29,7 @@ struct Arguments {
   CubicalOptions cubical;
 
   Kind kind = Kind::statistics;
-  std::vector<int> dims;  // empty: all that there are
+  std::vector<int> dims;  // empty: all dimensions
   std::optional<InfiniteRule> infinite;
   std::optional<AxisArgument> grid, length_grid;
   std::size_t layers = 5;
@@ -43,18 +43,18 @@ struct Arguments {
   std::optional<OutputFormat> output_format;
   std::string fit;     // path; empty: none
   std::string fitted;  // path; empty: none
-  // The options that were given of those that do nothing for some kinds of vectors.
+  // The given options that have no effect for some kinds of vectors.
   std::vector<const app::OptionScope*> given;
 
-  bool names_format() const;  ///< by an option or an extension; else the format is csv
+  bool names_format() const;  ///< set by an option or an extension; otherwise the format is csv
   OutputFormat written_format() const;
 };
 
-/// Parses the command line. @return the answer to --help or --version, which is all that is left.
+/// Parses the command line. @return the answer to --help or --version, if one was asked for.
 /// @throws Error (usage).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
-/// @throws Error (usage) on an option that does nothing for this kind.
+/// @throws Error (usage) on an option that has no effect for this kind.
 void require_kind(const Arguments& arguments, Kind kind);
 
 }  // namespace ph::vectorise

@@ -4,7 +4,7 @@
 
 namespace ph::vectorise {
 
-/// What ph-vectorise says of itself.
+/// The manual of ph-vectorise.
 const app::Manual& manual();
 
 }  // namespace ph::vectorise

@@ -28,12 +28,12 @@ Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments
                                                  input.name(), read.description));
   for (const Message& note : read.notes)
     session.note(fmt::format("{}: {}", input.name(), note.marked()));
-  // A barcode in NPY has rows dim, birth, death, and nothing that says so.
+  // A barcode in NPY has rows dim, birth, death, but nothing that says so.
   const bool may_be_bars = (read.format == Format::npy || read.format == Format::npz) &&
                            image->extents.size() == 2 && image->extents[1] == 3;
   if (arguments.format == InputKind::automatic && may_be_bars)
     session.note(
-        fmt::format("{}: {} x 3 array: read as an image; --format barcode reads a bar a row",
+        fmt::format("{}: {} x 3 array: read as an image; --format barcode reads one bar per row",
                     input.name(), image->extents[0]));
   if (cubical.periodic.empty()) cubical.periodic = read.periodic;
   if (cubical.periodic.size() > image->extents.size() &&

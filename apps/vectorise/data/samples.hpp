@@ -12,14 +12,14 @@
 
 namespace ph::vectorise {
 
-/// The inputs, with the files of folders in place of these.
+/// The inputs, with each folder replaced by its files.
 std::vector<std::string> files_of(const Arguments& arguments, Kind kind);
 
-/// What an Euler curve is of.
+/// The input of an Euler curve.
 using Sample = std::variant<Barcode, Cubical>;
 
-/// @param cubical how an image is taken; axes that the file says are periodic are added.
-/// @throws Error as the readers; Error (usage) on an option that is not for such an input.
+/// @param cubical how to treat an image; axes that its file declares periodic are added.
+/// @throws Error like the readers; Error (usage) on an option that does not apply to such an input.
 Sample read_sample(const std::string& path, const CubicalOptions& cubical,
                    const Arguments& arguments, app::Session& session);
 

@@ -10,7 +10,7 @@
 
 namespace ph::vectorise {
 
-/// A row of numbers for each input.
+/// A table with one row of numbers per input.
 struct Table {
   std::size_t columns = 0;
   std::pmr::vector<double> numbers;
@@ -18,7 +18,7 @@ struct Table {
   std::span<double> row(std::size_t i) { return std::span(numbers).subspan(i * columns, columns); }
 };
 
-/// Writes it. @param inputs their names, one a row. @param names of the columns.
+/// Writes the table. @param inputs their names, one per row. @param names of the columns.
 void write_table(OutputFile& file, const Table& table, OutputFormat format,
                  const std::vector<std::string>& inputs, const std::vector<std::string>& names);
 

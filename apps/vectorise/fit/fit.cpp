@@ -19,7 +19,7 @@ std::size_t product(const std::vector<std::size_t>& shape) {
   return numbers;
 }
 
-/// What stands before the place of a number in its name.
+/// The part of a number's name before its index.
 std::string_view word_of(Kind kind) {
   switch (kind) {
     case Kind::atol:

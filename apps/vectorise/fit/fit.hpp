@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What vectors are made, and of what: all that a test set has in common with the training set.
+// The definition of the vectors: everything that a test set shares with the training set.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -30,17 +30,17 @@ inline constexpr std::array<std::string_view, 10> kKinds{
     "statistics", "betti",        "landscape", "silhouette", "image",
     "entropy",    "life-entropy", "lengths",   "atol",       "euler"};
 
-/// What becomes of bars that are not finite.
+/// The treatment of bars that are not finite.
 struct InfiniteRule {
   enum class Rule { drop, keep, error, cap };
   Rule rule = Rule::drop;
   double cap = 0;
 };
 
-/// Of the bars of one dimension; of an Euler curve of all of them.
+/// The parameters for the bars of one dimension, or for an Euler curve of all of them.
 struct Block {
-  int dim = 0;       ///< not of an Euler curve
-  Grid grid;         ///< of curves and landscapes
+  int dim = 0;       ///< not for an Euler curve
+  Grid grid;         ///< for curves and landscapes
   ImageFrame frame;  ///< of images
   double sigma = 0;  ///< the same
   Atol atol;
@@ -51,32 +51,33 @@ struct Fit {
   InfiniteRule infinite;
   std::size_t layers = 5;   ///< of landscapes
   std::size_t count = 5;    ///< of lengths
-  double power = 1;         ///< of silhouettes and images
-  bool normalised = false;  ///< of the entropy
-  CubicalOptions cubical;   ///< of images whose Euler curves are asked for
+  double power = 1;         ///< for silhouettes and images
+  bool normalised = false;  ///< for the entropy
+  CubicalOptions cubical;   ///< for images whose Euler curves are requested
   std::vector<Block> blocks;
 };
 
-/// How many numbers a block has, by axis: {layers, points}.
+/// The size of a block by axis: {layers, points}.
 std::vector<std::size_t> shape_of(const Fit& fit, const Block& block);
-/// How many numbers a vector has.
+/// The length of a vector.
 std::size_t length_of(const Fit& fit);
-/// A name for each of them: "H1_layer0_17".
+/// A name for each number: "H1_layer0_17".
 std::vector<std::string> names_of(const Fit& fit);
 
-/// Which infinite bars may be kept: those functions know what they are.
+/// The infinite bars that may be kept: these functions accept them.
 bool may_keep_infinite(Kind kind);
 
-/// An error of a function of the library that was given bars of an input: begins with the name of
-/// the input in place of that of the function, and gives the option as advice.
+/// An error of a library function that received the bars of an input: it begins with the name of
+/// the input instead of the function's, and suggests the option.
 Error about_input(const Error& error, std::string_view name);
 
-/// The bars of a block as its function takes them. @param name of the input, for messages.
-/// @param dropped grows by how many were left out.
+/// The bars of a block in the form that its function expects. @param name of the input, for
+/// messages.
+/// @param dropped grows by the number of bars that were left out.
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,
                          std::size_t& dropped);
 
-/// The vector of a block. Not of an Euler curve.
+/// The vector of a block. Not for an Euler curve.
 void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
                  std::span<double> out, const RunContext& context);
 

@@ -24,7 +24,7 @@ namespace {
 using detail::JsonCursor;
 
 constexpr std::string_view kFormat = "ph-vectorise fit";
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // of anything that is counted
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest number of anything that is counted
 constexpr std::array<std::string_view, 3> kRules{"drop", "keep", "error"};
 constexpr std::array<std::string_view, 2> kContrasts{"laplace", "gauss"};
 constexpr std::array<std::string_view, 2> kConstructions{"vertices", "cells"};
@@ -63,7 +63,7 @@ std::string block_json(const Fit& fit, const Block& block) {
   return "{" + members + "}";
 }
 
-/// Reads the JSON that fit_json writes; members that it does not know are skipped.
+/// Reads the JSON that fit_json writes; unknown members are skipped.
 class Reader {
  public:
   explicit Reader(const Input& input) : input_(input), json_(input) {}
@@ -74,7 +74,7 @@ class Reader {
     std::optional<std::int64_t> length;
     for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
-      if (!seen.insert(name).second) json_.fail(place, {name, "it again", "it once", {}});
+      if (!seen.insert(name).second) json_.fail(place, {name, "it twice", "it once", {}});
       if (name == "format") {
         if (const std::string value = json_.string(); value != kFormat)
           json_.fail(place, {"format", printable(value, 40), std::string(kFormat), {}});
@@ -158,7 +158,7 @@ class Reader {
     else
       fit_.infinite = {Rule::cap, json_.number()};
   }
-  /// What changes the vectors of a kind, beside its blocks.
+  /// The settings that affect the vectors of a kind, beside its blocks.
   static std::vector<const char*> parameters_of(Kind kind) {
     switch (kind) {
       case Kind::landscape:
@@ -225,7 +225,7 @@ class Reader {
     });
   }
 
-  /// Whether the functions take it: what they say of no bars at all.
+  /// Checks that the functions accept the fit, by calling them without bars.
   void check() {
     if (fit_.infinite.rule == InfiniteRule::Rule::keep && !may_keep_infinite(fit_.kind))
       input_.fail({"infinite", "keep", "drop, error or a number with this kind", {}});
@@ -261,7 +261,7 @@ class Reader {
   const Input& input_;
   JsonCursor json_;
   Fit fit_;
-  std::vector<std::vector<std::size_t>> shapes_;  // as they are stated
+  std::vector<std::vector<std::size_t>> shapes_;  // as the file states them
 };
 
 }  // namespace

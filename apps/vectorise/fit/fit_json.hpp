@@ -7,10 +7,10 @@
 
 namespace ph::vectorise {
 
-/// What `--fit` writes. @param dropped bars that were left out when it was made.
+/// The content that `--fit` writes. @param dropped number of bars that were left out of the fit.
 std::string fit_json(const Fit& fit, std::size_t dropped);
 
-/// What `--fitted` reads. @throws Error (bad_data) on anything else.
+/// Parses a file for `--fitted`. @throws Error (bad_data) on anything else.
 Fit read_fit(const Input& input);
 
 }  // namespace ph::vectorise

@@ -102,8 +102,8 @@ void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,
   const std::vector<int> dims = arguments.dims.empty() ? dims_of(barcodes) : arguments.dims;
   if (dims.empty())
     throw Error(ErrorKind::bad_data,
-                "found no bars in any input, expected some; --dims says which dimensions a vector "
-                "has all the same");
+                "found no bars in any input, expected some; --dims sets the dimensions of a "
+                "vector without bars");
   for (const int dim : dims) {
     std::vector<std::vector<Bar>> diagrams;
     for (std::size_t i = 0; i < barcodes.size(); ++i)
@@ -114,10 +114,10 @@ void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,
 }
 
 void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Arguments& arguments) {
-  std::vector<Bar> changes;  // of all curves, as bars that never end: what is fitted to are births
+  std::vector<Bar> changes;  // all curves, as bars that never end: the fit uses their births
   for (const StepFunction& curve : curves) {
     const std::size_t count = curve.at.size();
-    // A curve that begins before all numbers has its range from the next change on.
+    // A curve that begins at -infinity has its range from the next change on.
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}, count - 1})
       if (k < count) changes.push_back({0, curve.at[k], kInfinity});
   }

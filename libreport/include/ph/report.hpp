@@ -11,34 +11,34 @@
 
 namespace ph::report {
 
-/// What the page of a barcode shows. What is referred to outlives the page.
+/// The contents of a barcode's page. Everything that it refers to must outlive the page.
 struct BarcodePage {
   std::string title;
   const Barcode& barcode;
-  /// What it is the barcode of. Null: the bars are all that is shown, without cells, for these are
-  /// cells of data that are not here.
+  /// The data from which the barcode was computed. Null: only the bars are shown, without cells,
+  /// because the data of these cells are not here.
   const AnyComplex* complex = nullptr;
-  /// Of a Rips filtration the form whose bars they are.
+  /// For a Rips filtration, the form of it that has these bars.
   std::optional<RipsForm> form = {};
   /// The vertices of the complex in space, at least one, unless they are those of a grid.
   std::optional<PointsView> points = {};
-  /// The numbers that the points have in the cells of the barcode; empty: their own.
+  /// The numbers of the points in the cells of the barcode; empty: their own numbers.
   std::span<const Index> point_ids = {};
-  /// Whether all pairs of points within a distance are the edges at that distance: the page finds
-  /// them.
+  /// True if the edges at a distance are all pairs of points within it: then the page finds them
+  /// itself.
   bool is_euclidean = false;
-  bool has_axes_of_space = false;   ///< the first axis of an image of three is x
-  const ShownTree* tree = nullptr;  ///< of the complex; null: not shown
-  bool negated = false;             ///< values are minus those of the data; of an image it is known
-  /// Notes on what is not shown are added.
+  bool has_axes_of_space = false;   ///< true if the first axis of an image with three axes is x
+  const ShownTree* tree = nullptr;  ///< tree of the complex; null: not shown
+  bool negated = false;  ///< values are minus those of the data; for an image it is known
+  /// Notes about anything that is not shown are added.
   Provenance provenance = {};
 };
 
-/// Writes the page: the bars, their cells and chains, the points or the image (of two or three
-/// axes, if it is not too large), what the page cannot find out for itself of the complex, the
-/// merge tree.
-/// @throws Error (not_built_in) without a page; Error (bad_data) on bars of dimension 256 or
-/// higher;
+/// Writes the page: the bars with their cells and chains, the points or the image (with two or
+/// three axes, if it is not too large), the parts of the complex that the page cannot derive, and
+/// the merge tree.
+/// @throws Error (not_built_in) if this build has no page; Error (bad_data) on bars of dimension
+/// 256 or higher;
 ///         Error (resource, cancelled); what `sink` throws.
 void write_page(const Sink& sink, const BarcodePage& page, const RunContext& context);
 

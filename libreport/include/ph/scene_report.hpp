@@ -8,24 +8,26 @@
 
 namespace ph::report {
 
-/// What the page of a segmentation shows. What is referred to outlives the page.
+/// The contents of a segmentation's page. Everything that it refers to must outlive the page.
 struct ScenePage {
   std::string title;
   const segment::Segmentation& segmentation;
-  const Cloud* cloud = nullptr;             ///< null: a stored tree was cut; its points are shown
-  std::vector<std::uint32_t> numbers = {};  ///< what each segment is called; empty: by its label
-  /// How another cut is made, "{cut}" standing for its value; empty: the page does not say.
+  const Cloud* cloud = nullptr;  ///< null: a stored tree was cut; the page shows the tree's points
+  std::vector<std::uint32_t> numbers = {};  ///< name of each segment; empty: its label
+  /// The command for another cut, "{cut}" standing for its value; empty: the page does not show
+  /// one.
   std::vector<std::string> cut_command = {};
-  /// The description of the input, and notes on the method, are added.
+  /// The description of the input and notes on the method are added.
   Provenance provenance = {};
 };
 
 /// Writes the page: the points with their colours, normals and ground truth (which the segmentation
-/// never reads), the segments and the surfaces of the segmentation with what is said of them, the
-/// merge tree contracted to what cuts can tell apart, the bars of a length. At the cut of the
-/// segmentation the page shows just that; any other cut gives the segments and surfaces of
-/// `ph-segment --cut` with `--min-seam 0 --parts`.
-/// @throws Error (not_built_in) without a page; Error (resource, cancelled); what `sink` throws.
+/// never reads), the segments and surfaces with their properties, the merge tree contracted to what
+/// cuts can separate, and the bars of positive length. At the cut of the segmentation, the page
+/// shows exactly this segmentation; any other cut gives the segments and surfaces of `ph-segment
+/// --cut` with `--min-seam 0 --parts`.
+/// @throws Error (not_built_in) if this build has no page; Error (resource, cancelled); errors of
+///     `sink`.
 void write_page(const Sink& sink, const ScenePage& page, const RunContext& context);
 
 }  // namespace ph::report

@@ -8,7 +8,8 @@
 
 namespace ph::report {
 
-/// Writes `prefix`/dim, birth, death and, where the barcode has them and `cells`, its cells.
+/// Writes `prefix`/dim, birth and death and, if `cells` is set and the barcode has cells, these as
+/// well.
 /// @param prefix "bars", or "bars2" for the second barcode of a comparison.
 /// @throws Error (bad_data) on a bar of dimension 256 or higher; Error (resource, cancelled, io).
 void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",
@@ -17,7 +18,7 @@ void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefi
 /// Writes pictures for readers without scripts. @param barcodes as many as `meta` names.
 void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const Metadata& meta);
 
-/// Writes the representatives of a barcode that has them, as chains/….
+/// Writes the representatives of a barcode, if it has them, as chains/….
 void add_chains(ReportFile& report, const Barcode& barcode);
 
 }  // namespace ph::report

@@ -10,7 +10,7 @@
 namespace ph::report {
 namespace {
 
-// What a page can draw: of edges the first ones, of a mesh all that there is.
+// The number of cells that a page can draw: for edges the first ones, for a mesh all of them.
 constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 2'000'000;
 
 struct ValuedCell {
@@ -19,13 +19,13 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
-/// The number in the input of a point. @param ids of the points that are left; empty: all are.
+/// The number of a point in the input. @param ids of the remaining points; empty: all remain.
 std::uint32_t number_of(Index point, std::span<const Index> ids) {
   return static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]);
 }
 
 /// The first cells of a dimension of a complex that lists them.
-/// @return the value from which on some are missing.
+/// @return the value from which on some cells are missing.
 template <class Listed>
 std::optional<double> add_first(const Listed& complex, int dim, std::size_t most,
                                 std::span<const Index> ids, const RunContext& context,
@@ -107,7 +107,7 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> 
     return arrays_of(rips->graph(form.value_or(RipsForm::edges), context), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, ids, context);
-  // Edges that go round a periodic space would be drawn across it.
+  // Edges around a periodic space would be drawn across it.
   if (const auto* alpha = std::get_if<Alpha>(&complex); alpha && !alpha->is_periodic()) {
     alpha->prepare(context);
     return arrays_of(*alpha, count, ids, context);

@@ -11,21 +11,21 @@
 
 namespace ph::report {
 
-/// What a page cannot find by the positions of points: when they enter, and the cells that come
-/// first. Vertices have the numbers of the input.
+/// The data that a page cannot derive from the positions of points: when points enter, and the
+/// cells that come first. Vertices have the numbers of the input.
 struct ComplexArrays {
-  std::vector<float> births;  ///< of each point; NaN: it is no vertex. Empty: all enter together
+  std::vector<float> births;  ///< of each point; NaN: it is not a vertex. Empty: all enter together
   std::vector<std::uint32_t> edges, triangles;
   std::vector<float> edge_values, triangle_values;  ///< ascending
-  /// Edges, triangles from these values on are left out.
+  /// Edges and triangles from these values on are left out.
   std::optional<double> missing_from, triangles_missing_from;
 };
 
-/// Of a Rips complex its first edges (the page finds triangles by them), unless only a forest is
-/// held; of a mesh with values or an alpha complex its first edges and all triangles, of more than
-/// 2 000 000 the first.
-/// @param form of a Rips filtration. @param count of points. @param ids their numbers in the input;
-/// empty: all are there.
+/// For a Rips complex, its first edges (from which the page finds the triangles), unless it holds
+/// only a forest; for a mesh with values or an alpha complex, its first edges and all triangles, or
+/// the first ones of more than 2 000 000.
+/// @param form of a Rips filtration. @param count number of points. @param ids their numbers in the
+/// input; empty: all are there.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> form,
                              std::size_t count, std::span<const Index> ids,

@@ -17,8 +17,8 @@ std::vector<std::uint32_t> touching_in_picture(std::span<const std::uint32_t> in
     std::uint32_t leaf = kNone;
     std::size_t place = 0;  // column or row
   };
-  Seen left;                       // the last leaf in this row
-  std::vector<Seen> above(width);  // the last one in each column
+  Seen left;                       // the last leaf seen in this row
+  std::vector<Seen> above(width);  // the last leaf seen in each column
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   const auto meet = [&](Seen& last, const Seen& here) {
     if (last.leaf != kNone && last.leaf != here.leaf && here.place - last.place <= widest_gap)

@@ -14,7 +14,7 @@ bool is_kept(const Merge& m, CutRule rule, double from, Index min_part) {
   return rule == CutRule::value ? m.value > from : m.separates(from, min_part);
 }
 
-/// What a cut is compared with: the very double of the program.
+/// The cut as the page compares it: exactly the double of the program.
 double level(const Merge& m, CutRule rule) {
   return rule == CutRule::value ? m.value : m.persistence();
 }
@@ -47,7 +47,7 @@ ContractedTree contracted(const MergeTree& tree, CutRule rule, double from, Inde
     result.leaf_points[leaf] += points.empty() ? 1 : points[v];
     ++result.leaf_vertices[leaf];
   }
-  // The root of a component is the vertex that gave birth to it.
+  // The root of a component is its birth vertex.
   DisjointSets components(n, &context.memory);
   for (std::size_t i = 0; i < tree.merges.size(); ++i) {
     const Merge& m = tree.merges[i];
@@ -70,8 +70,8 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
       std::ranges::none_of(levels, [](double x) { return std::isfinite(x); }))
     levels.clear();
   if (levels.empty()) {
-    // No merge has finite persistence, and any cut above 0 does them all: one as large as the
-    // values go.
+    // No merge has finite persistence, and any cut above 0 does all merges: return a cut as large
+    // as the values.
     if (rule == CutRule::value || tree.merges.empty()) return 0;
     double low = kInfinity, high = -kInfinity;
     for (const double birth : tree.births)
@@ -81,7 +81,7 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
       }
     return high > low && std::isfinite(high - low) ? high - low : 1;
   }
-  // Rule persistence keeps the merges at `from`, rule value those above it.
+  // Rule persistence keeps merges at `from` itself; rule value keeps only merges above it.
   if (levels.size() <= most)
     return rule == CutRule::persistence ? *std::ranges::min_element(levels) : 0;
   const auto last = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() - most);

@@ -51,7 +51,7 @@ VoxelSets voxel_sets(const Barcode& barcode, const RunContext& context, VoxelBud
 std::string VoxelSets::note() const {
   if (left_out == 0) return "";
   return fmt::format(
-      "sets of {} of {} bars, the most persistent that fit: those of all bars would be too large",
+      "sets of the {} most persistent of {} bars: the sets of all bars would be too large",
       bars.size(), bars.size() + left_out);
 }
 

@@ -66,9 +66,9 @@ class DeflatedText {
   std::string text_;
 };
 
-/// The bytes in the order in which they are compressed: little endian, differences of rows if
-/// `delta`, byte after byte of all numbers. @param Word the unsigned integer as wide as a number:
-/// differences modulo its width are those of signed ones, too.
+/// The bytes in the order in which they are compressed: little endian, differences between rows if
+/// `delta`, and the first bytes of all numbers, then the second bytes, and so on. @param Word the
+/// unsigned integer as wide as a number; differences modulo its width also work for signed numbers.
 template <class Word>
 void put_numbers(const RawArray& array, std::size_t columns, bool delta, DeflatedText& text) {
   constexpr std::size_t block = 1 << 17;

@@ -13,11 +13,11 @@
 namespace ph::app {
 namespace {
 
-// Of the process, as what the console says to it is.
+// One per process, like the console's messages.
 std::atomic<int> first_signal{0};
 std::mutex mutex;
 std::stop_source* watched = nullptr;  // guarded by the mutex
-std::mutex may_end;                   // who holds it is waited for
+std::mutex may_end;                   // the holder is waited for
 
 [[noreturn]] void end_at_once(int signal) {
   const std::scoped_lock lock(may_end);
@@ -31,7 +31,7 @@ bool request_stop() {
   return watched != nullptr && watched->request_stop();
 }
 
-/// Each call has a thread of its own.
+/// Each call has its own thread.
 BOOL WINAPI on_control(DWORD what) {
   constexpr DWORD kGraceMilliseconds = 60;
   const int signal = what == CTRL_C_EVENT ? SIGINT : SIGTERM;
@@ -60,7 +60,7 @@ SignalWatch::~SignalWatch() {
 
 int SignalWatch::received() { return first_signal.load(); }
 
-void end_where_mapped_files_shrink(std::string_view) {}  // the system keeps them as they are
+void end_where_mapped_files_shrink(std::string_view) {}  // the system keeps them unchanged
 
 SignalsWait::SignalsWait() { may_end.lock(); }
 SignalsWait::~SignalsWait() { may_end.unlock(); }

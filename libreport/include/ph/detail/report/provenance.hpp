@@ -10,20 +10,20 @@
 
 namespace ph::report {
 
-/// What takes the text of a page, piece by piece: a file, a string.
+/// A function that receives the text of a page, piece by piece: into a file or a string.
 using Sink = std::function<void(std::string_view)>;
 
 /// A title for a page: the path of its data without folders.
 std::string title_of(const std::string& path);
 
-/// Where what a page shows comes from. Empty texts and lists are left out.
+/// The origin of the contents of a page. Empty texts and lists are left out.
 struct Provenance {
   std::vector<std::string> command;
-  std::string sha256;        ///< of the input
+  std::string sha256;        ///< hash of the input
   BarcodeInfo run;           ///< program, input, complex, engine, timings …
-  bool has_homology = true;  ///< whether field, dimension and threshold of `run` mean something
+  bool has_homology = true;  ///< true if field, dimension and threshold of `run` mean something
   std::vector<std::string> warnings = {};
-  std::vector<std::pair<std::string, std::string>> notes = {};  ///< what else is worth saying
+  std::vector<std::pair<std::string, std::string>> notes = {};  ///< further notes
 };
 
 }  // namespace ph::report
