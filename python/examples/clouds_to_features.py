@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A ring and a disc, their loops as diagrams, and the pixels a classifier sees:
+"""Draws a ring and a disc, their loops as diagrams, and the pixels that a classifier receives:
 clouds_to_features.py PICTURE."""
 import sys
 
@@ -11,7 +11,7 @@ from libph.sklearn import PersistenceImage, RipsPersistence
 
 
 def clouds():
-    """One of each kind, as on the page about pipelines."""
+    """One cloud of each kind, as on the page about pipelines."""
     rng = np.random.default_rng(0)
     angle = rng.uniform(0, 2 * np.pi, (2, 40))
     radius = np.array([np.ones(40), np.sqrt(rng.random(40))])
@@ -20,7 +20,7 @@ def clouds():
 
 
 def picture(path):
-    """A row for each cloud, a column for each step of the pipeline."""
+    """One row per cloud, one column per step of the pipeline."""
     import matplotlib.pyplot as plt
     samples = clouds()
     diagrams = RipsPersistence(homology_dimensions=1).fit_transform(samples)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Clusters by the persistence of a density, and its bars: cluster_moons.py PICTURE."""
+"""Finds clusters by the persistence of a density, and draws its bars: cluster_moons.py PICTURE."""
 import sys
 
 import matplotlib
@@ -11,7 +11,7 @@ from libph.sklearn import PersistenceClustering
 
 
 def points():
-    """Two moons, and a blob that is less dense."""
+    """Two moons and a less dense blob."""
     moons, _ = make_moons(1500, noise=0.07, random_state=0)
     blob, _ = make_blobs(500, centers=[[0.5, 2.2]], cluster_std=0.4, random_state=0)
     return np.vstack([moons, blob])

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Poses of boxes and grasps from above, for an arm with a parallel gripper.
+"""Computes poses of boxes and grasps from above, for an arm with a parallel gripper.
 
-A pose is a 4 x 4 matrix that takes points of its own frame to the frame of the cloud. Lengths are
-metres. Boxes are those of libph: of `scene.objects`, or `oriented_box` in the JSON of ph-segment.
+A pose is a 4 x 4 matrix that maps points of its own frame to the frame of the cloud. Lengths are in
+metres. Boxes come from libph: from `scene.objects`, or from `oriented_box` in the JSON of
+ph-segment.
 """
 from typing import NamedTuple
 
@@ -10,18 +11,18 @@ import numpy as np
 
 
 class Gripper(NamedTuple):
-    """What a gripper can do."""
+    """The dimensions of a gripper."""
 
-    opening: float = 0.085   # how far the fingers are apart when it is open
-    finger: float = 0.03     # how far they reach down the sides of an object, at most
-    clearance: float = 0.005  # between fingers and object on each side, and above the plane
+    opening: float = 0.085   # distance between the fingers when it is open
+    finger: float = 0.03     # largest reach of the fingers down the sides of an object
+    clearance: float = 0.005  # gap between fingers and object on each side, and above the plane
 
 
 class Grasp(NamedTuple):
     """Where to close the gripper: x is the closing direction, z the approach."""
 
     pose: np.ndarray  # its origin is between the tips of the fingers
-    width: float      # of the object, along x
+    width: float      # size of the object along x
 
 
 class CannotGrasp(ValueError):
@@ -29,7 +30,7 @@ class CannotGrasp(ValueError):
 
 
 def matrix(x, y, z, origin):
-    """A pose with these axes. Refuses what is no right-handed frame."""
+    """A pose with these axes. Refuses axes that are not a right-handed frame."""
     result = np.eye(4)
     result[:3] = np.column_stack([x, y, z, origin])
     turn = result[:3, :3]
@@ -45,11 +46,11 @@ def pose(centre, axes):
 
 
 def from_above(centre, axes, size, plane, gripper=Gripper(), towards=(1, 0, 0)):
-    """The grasp that comes down along the normal and closes along the shorter horizontal side.
+    """The grasp that descends along the normal and closes along the shorter horizontal side.
 
-    plane: a, b, c, d of ax + by + cz + d = 0, the plane that was removed; its normal points up.
-    towards: half a turn about the approach is the same grasp; x is the one nearer to this.
-    Raises CannotGrasp.
+    plane: a, b, c, d of ax + by + cz + d = 0, the removed plane; its normal points up. towards: a
+    direction that selects one of two equal grasps, which differ by half a turn about the approach;
+    x is the direction nearer to it. Raises CannotGrasp.
     """
     centre, axes, size = (np.asarray(value, dtype=float) for value in (centre, axes, size))
     up, offset = np.asarray(plane[:3], dtype=float), float(plane[3])

@@ -21,7 +21,7 @@ def points_of_ring():
 
 
 def draw_discs(axes, points, diameter):
-    """The discs, and a line where two meet."""
+    """Draws the discs, and a line where two meet."""
     import matplotlib.pyplot as plt
     for x, y in points:
         axes.add_patch(plt.Circle((x, y), diameter / 2, color="C0", alpha=0.25, linewidth=0))
@@ -37,7 +37,7 @@ def draw_discs(axes, points, diameter):
 
 
 def draw_bars(axes, bars):
-    """A line for each bar, those of one dimension in one colour."""
+    """Draws a line for each bar, with one colour per dimension."""
     end = 2.1
     for row, bar in enumerate(bars):
         axes.plot([bar.birth, min(bar.death, end)], [row, row], color=COLOURS[bar.dim], linewidth=2.5)

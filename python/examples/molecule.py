@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The pore through a ring of five proteins: its surface, where it closes, and the diagram:
-molecule.py PICTURE.
+"""Draws the pore through a ring of five proteins: its surface, the place where it closes, and the
+diagram: molecule.py PICTURE.
 
-The atoms are those of PDB entry 1TII, which comes with PyMOL (Debian: pymol-data)."""
+The atoms come from PDB entry 1TII, which is part of PyMOL (Debian: pymol-data)."""
 import sys
 
 import matplotlib
@@ -26,7 +26,7 @@ def atoms_of(path, chains):
 def picture(path):
     import matplotlib.pyplot as plt
     places, radii = atoms_of(FILE, "DEFGH")
-    # Seen along the axis of the ring, in which it is thinnest.
+    # The view along the axis of the ring, in which it is thinnest.
     middle = places.mean(axis=0)
     axes = np.linalg.svd(places - middle, full_matrices=False)[2]
     places = (places - middle) @ axes.T

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Which loops are more than noise: noise_band.py PICTURE.
+"""Shows which loops are more than noise: noise_band.py PICTURE.
 
-A noisy circle, and its bars of H1 with the band of lengths that chance explains. Bars whose p-value
-is at most 0.05 have a ring.
+Draws a noisy circle and its bars of H1, with the band of lengths that chance explains. Bars with a
+p-value of at most 0.05 have a ring.
 """
 import sys
 

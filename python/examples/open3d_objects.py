@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Objects of Open3D clouds, each as an Open3D cloud with its oriented box.
+"""Shows the objects of Open3D clouds, each as an Open3D cloud with its oriented box.
 
     open3d_objects.py CLOUD… [--viewpoint X Y Z] [--opening METRES] [--save FOLDER]
 """
@@ -21,11 +21,12 @@ except ImportError:
 
 
 def objects_of(cloud, **options):
-    """Yields the segmentation, and of each object its row, its points as a cloud, and its box."""
+    """Returns the segmentation and, for each object, its row, its points as a cloud, and its
+    box."""
     scene = ph.segment(np.asarray(cloud.points), **options)
     for thing in scene.objects:
         points = cloud.select_by_index(np.flatnonzero(scene.labels == thing.label))
-        # The axes of libph are rows, those of Open3D columns.
+        # Axes are rows in libph and columns in Open3D.
         box = o3d.geometry.OrientedBoundingBox(thing.centre, thing.axes.T, thing.size)
         yield scene, thing, points, box
 

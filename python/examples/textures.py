@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Three textures, their diagrams, and two of the numbers that tell them apart: textures.py PICTURE.
+"""Draws three textures, their diagrams, and two of the numbers that tell them apart: textures.py
+PICTURE.
 
 The photographs come with scikit-image (Debian: python3-skimage)."""
 import sys

@@ -6,25 +6,27 @@
 >>> bars.dgm(1)
 array([[1.        , 1.41421356]])
 
-Computations release the GIL, and stop on Ctrl-C. All of them take these keywords:
+Computations release the GIL and stop on Ctrl-C. All of them accept these keywords:
 
 threads : int
-    How many threads to use. Default: one for each core. What is computed does not depend on it.
+    How many threads to use. Default: one per core. Results do not depend on it.
 memory_limit : int or str
-    Bytes, or "4GiB", that the computation may take; beyond, it ends in a `MemoryLimitError`.
-    Default: 90 % of what the machine, or the control group, has left.
+    The most memory that the computation may take, in bytes or as "4GiB"; beyond it, the computation
+    ends in a `MemoryLimitError`. Default: 90 % of the free memory of the machine or of the control
+    group.
 progress : bool or callable
-    True: a bar, if tqdm is installed. A callable is told ``(stage, done, total)`` at most ten times
-    a second; `total` is 0 where it is not known. What it raises stops the computation.
+    True shows a bar if tqdm is installed. A callable receives ``(stage, done, total)`` at most ten
+    times per second; `total` is 0 if it is unknown. An exception that it raises stops the
+    computation.
 timeout : float
-    Seconds; beyond, the computation ends in a `Timeout`.
+    Seconds after which the computation ends in a `Timeout`.
 stop : threading.Event
     Once it is set, the computation ends in `Cancelled`.
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 
-Three modules need other packages, and are loaded when they are looked at: `libph.sklearn`,
-`libph.torch`, and `libph.compat`, which has the interfaces of other packages.
+Three modules need other packages and are loaded on first use: `libph.sklearn`, `libph.torch`, and
+`libph.compat`, which offers the interfaces of other packages.
 """
 import typing as _typing
 
@@ -32,9 +34,9 @@ try:
     from ._core import version as __version__
 except ModuleNotFoundError as _error:
     import sys as _sys
-    raise ImportError(f"libph: {__path__[0]} has no _core, which is compiled, for Python "
+    raise ImportError(f"libph: {__path__[0]} has no compiled module _core for Python "
                       f"{_sys.version_info[0]}.{_sys.version_info[1]}; `pip install .` in the root "
-                      "of the repository compiles it", name=_error.name) from None
+                      "of the repository builds it", name=_error.name) from None
 
 from . import gradients
 from ._barcodes import Bar, Barcode, Chain, Loop
@@ -79,7 +81,7 @@ __all__ = [
     "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
 ]
 
-if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
+if not _typing.TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 
     def __getattr__(name):
         if name in ("compat", "sklearn", "torch"):

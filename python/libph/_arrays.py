@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Arrays of users: taken as they are where that can be, converted with checks, or refused in words.
+"""Arrays from users: used in place if possible, converted with checks, or refused with a message.
 
-Nothing here writes to what it is given.
+No function here writes to its arguments.
 """
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from numpy.typing import DTypeLike, NDArray
 from . import _core
 from ._errors import DataError, MemoryLimitError, UsageError
 
-_MASKED: Any = np.ma  # its functions have no types in NumPy 1
-_LARGEST = 2**53  # all whole numbers up to it are doubles
+_MASKED: Any = np.ma  # its functions have no type annotations in NumPy 1
+_LARGEST = 2**53  # all whole numbers up to this one are doubles
 _LARGE = 2**24  # bytes
 _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
           "M": "dates, expected numbers", "m": "times, expected numbers; divide by a unit",
@@ -27,7 +27,7 @@ _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
 
 
 def place_of(index: Sequence[int]) -> str:
-    """Where a number stands, in words.
+    """The place of a number, in words.
 
     >>> place_of((3, 1))
     'row 3, column 1'
@@ -40,7 +40,7 @@ def place_of(index: Sequence[int]) -> str:
 
 
 def is_sparse(data: Any) -> bool:
-    """Whether it is a matrix or array of scipy.sparse."""
+    """True for a matrix or array of scipy.sparse."""
     return hasattr(data, "tocoo") and hasattr(data, "nnz")
 
 
@@ -54,9 +54,9 @@ def sparse_entries(matrix: Any, name: str = "X"
 
 
 def as_array(data: Any, name: str) -> NDArray[Any]:
-    """The data as an array of real numbers, without a copy if they lie in memory as such.
+    """The data as an array of real numbers, without a copy if the memory already holds one.
 
-    Takes arrays, whatever has the buffer protocol, `__array__` or DLPack, and nested lists.
+    Accepts arrays, objects with the buffer protocol, `__array__` or DLPack, and nested lists.
     """
     if type(data) is np.ndarray:
         array = data
@@ -78,7 +78,7 @@ def _converted(data: Any, name: str) -> NDArray[Any]:
     if data is None or isinstance(data, (str, bytes, dict, set, frozenset)):
         hint = "; ph.read(path) reads a file" if isinstance(data, (str, bytes)) else ""
         raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
-    if hasattr(data, "detach") and callable(data.detach):  # a tensor that knows its gradient
+    if hasattr(data, "detach") and callable(data.detach):  # a tensor that requires a gradient
         data = data.detach()
     try:
         if not hasattr(data, "__array__") and hasattr(data, "__dlpack__"):
@@ -86,7 +86,7 @@ def _converted(data: Any, name: str) -> NDArray[Any]:
         array = np.asarray(data)
     except (KeyboardInterrupt, MemoryError):
         raise
-    except Exception as error:  # what foreign objects raise
+    except Exception as error:  # foreign objects may raise anything
         raise DataError(f"{name}: {_ragged(data) or f'found no array of numbers: {error}'}") from None
     if array.dtype.kind == "O" and array.ndim == 0:
         hint = "; ph.read(path) reads a file" if isinstance(data, os.PathLike) else ""
@@ -97,7 +97,7 @@ def _converted(data: Any, name: str) -> NDArray[Any]:
 
 
 def _ragged(data: Any) -> str:
-    """What is ragged about nested lists; empty: nothing."""
+    """Describes how nested lists are ragged; empty if they are not."""
     if not isinstance(data, (list, tuple)):
         return ""
     lengths = [len(row) if hasattr(row, "__len__") and not isinstance(row, str) else None
@@ -120,7 +120,8 @@ def _without_mask(data: Any, name: str) -> NDArray[Any]:
 
 
 def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:
-    """Objects that are real numbers each: Fraction, Decimal, Python's large integers, pandas' NA."""
+    """An array of objects that are real numbers: Fraction, Decimal, Python's large integers,
+    pandas' NA."""
     numbers = np.empty(array.shape, dtype=np.float64)
     for index in np.ndindex(array.shape):
         value = array[index]
@@ -132,7 +133,7 @@ def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:
         except OverflowError:
             raise DataError(f"{name}: {place_of(index)}: found a number beyond the range of "
                             "float64") from None
-        except Exception:  # what foreign objects raise
+        except Exception:  # foreign objects may raise anything
             raise DataError(f"{name}: {place_of(index)}: found {type(value).__name__}, expected a "
                             "number") from None
         if isinstance(value, int) and abs(value) > _LARGEST:
@@ -148,9 +149,9 @@ def _too_large(name: str, index: Sequence[int], value: Any) -> DataError:
 
 def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = None
                ) -> NDArray[np.float64]:
-    """The same numbers in float64 of this machine: the array itself where they are.
+    """The same numbers in native float64: the array itself if it has this type already.
 
-    Where `mask` is true there will be NaN.
+    Entries where `mask` is true become NaN.
     """
     kind, size = array.dtype.kind, array.dtype.itemsize
     if mask is None and array.dtype == np.float64 and array.dtype.isnative and is_aligned(array):
@@ -178,8 +179,8 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
 
 
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """An array of float64 to be filled in, refused where the memory has no room: the system would
-    promise it."""
+    """An array of float64 to be filled in. Refused if it does not fit into memory, because the
+    system would promise the memory anyway."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
@@ -189,13 +190,13 @@ def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
 
 
 def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
-    """The same numbers in C order without gaps: the array itself where they are."""
+    """The same numbers in C order without gaps: the array itself if it has this layout already."""
     return array if array.flags.c_contiguous else _copied(array, array.dtype, name)
 
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
-    """A copy of another type, in C order. The system promises more memory than it has: a large one
-    is refused before it is made."""
+    """A copy of another type, in C order. A copy that is too large is refused in advance, because
+    the system promises more memory than it has."""
     needed = array.size * np.dtype(dtype).itemsize
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
@@ -204,12 +205,12 @@ def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
 
 
 def is_aligned(array: NDArray[Any]) -> bool:
-    """Whether all numbers lie as the machine wants them, steps between them included."""
+    """True if all numbers and the steps between them are aligned."""
     return array.flags.aligned and all(step % array.itemsize == 0 for step in array.strides)
 
 
 def as_points(data: Any, name: str = "X") -> NDArray[np.float64]:
-    """Points, one a row."""
+    """Points, one per row."""
     array = as_array(data, name)
     if array.ndim != 2:
         if array.size == 0 and array.ndim == 1:
@@ -254,7 +255,7 @@ def as_image(data: Any, name: str = "image") -> NDArray[Any]:
 
 def as_values(data: Any, name: str, count: int | None = None, of: str = "number"
               ) -> NDArray[np.float64]:
-    """Numbers of one axis, side by side; `count` of them."""
+    """A contiguous array of one axis with `count` numbers."""
     array = as_array(data, name)
     if array.ndim != 1 or (count is not None and array.shape[0] != count):
         expected = "one axis" if count is None else f"{count} numbers, one for each {of}"
@@ -283,7 +284,7 @@ def as_integers(data: Any, name: str) -> NDArray[np.int64]:
 
 
 def is_mapped_file(array: NDArray[Any]) -> bool:
-    """Whether it lies in a file that is mapped read-only, which may leave the memory meanwhile."""
+    """True if the array is a file mapped read-only, whose pages may leave the memory meanwhile."""
     if not isinstance(array, np.memmap) or array.mode != "r":
         return False
     import mmap

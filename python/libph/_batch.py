@@ -21,22 +21,22 @@ _REQUESTS: dict[Any, Callable[[dict[str, Any]], Request]] = {
 
 
 def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: Any) -> list[Barcode]:
-    """The barcodes of many inputs, several at a time.
+    """Computes the barcodes of many inputs, several at a time.
 
-    The same as ``[function(x, **options) for x in inputs]``, but faster: each thread takes one
-    input after the other, where a call for each would start threads for each.
+    Gives the same as ``[function(x, **options) for x in inputs]``, but faster: each thread takes
+    one input after the other, whereas separate calls would start threads for each input.
 
     Parameters
     ----------
     function : callable
         `rips`, `alpha`, `cubical`, `lower_star`, `filtered` or `boundary`.
     inputs : iterable
-        What the function takes first: clouds, images. They may differ in size. Of functions that
-        take more than one, such as `lower_star`, tuples of them.
+        The first arguments of the function: clouds or images, which may differ in size. For
+        functions with several data arguments, such as `lower_star`, tuples of them.
     **options
         Keywords of the function, the same for all inputs; and `threads`, `memory_limit`,
-        `progress`, `timeout`, `stop`, which are of all inputs together; see `libph`. Time runs
-        from when all inputs are there.
+        `progress`, `timeout`, `stop`, which apply to all inputs together; see `libph`. The timeout
+        starts once all inputs are converted.
 
     Returns
     -------
@@ -46,9 +46,9 @@ def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: An
     Raises
     ------
     Error
-        As the function; the message begins with the number of the input that failed, which stops
-        the others. Where several fail, threads decide which one is named. There are no barcodes
-        then.
+        The errors of the function; the message begins with the number of the input that failed. A
+        failure stops the other inputs, and no barcodes are returned. If several inputs fail, the
+        timing of threads decides which one is named.
 
     Examples
     --------
@@ -95,14 +95,14 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
 
 @functools.lru_cache(maxsize=None)
 def _parameters(function: Callable[..., Barcode]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """What an input is made of, and the keywords, both with their defaults."""
+    """The data arguments and the keywords, both with their defaults."""
     parameters = inspect.signature(function).parameters.values()
     places = {p.name: p.default for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD}
     return places, {p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY}
 
 
 def _arguments(given: Any, places: dict[str, Any], keywords: dict[str, Any]) -> dict[str, Any]:
-    """All that a request is made of."""
+    """All data that make up a request."""
     values = (given,) if len(places) == 1 else given
     needed = sum(default is inspect.Parameter.empty for default in places.values())
     if not isinstance(values, tuple) or not needed <= len(values) <= len(places):

@@ -39,17 +39,17 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
     Parameters
     ----------
     X : array_like or sparse matrix
-        Points, one a row. With ``metric="precomputed"`` distances: a square matrix, the condensed
-        form of ``scipy.spatial.distance.pdist``, or a sparse matrix, in which a pair that is not
-        stored is never joined. With a function as `metric` any sequence.
+        Points, one per row. With ``metric="precomputed"``, distances: a square matrix, the
+        condensed form of ``scipy.spatial.distance.pdist``, or a sparse matrix, in which a pair that
+        is not stored is never joined. With a function as `metric`, any sequence.
     max_dim : int
         The highest dimension of homology.
     min_dim : int
         The lowest dimension of homology.
     threshold : float, optional
         The largest distance at which two points are joined. Default: the enclosing radius, beyond
-        which one component is left and nothing else; none for sparse distances, for engines
-        "beta-skeleton" and "union-find", and for ``max_dim=0`` of no engine by name.
+        which only one component is left. There is no default threshold for sparse distances, for
+        the engines "beta-skeleton" and "union-find", and for ``max_dim=0`` without a named engine.
     metric : str or callable
         "euclidean", "manhattan" ("l1", "cityblock"), "chebyshev", "minkowski", "cosine", "hamming"
         (how many coordinates differ), "precomputed", or a function of two points, which is called
@@ -60,42 +60,46 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         Coefficients are in Z/p for this prime p.
     weights : array_like or "dtm", optional
         The diameter at which each point enters; "dtm": twice its distance to the measure of its
-        `dtm_neighbors` nearest points, itself among them.
+        `dtm_neighbors` nearest points, including itself.
     dtm_neighbors : int, optional
-        For ``weights="dtm"``.
+        The number of neighbours for ``weights="dtm"``.
     weight_exponent : {1, 2, inf}, optional
-        How balls grow from the birth of a point on. Default: 1 for "dtm", inf otherwise.
+        The exponent that governs how a ball grows after the birth of its point. Default: 1 for
+        "dtm", inf otherwise.
     subsample : int, optional
-        So many points are kept, each the farthest from those before.
+        Number of points to keep, each the farthest from those before it.
     subsample_radius : float, optional
-        Points are kept until all are so close to one of them.
+        Points are added to the subsample until every point is at most this far from one of them.
     approximation : float, optional
-        Epsilon of a sparse Rips filtration: bars are born and die later by a factor of
-        1 + epsilon at most.
+        Epsilon of a sparse Rips filtration: births and deaths come later by a factor of at most 1 +
+        epsilon.
     merge_equal_points : bool, optional
-        Whether equal points become one vertex. Default: where bars of positive length allow it.
+        If True, equal points become one vertex. Default: True if this keeps all bars of positive
+        length.
     device : {"cpu", "gpu"}
-        What finds the components of points with Euclidean distances (``max_dim=0``): the same ones.
-        "gpu" is one of NVIDIA, where that is built in.
+        The device that finds the components of points with Euclidean distances (``max_dim=0``); the
+        result is the same. "gpu" is an NVIDIA GPU, if libph was built with support for it.
     collapse : {"auto", True, False}
-        Whether edges are collapsed first, which leaves the bars as they are.
+        If True, edges are collapsed first, which does not change the bars.
     representatives : {None, "cycles", "cocycles"}
-        Chains that come with the bars; see `Barcode.representative`.
+        The kind of chains to compute with the bars; see `Barcode.representative`.
     loops : {None, "tight", "plain", "none"}
-        How cycles of H1 are taken apart into loops. Default: tight, as short as is cheap.
+        How cycles of H1 are split into loops. Default: "tight", which makes loops as short as is
+        cheap.
     min_persistence : float
-        Bars with death - birth <= this are left out. Below 0: none are.
+        Bars with death - birth <= this value are left out. A negative value keeps all bars.
     cells : bool
-        Whether bars know the cells of their birth and death.
+        If True, bars store the cells of their birth and death.
     engine : str
         "auto", or the name of an engine.
     nan : {"error", "drop"}
-        What a NaN means: an error; or points are left out, and pairs of a matrix are never joined,
-        nor those of which a function as `metric` gives NaN.
+        How to treat NaN. "error": raise an error. "drop": leave out points with NaN; never join
+        pairs whose entry in a matrix, or whose value of the function `metric`, is NaN.
     diagonal : {"zero", "births", "any"}
-        What stands on the diagonal of a matrix: 0, when each point enters, or anything.
+        The meaning of the diagonal of a matrix: "zero", it must be 0; "births", the values at which
+        points enter; "any", it is ignored.
     symmetrise : {None, "max", "min", "lower"}
-        Which of two unequal entries of a matrix is taken. Default: they are an error.
+        Which of two unequal entries of a matrix to use. Default: unequal entries are an error.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -112,7 +116,7 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
     >>> bars
     Barcode(rips of 4 points in R^2, field 2: 4 bars of H0, 1 of H1, longest [1, 1.41421))
 
-    Of distances, and of correlations r, as distances 1 - r:
+    For distances, and for correlations r as distances 1 - r:
 
     >>> ph.rips([[0, 3], [3, 0]], metric="precomputed").dgm(0)
     array([[ 0.,  3.],
@@ -133,38 +137,40 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
           representatives: str | None = None, loops: str | None = None,
           min_persistence: float = 0.0, cells: bool = True, engine: str = "auto",
           nan: str = "error", **run: Unpack[RunOptions]) -> Barcode:
-    """The barcode of growing balls around points of the plane or of space.
+    """The barcode of growing balls around points on a line, in the plane or in space.
 
-    Of an alpha complex: the simplices of the Delaunay triangulation, each of which enters when the
-    balls around its vertices, cut to their Voronoi cells, meet. It has the bars of the union of the
-    balls, in all dimensions, and its simplices are few: a million points of space take seconds.
-    Values are radii, so that of H0 is half of that of `rips`. See
+    Uses an alpha complex: the simplices of the Delaunay triangulation, each of which enters when
+    the balls around its vertices, cut to their Voronoi cells, meet. Its bars are those of the union
+    of the balls, in all dimensions, and it has few simplices: a million points in space take
+    seconds. Values are radii, so that values of H0 are half of those of `rips`. See
     docs/explanation/engines/alpha.md.
 
     Parameters
     ----------
     X : array_like
-        Points of R^1, R^2 or R^3, one a row. Copies and points in a plane or on a line will do.
+        Points of R^1, R^2 or R^3, one a row. Duplicates, and points in a common plane or on a
+        common line, are accepted.
     values : {"alpha", "delaunay-cech", "delaunay-rips"}
-        When a simplex enters: as above; when its balls meet, which gives the same bars; when each
-        two of them do.
+        When a simplex enters. "alpha": as above. "delaunay-cech": when all its balls meet, which
+        gives the same bars. "delaunay-rips": when its balls meet in pairs.
     squared : bool, optional
-        Whether values are squares of radii, as in GUDHI. Default: of points with weights only.
+        If True, values are squares of radii, as in GUDHI. Default: True only for points with
+        weights.
     weights : array_like, optional
-        The square of each ball's first radius: of an atom, of a grain. What is hidden in others is
-        named by ``bars.meta["hidden"]``.
+        The square of each ball's initial radius, such as that of an atom or a grain.
+        ``bars.meta["hidden"]`` lists the points whose balls are hidden in others.
     period : float or sequence of float, optional
-        Of a periodic space, as a crystal or a simulated box: the length after which each axis
-        closes up, one for all or one an axis; 0 or None where it does not. Only for
+        For a periodic space such as a crystal or a simulation box: the length after which each axis
+        repeats, one for all axes or one per axis; 0 or None for an axis that does not. Only for
         ``values="alpha"``.
     threshold : float, optional
         The largest value that enters.
     max_dim : int, optional
         The highest dimension of homology. Default: all.
     min_dim, field, representatives, loops, min_persistence, cells, engine
-        As of `cubical`.
+        As in `cubical`.
     nan : {"error", "drop"}
-        What a NaN means: an error, or points are left out.
+        How to treat points with NaN: as an error, or left out.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -175,7 +181,7 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     Raises
     ------
     NotBuiltIn
-        If CGAL was not there when libph was built. What has CGAL in it falls under the GPL.
+        If libph was built without CGAL. A build with CGAL falls under the GPL.
 
     Examples
     --------
@@ -183,13 +189,13 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     >>> ph.alpha(square).dgm(1)
     array([[0.5       , 0.70710678]])
 
-    Two balls of radius 1 and 2, which touch from the beginning on:
+    Two balls of radius 1 and 2, which touch from the start:
 
     >>> ph.alpha([[0, 0, 0], [3, 0, 0]], weights=[1, 4]).dgm(0)
     array([[-4., inf],
            [-1.,  0.]])
 
-    One point of a periodic plane: its ball meets itself along both axes, then fills all.
+    One point of a periodic plane: its ball meets itself along both axes and later fills the plane:
 
     >>> bars = ph.alpha([[0, 0]], period=2)
     >>> bars.births.tolist()
@@ -206,21 +212,22 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
             **run: Unpack[RunOptions]) -> Barcode:
     """The barcode of the sublevel sets of an image, of 1 to 8 axes.
 
-    At a value t those voxels are there that are not above t, so dark ones come first. With
-    `superlevel` bright ones do, and a voxel of value f enters at -f.
+    At a value t, the voxels with values up to t are present: dark voxels come first. With
+    `superlevel`, bright voxels come first, and a voxel of value f enters at -f.
 
     Parameters
     ----------
     image : array_like or PointImage
-        Numbers of pixels or voxels. uint8, uint16, int16, float32 and float64 in C order are read
-        where they are; a memory map that is read-only need not fit into the memory.
+        Values of pixels or voxels. Arrays of uint8, uint16, int16, float32 and float64 in C order
+        are read in place; a read-only memory map need not fit into memory.
     construction : {"vertices", "cells"}
-        Voxels are vertices, and a cube enters with its largest voxel (4 or 6 neighbours); or they
-        are top cubes, and a face enters with the smallest voxel around it (8 or 26 neighbours).
+        "vertices": voxels are vertices, and a cube enters with its largest voxel (4 or 6
+        neighbours). "cells": voxels are top-dimensional cubes, and a face enters with the smallest
+        voxel around it (8 or 26 neighbours).
     superlevel : bool
-        Superlevel sets of f: the sublevel sets of -f, with values of -f.
+        If True, superlevel sets of f are used: the sublevel sets of -f, with values of -f.
     periodic : sequence of int, or bool
-        The axes that close up on themselves; True: all.
+        The periodic axes; True: all axes.
     threshold : float, optional
         The largest value that enters.
     max_dim : int, optional
@@ -230,19 +237,20 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
     field : int
         Coefficients are in Z/p for this prime p.
     representatives : {None, "cycles", "cocycles", "voxels"}
-        What comes with the bars: chains, or the voxels of components and hollows.
+        What to compute with the bars: chains, or the voxels of components and hollows.
     loops : {None, "plain", "none"}
-        Whether cycles of H1 are taken apart into loops.
+        How cycles of H1 are split into loops.
     min_persistence : float
-        Bars with death - birth <= this are left out. Below 0: none are.
+        Bars with death - birth <= this value are left out. A negative value keeps all bars.
     cells : bool
-        Whether bars know the cells of their birth and death.
+        If True, bars store the cells of their birth and death.
     nan : {"error", "drop"}
-        What a NaN means: an error, or a voxel that is absent.
+        How to treat NaN: as an error, or as an absent voxel.
     engine : str
         "auto", or the name of an engine.
     slab_layers : int, optional
-        Layers along the first axis that are looked at together. Default: all that memory allows.
+        Number of layers along the first axis that are processed together. Default: as many as
+        memory allows.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -276,12 +284,12 @@ def lower_star(values: ArrayLike, simplices: Any, *, max_dim: int | None = None,
     Parameters
     ----------
     values : array_like
-        A value for each vertex. What is inf never enters.
+        A value for each vertex. A vertex with value inf never enters.
     simplices : array_like
-        Triangles (m, 3), edges (m, 2), a list of such arrays, or of tuples of vertices. Faces need
-        not be listed.
+        Triangles (m, 3), edges (m, 2), a list of such arrays, or a list of tuples of vertices.
+        Faces need not be listed.
     max_dim, min_dim, threshold, field, representatives, loops, min_persistence, cells, engine
-        As of `cubical`.
+        As in `cubical`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -307,13 +315,13 @@ def filtered(simplices: Any, values: Any, *, max_dim: int | None = None, min_dim
     Parameters
     ----------
     simplices : array_like
-        All simplices, vertices among them: a list of tuples of vertices, or of an array (m, k) for
-        each dimension.
+        All simplices, including vertices: a list of tuples of vertices, or a list with an array (m,
+        k) for each dimension.
     values : array_like
-        A value for each, no smaller than those of its faces; for a list of arrays one array, or a
-        list of arrays.
+        A value for each simplex, no smaller than the values of its faces; for a list of arrays, one
+        array or a list of arrays.
     max_dim, min_dim, threshold, field, representatives, loops, min_persistence, cells, engine
-        As of `cubical`.
+        As in `cubical`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -342,9 +350,9 @@ def boundary(matrix: Any, dims: ArrayLike, values: ArrayLike | None = None, *,
     dims : array_like
         The dimension of each cell.
     values : array_like, optional
-        A value for each cell, no smaller than those of its facets. Default: its position.
+        A value for each cell, no smaller than the values of its facets. Default: its position.
     max_dim, min_dim, threshold, field, representatives, min_persistence, cells, engine
-        As of `cubical`.
+        As in `cubical`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

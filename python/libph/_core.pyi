@@ -3,18 +3,18 @@
 from collections.abc import Sequence
 from typing import Any, Callable, ClassVar
 
-# An array of any kind: what has the buffer protocol.
+# An array of any kind: any object with the buffer protocol.
 _Buffer = Any
 
 class _Metaclass(type): ...
 
 class _Object(metaclass=_Metaclass):
-    """The base class that pybind11 gives all classes."""
-    # A TypeError for classes without one of their own: functions make their objects.
+    """The base class of all pybind11 classes."""
+    # Raises TypeError for classes without a constructor: functions create their objects.
     def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
 class _Enum(_Object):
-    """What pybind11's enumerations have: they are none of Python's."""
+    """The members of pybind11's enumerations, which are not Python enums."""
     __members__: ClassVar[dict[str, Any]]
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...

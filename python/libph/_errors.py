@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What libph raises: these classes and no others, but for Ctrl-C and what a callback raises.
+"""The errors of libph. It raises no others, except on Ctrl-C or if a callback raises.
 
-Each is a class of Python's own, too, so that ``except ValueError`` catches bad data.
+Each also derives from a built-in class, so that ``except ValueError`` catches bad data.
 """
 
 
@@ -11,21 +11,22 @@ from typing import TypeVar
 
 
 class Error(Exception):
-    """Anything that libph raises. The message says what, found, expected, and a hint.
+    """The base class of all errors of libph. The message says what was wrong, what was found and
+    expected, and gives a hint.
 
     Attributes
     ----------
     remedies : tuple of (str, str)
-        Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty
-        where several help. Of a `MemoryLimitError` they are to be set together: the first of the
-        ways out that the message names.
+        Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty if
+        several values help. The keywords of a `MemoryLimitError` are to be set together: they are
+        the first of the ways out that the message names.
     """
 
     remedies: tuple[tuple[str, str], ...] = ()
-    _place: str = ""            # where it went wrong
+    _place: str = ""            # the place of the error
     _found: str = ""            # what was found there
-    _input: int | None = None   # of several inputs
-    _cause: Error | None = None  # what went wrong with it
+    _input: int | None = None   # the input, if there are several
+    _cause: Error | None = None  # the problem with it
 
 
 class UsageError(Error, ValueError):
@@ -41,11 +42,11 @@ class MissingInputError(Error, FileNotFoundError):
 
 
 class OutputError(Error, OSError):
-    """A file cannot be created, or reading or writing it broke off."""
+    """A file cannot be created, or reading or writing it failed midway."""
 
 
 class MemoryLimitError(Error, MemoryError):
-    """The memory limit would be exceeded. Nothing is lost but the computation."""
+    """The memory limit would be exceeded. Only the computation is lost."""
 
 
 class Cancelled(Error):
@@ -53,11 +54,11 @@ class Cancelled(Error):
 
 
 class Timeout(Cancelled, TimeoutError):
-    """The computation was stopped when its `timeout` was over."""
+    """The computation was stopped because its `timeout` was over."""
 
 
 class NotBuiltIn(Error, NotImplementedError):
-    """A feature was left out of this build, is none of libph's, or needs a GPU that is not there."""
+    """A feature is not part of this build or of libph, or needs a GPU that is not there."""
 
 
 class InternalError(Error, RuntimeError):
@@ -76,4 +77,4 @@ def reworded(error: _AnyError, message: str, *remedies: tuple[str, str]) -> _Any
 
 for _class in list(globals().values()):
     if isinstance(_class, type) and issubclass(_class, Error):
-        _class.__module__ = "libph"  # where users find it
+        _class.__module__ = "libph"  # the module where users find it

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a computation will take, before it is done."""
+"""Estimates of the memory and work of a computation."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -13,26 +13,27 @@ from ._options import arguments_of
 
 
 class Estimate(NamedTuple):
-    """What a computation will take; see `estimate`.
+    """An estimate of a computation; see `estimate`.
 
     Attributes
     ----------
     bytes_low : float
-        Memory of the complex and the computation, as foreseen: at least so much.
+        Predicted memory of the complex and the computation in bytes, at least.
     bytes_high : float
-        The same: at most so much.
+        The same, at most.
     cells : tuple of float
-        Cells by dimension, as far as the engine lists them.
+        Number of cells per dimension, as far as the engine lists them.
     counted_dims : int
-        The dimensions below it are counted; above, cells are estimated from a sample.
+        Cells of dimensions below this are counted exactly; from this dimension on, they are
+        estimated from a sample.
     engine : str
-        Which engine will run.
+        The engine that will run.
     reason : str
-        Why.
+        Why this engine will run.
     collapses : bool
-        Whether edges are collapsed first.
+        True if edges are collapsed first.
     collapse_reason : str
-        Why, or why not.
+        Why edges are collapsed, or why not.
     max_dim : int
         The highest dimension of homology.
     """
@@ -49,7 +50,7 @@ class Estimate(NamedTuple):
 
 
 def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
-    """What `rips`, `cubical` or `alpha` would compute of the data."""
+    """The computation that `rips`, `cubical` or `alpha` would run on the data."""
     _options.choice("complex", complex, [None, "rips", "cubical", "alpha"])
     if complex == "alpha":
         return alpha_request(arguments_of(alpha, data, options))
@@ -65,22 +66,23 @@ def _axes_of(data: Any) -> int:
     if axes is None:
         try:
             axes = np.ndim(data)
-        except Exception:  # what foreign objects raise; who takes the data says what is wrong
+        except Exception:  # the reader reports what foreign objects raise
             return 0
     return axes if isinstance(axes, int) else 0
 
 
 def estimate(data: Any, *, complex: str | None = None, **options: Any) -> Estimate:
-    """What `rips`, `cubical` or `alpha` will take: memory, cells, engine.
+    """Estimates what `rips`, `cubical` or `alpha` will need: memory, cells, engine.
 
-    Takes a fraction of the time and memory of the computation.
+    The estimate takes a fraction of the time and memory of the computation.
 
     Parameters
     ----------
     data : array_like, sparse matrix or PointImage
-        As of `rips`, `cubical` or `alpha`.
+        As in `rips`, `cubical` or `alpha`.
     complex : {None, "rips", "cubical", "alpha"}
-        Which of them. Default: cubical for three axes or more and for a PointImage, else rips.
+        Which complex to use. Default: cubical for three axes or more and for a PointImage, else
+        rips.
     **options
         All keywords of that function.
 

@@ -23,14 +23,15 @@ _LOG = logging.getLogger("libph")
 
 
 class Simplices(NamedTuple):
-    """Simplices of a file: for ``filtered(*simplices)``, or `lower_star` with `vertex_values`."""
+    """Simplices from a file: for ``filtered(*simplices)``, or for `lower_star` with
+    `vertex_values`."""
 
     simplices: list[tuple[int, ...]]
     values: NDArray[np.float64]
 
 
 class Boundary(NamedTuple):
-    """A boundary matrix of a file: for ``boundary(*matrix)``."""
+    """A boundary matrix from a file: for ``boundary(*matrix)``."""
 
     matrix: csc_array
     dims: NDArray[np.int64]
@@ -38,7 +39,7 @@ class Boundary(NamedTuple):
 
 
 class Mesh(NamedTuple):
-    """A mesh of a file: ``lower_star(mesh.values, mesh.triangles)``, if it has values."""
+    """A mesh from a file: ``lower_star(mesh.values, mesh.triangles)``, if it has values."""
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
@@ -46,7 +47,7 @@ class Mesh(NamedTuple):
 
 
 def path_of(path: Any, argument: str = "path") -> bytes:
-    """The path as _core takes it; "-" is a file of this name."""
+    """The path in the form that _core expects; "-" is a file of this name."""
     try:
         name = os.fsencode(path)
     except (TypeError, UnicodeError):
@@ -64,35 +65,35 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
          raw_skip: int = 0, **run: Unpack[RunOptions]) -> Any:
     """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
 
-    What was assumed about it is told to the logger "libph", level INFO.
+    Assumptions about the file go to the logger "libph", level INFO.
 
     Parameters
     ----------
     path : path
-        The file; gzip is unpacked.
+        The file, which may be compressed with gzip.
     format : str, optional
         A name of ``--format`` of the program ph-barcode. Default: by content and extension.
     values : path, optional
         Values of the cells of a boundary matrix, or of the vertices of a mesh or of simplices.
     nan : {"error", "drop"}
-        What a NaN means: an error; or points are left out, pairs never joined, voxels absent.
-        Points of PCD, PLY, XYZ and PTS with a NaN coordinate are always left out.
+        How to treat NaN. "error": raise an error. "drop": leave out points, never join pairs, treat
+        voxels as absent. Points of PCD, PLY, XYZ and PTS with a NaN coordinate are always left out.
     columns : sequence of str, optional
-        Of tables: names, "3", or "2-5".
+        Columns of a table to read: names, "3", or "2-5".
     array : {"auto", "rips", "image", "points", "distances"}
-        What an array of two axes holds.
+        The content of an array with two axes.
     symmetrise : {None, "max", "min", "lower"}
-        Which of two unequal entries of a square matrix is taken.
+        Which of two unequal entries of a square matrix to use.
     from_correlation : bool
-        Distances are 1 - r.
+        If True, entries are correlations r and the distances are 1 - r.
     diagonal : {"zero", "births", "any"}
-        What stands on the diagonal of a square matrix.
+        The meaning of the diagonal of a square matrix; see `rips`.
     channel : {"auto", "grey", "red", "green", "blue", "alpha"}
-        Which number of a pixel is its value.
+        The channel that gives the value of a pixel.
     raw_shape : sequence of int, optional
-        Of ``format="raw"``: sizes of the axes, the last one fastest.
+        For ``format="raw"``: sizes of the axes, the last one fastest.
     raw_dtype : dtype
-        Whole numbers or floats, with their byte order: ">i2".
+        Type of the voxels, integer or float, with its byte order: ">i2".
     raw_skip : int
         Bytes before the first voxel.
     **run
@@ -101,7 +102,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     Returns
     -------
     ndarray, coo_array, Simplices, Boundary or Mesh
-        Points (n, d); distances (n, n); an image; sparse distances.
+        Points (n, d), distances (n, n), an image, or sparse distances, depending on the file.
     """
     return _answer(found_by(**locals()))
 
@@ -109,7 +110,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
 def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array: Any,
              symmetrise: Any, from_correlation: Any, diagonal: Any, channel: Any, raw_shape: Any,
              raw_dtype: Any, raw_skip: Any, run: Any) -> dict[str, Any]:
-    """What `_core.read` finds by the arguments of `read`."""
+    """The result of `_core.read` for the arguments of `read`."""
     _run.check_names("read", dict(run), read)
     name = "auto" if format is None else _options.choice("format", format, _core.format_names())
     try:
@@ -156,11 +157,11 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
 
 
 def _is_barcode(path: bytes) -> bool:
-    """Whether the file begins as `Barcode.save` begins a table or JSON."""
+    """True if the file begins like a table or JSON that `Barcode.save` wrote."""
     try:
         with open(path, "rb") as file:
             start = file.read(32)
-    except OSError:  # who reads it says what is wrong
+    except OSError:  # the reader will report the problem
         return False
     return start.startswith((b"dim,birth,death\n", b'{\n  "format": "ph-barcode"'))
 
@@ -191,7 +192,7 @@ def _answer(found: dict[str, Any]) -> Any:
 
 
 def _triangles(corners: NDArray[np.int64], offsets: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Faces as triangles around their first corner."""
+    """Splits faces into triangles around their first corner."""
     fans = [np.column_stack([np.full(b - a - 2, corners[a]), corners[a + 1:b - 1],
                              corners[a + 2:b]])
             for a, b in zip(offsets[:-1], offsets[1:]) if b - a > 2]
@@ -205,8 +206,7 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     Parameters
     ----------
     path : path
-        The file. JSON brings cells and chains back; loops, sets of voxels and p-values it leaves
-        out.
+        The file. JSON restores cells and chains, but not loops, sets of voxels and p-values.
     format : str, optional
         "csv", "json", "ripser", "pers", "dipha" or "npy". Default: by content and extension.
     **run

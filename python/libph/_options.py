@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Values of options, checked once: what is wrong is said in words."""
+"""Checks the values of options, with clear error messages."""
 from __future__ import annotations
 
 import functools
@@ -19,7 +19,7 @@ _UNITS = {"": 1, "B": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12,
 
 
 def refuse(name: str, value: Any, expected: str) -> UsageError:
-    """The error that says what was found in the place of what.
+    """An error that says what was found and what was expected.
 
     >>> str(refuse("max_dim", -1, "at least 0"))
     'max_dim: found -1, expected at least 0'
@@ -40,7 +40,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
         number = least - 1
     if not least <= number <= most:
         bounds = f", at least {least}" if most == 2**63 - 1 else f", {least} to {most}"
-        if least <= -2**31:  # as good as none
+        if least <= -2**31:  # equivalent to None
             bounds = "" if most == 2**63 - 1 else f", at most {most}"
         raise refuse(name, value, f"a whole number{bounds}")
     return number
@@ -69,7 +69,7 @@ def positive(name: str, value: Any) -> float:
 
 
 def flag(name: str, value: Any) -> bool:
-    """True or False, NumPy's among them."""
+    """True or False, including NumPy's."""
     if isinstance(value, bool):
         return value
     if type(value).__name__ in ("bool_", "bool") and hasattr(value, "dtype"):
@@ -78,7 +78,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def choice(name: str, value: Any, names: Iterable[Any]) -> Any:
-    """One of a few."""
+    """One of a few words."""
     names = list(names)
     if not (isinstance(value, (str, bool, int, float)) or value is None) or not any(
             value == known and type(value) is type(known) for known in names):
@@ -88,7 +88,7 @@ def choice(name: str, value: Any, names: Iterable[Any]) -> Any:
 
 
 def size(name: str, value: Any) -> int:
-    """Bytes, as a number or as "4GiB".
+    """A size in bytes, given as a number or as "4GiB".
 
     >>> size("memory_limit", "1.5 MiB")
     1572864
@@ -108,14 +108,14 @@ def size(name: str, value: Any) -> int:
 
 
 def several(name: str, values: Any, what: str) -> list[Any]:
-    """What can be iterated over, as a list; no text and no mapping."""
+    """An iterable, other than a text or a mapping, as a list."""
     if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
         raise refuse(name, values, what)
     return list(values)
 
 
 def axes(name: str, value: Any, count: int) -> list[bool]:
-    """Some of the axes of an image: their numbers, a bool for each, or True for all.
+    """Some axes of an image: their numbers, a bool for each axis, or True for all.
 
     >>> axes("periodic", [0, -1], 3)
     [True, False, True]
@@ -143,21 +143,21 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
 
 
 def user_level() -> int:
-    """The `stacklevel` with which a warning of the caller names the line that called libph."""
+    """The `stacklevel` that makes a warning point at the line that called libph."""
     frame, level = sys._getframe(1), 1
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("libph"):
         frame, level = frame.f_back, level + 1
     return level
 
 
-# ---- keywords of one function that another one takes, too
+# ---- keywords of one function that another one accepts as well
 
 _signature = functools.lru_cache(maxsize=None)(inspect.signature)
 
 
 def arguments_of(function: Callable[..., Any], data: Any, given: Mapping[str, Any]
                  ) -> dict[str, Any]:
-    """What `function(data, **given)` would see: all of its arguments, defaults among them."""
+    """All arguments that `function(data, **given)` would see, including defaults."""
     try:
         bound = _signature(function).bind(data, **given)
     except TypeError as error:

@@ -27,9 +27,9 @@ class Subsample(NamedTuple):
     indices : ndarray
         The points, point 0 first.
     radii : ndarray
-        Of each its distance to the nearest of those before; inf for the first.
+        The distance of each point to the nearest of those before it; inf for the first.
     covering_radius : float
-        Each point of the whole set is at most so far from one of them.
+        Each point of the whole set is at most this far from one of them.
     """
 
     indices: NDArray[np.int64]
@@ -39,7 +39,7 @@ class Subsample(NamedTuple):
 
 def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: int = 1,
                 **run: Unpack[RunOptions]) -> PointImage:
-    """Points as an image, for `cubical`: at a cost that depends on the volume alone.
+    """Converts points to an image for `cubical`, whose cost depends on the volume alone.
 
     Parameters
     ----------
@@ -48,10 +48,11 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
     voxel : float
         The edge of a voxel, in the unit of the points.
     value : {"distance", "occupancy", "density"}
-        What a voxel is worth: its distance to the nearest one with a point; 0 where a point is;
-        minus the number of points in it. Of the latter two a voxel without points is absent.
+        The value of a voxel. "distance": its distance to the nearest voxel with a point.
+        "occupancy": 0 if it has a point. "density": minus the number of its points. With the latter
+        two, voxels without points are absent.
     margin : int
-        Voxels around the bounding box.
+        Number of layers of voxels around the bounding box.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -75,31 +76,31 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
 
 def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
                     window: int | None = None, step: int | None = None) -> NDArray[np.float64]:
-    """The points that a time series runs through: its values at several times each.
+    """The delay embedding of a time series: each point has the values at several times.
 
-    If the series repeats itself, they run around a loop (F. Takens, Detecting strange attractors in
-    turbulence, 1981). What `ph-barcode --delay` makes of a table.
+    If the series is periodic, the points run around a loop (F. Takens, Detecting strange attractors
+    in turbulence, 1981). `ph-barcode --delay` does the same with a table.
 
     Parameters
     ----------
     series : array_like
-        Values, one a time, shape (times,); or several quantities, shape (times, quantities).
+        Values, one per time, shape (times,); or several quantities, shape (times, quantities).
     dimension : int
-        Times that a point has.
+        Number of times that make up a point.
     delay : int
-        Steps from one of them to the next one.
+        Number of steps between consecutive times of a point.
     window : int, optional
-        The points of so many times in a row are a cloud of their own, for `batch`: how the shape
-        of the series changes.
+        If given, the points of every window of this many consecutive times form a cloud of their
+        own, for `batch`. This shows how the shape of the series changes.
     step : int, optional
-        Times from the begin of a window to that of the next one. Default: 1.
+        Number of times between the starts of consecutive windows. Default: 1.
 
     Returns
     -------
     ndarray
         Shape (points, dimension * quantities), where points = times - (dimension - 1) * delay: all
-        quantities of the first time, then those of the next one. With `window` of shape (windows,
-        points of each, dimension * quantities). It may be a view of `series`.
+        quantities of the first time come first, then those of the next. With `window`, the shape is
+        (windows, points per window, dimension * quantities). The array may be a view of `series`.
 
     Examples
     --------
@@ -123,7 +124,7 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
     if values.ndim == 2:  # quantities before times
         of_points = np.swapaxes(of_points, 1, 2)
-        if delay > 1 or not values.flags.c_contiguous:  # rows are no view of the series
+        if delay > 1 or not values.flags.c_contiguous:  # rows are not a view of the series
             copy = _arrays.new_array(of_points.shape)
             copy[...] = of_points
             of_points = copy
@@ -140,18 +141,18 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
-    """Farthest-point sampling: after point 0 always the point farthest from all before.
+    """Farthest-point sampling: after point 0, each point is the farthest from all before it.
 
     Parameters
     ----------
     X : array_like
-        As of `rips`; all distances must be known.
+        As in `rips`; all distances must be known.
     n : int, optional
-        How many points. Default: all, or as many as `radius` needs.
+        Number of points. Default: all, or as many as `radius` needs.
     radius : float
-        It stops when all points are so close to one of those chosen.
+        Sampling stops when every point is at most this far from a chosen one.
     metric, minkowski_p
-        As of `rips`.
+        As in `rips`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -177,18 +178,19 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
 
 def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
                         **run: Unpack[RunOptions]) -> NDArray[np.float64]:
-    """Of each point the root of the mean square of the distances to its k nearest points.
+    """For each point, the root mean square of the distances to its k nearest points.
 
-    It is one of them itself. Small where points are dense, large at outliers.
+    The point itself is one of them. The value is small where points are dense, and large at
+    outliers.
 
     Parameters
     ----------
     X : array_like
-        As of `rips`; all distances must be known.
+        As in `rips`; all distances must be known.
     k : int
-        How many neighbours, from 1 to the number of points.
+        Number of neighbours, from 1 to the number of points.
     metric, minkowski_p
-        As of `rips`.
+        As in `rips`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -210,7 +212,7 @@ def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_
 
 
 def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of each row, without a square that overflows or vanishes."""
+    """The root mean square of each row, without a square that overflows or vanishes."""
     largest = distances.max(axis=1, keepdims=True)
     largest[largest == 0] = 1
     mean: NDArray[np.float64] = np.sqrt(np.mean((distances / largest)**2, axis=1)) * largest[:, 0]
@@ -227,23 +229,24 @@ def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
 def collapse(distances: Any, *, threshold: float | None = None, nan: str = "error",
              diagonal: str = "zero", symmetrise: str | None = None,
              **run: Unpack[RunOptions]) -> coo_array:
-    """Fewer edges, some of them later, with the same bars of positive length in every dimension.
+    """Removes or delays edges such that the bars of positive length stay the same in every
+    dimension.
 
     Parameters
     ----------
     distances : array_like or sparse matrix
-        As of ``rips(..., metric="precomputed")``.
+        As in ``rips(..., metric="precomputed")``.
     threshold : float, optional
         The largest distance that is kept. Default: the enclosing radius.
     nan : {"error", "drop"}, diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
-        As of `rips`.
+        As in `rips`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     scipy.sparse.coo_array
-        Each edge once, above the diagonal; what is not stored is never joined.
+        Each remaining edge once, above the diagonal; pairs that are not stored are never joined.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Interactive pages of a result: one file of HTML, or a frame in a notebook."""
+"""Interactive pages for a result: one HTML file, or a frame in a notebook."""
 from __future__ import annotations
 
 import html
@@ -20,8 +20,8 @@ from ._results import description_of, origin_of
 if TYPE_CHECKING:
     from ._barcodes import Barcode
 
-_HEIGHT = 720  # pixels of a frame in a notebook
-# What a barcode knows of the keywords with which it was computed.
+_HEIGHT = 720  # size in pixels of a frame in a notebook
+# The keywords of the computation that a barcode stores.
 _KNOWN = {
     "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "weight_exponent", "subsample",
              "subsample_radius", "approximation", "nan", "diagonal", "symmetrise"),
@@ -31,9 +31,9 @@ _OF_ALL = ("threshold", "field", "max_dim", "representatives")
 
 
 class Report:
-    """A page to look at: a notebook shows it in a frame, `save` writes it as one file.
+    """An interactive page: a notebook shows it in a frame, and `save` writes it as one file.
 
-    The page needs no network and no Python. What it shows is described in docs/reference/report.md.
+    The page needs neither a network nor Python. docs/reference/report.md describes it.
     """
 
     __slots__ = ("_page", "title")
@@ -64,17 +64,17 @@ class Report:
         return f"Report({self.title!r}, {len(self._page) / 1e6:.1f} MB)"
 
     def _repr_html_(self) -> str:
-        # The page is a document of its own: it neither sees the notebook nor is seen by it.
+        # The page is a separate document: it and the notebook cannot access each other.
         return (f'<iframe sandbox="allow-scripts allow-downloads" title="{html.escape(self.title)}"'
                 f' style="width: 100%; height: {_HEIGHT}px; border: 0"'
                 f' srcdoc="{html.escape(self.html)}"></iframe>')
 
 
 def require_page() -> None:
-    """Before anything is computed."""
+    """To be called before the computation."""
     if not _core.has_page():
-        raise NotBuiltIn("report: the page of reports is not in this libph, for npm or its packages "
-                         "were not there when it was built. Install Node.js with npm (Debian: apt "
+        raise NotBuiltIn("report: this build of libph has no page of reports, because npm or its packages "
+                         "were missing. Install Node.js with npm (Debian: apt "
                          "install npm), then install libph again (pip install .)")
 
 
@@ -84,12 +84,12 @@ def report(data: Any, *, complex: str | None = None, title: str = "", **options:
     Parameters
     ----------
     data : array_like, sparse matrix, PointImage, Mesh, Simplices or Boundary
-        As of `rips`, `cubical` or `alpha`; or what `read` gives of a file.
+        As in `rips`, `cubical` or `alpha`; or the result of `read`.
     complex : {None, "rips", "cubical", "alpha"}
-        Of arrays, which of them. Default: cubical for three axes or more and for a PointImage,
-        else rips.
+        For arrays: which complex to use. Default: cubical for three axes or more and for a
+        PointImage, else rips.
     title : str
-        Of the page. Default: what the data are.
+        Title of the page. Default: a description of the data.
     **options
         All keywords of the function that computes the barcode.
 
@@ -110,10 +110,10 @@ def report(data: Any, *, complex: str | None = None, title: str = "", **options:
 
 
 class _Source(NamedTuple):
-    """What bars are computed of, and what a page shows beside them."""
+    """The data from which bars are computed, and the data that a page shows with them."""
 
     request: Request
-    vertices: Any = None  # where they are
+    vertices: Any = None  # their positions
     has_axes: bool = False
 
 
@@ -148,7 +148,7 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     kind = meta.get("complex")
     known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
     given = {name: meta[name] for name in known if meta.get(name) is not None}
-    if given.get("diagonal") == "births":  # these are the weights
+    if given.get("diagonal") == "births":  # points are given by their weights
         given.pop("weights", None)
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None
@@ -157,9 +157,9 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
                          "Boundary, as ph.read gives them")
     for name, unknown in (("metric", "function"), ("weights", "given")):
         if given.get(name) == unknown and name not in options:
-            raise UsageError(f"{name}: found none, expected what the bars were computed with")
+            raise UsageError(f"{name}: found none, expected the value with which the bars were computed")
     if "covering_radius" in meta and not {"subsample", "subsample_radius"} & {*given, *options}:
-        raise UsageError("subsample: found none, expected what the bars were computed with")
+        raise UsageError("subsample: found none, expected the value with which the bars were computed")
     if isinstance(X, PointImage):
         given.pop("nan", None)
     if kind in ALPHA_VALUES:

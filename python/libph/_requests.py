@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From the keywords of a function to what _core computes."""
+"""Translates the keywords of a function into requests to _core."""
 from __future__ import annotations
 
 import functools
@@ -16,7 +16,7 @@ from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn,
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
-_MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
+_MOST_DIMENSIONS = 1_000_000  # larger than any simplex that fits into memory
 _EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
 ALPHA_VALUES = ["alpha", "delaunay-cech", "delaunay-rips"]
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}
@@ -29,7 +29,7 @@ class PointImage(NamedTuple):
     Attributes
     ----------
     image : ndarray
-        Axis k is coordinate k. NaN: the voxel is absent.
+        Values of the voxels; axis k is coordinate k. NaN: the voxel is absent.
     first : ndarray
         The centre of the voxel at (0, ..., 0), in the coordinates of the points.
     voxel : float
@@ -42,16 +42,16 @@ class PointImage(NamedTuple):
 
 
 class Request(NamedTuple):
-    """A complex to build, what to compute of it, and how."""
+    """A complex to build, what to compute from it, and how."""
 
     recipe: _core.Recipe
     task: _core.Task | None
-    options: dict[str, Any]  # of the run
+    options: dict[str, Any]  # options of the run
     meta: dict[str, Any]
     slab_layers: int = 0
 
     def run(self, function: Callable[..., _Result]) -> _Result:
-        """Calls a function of _core; what it finds is said in terms of the keywords."""
+        """Calls a function of _core and translates its errors into the terms of the keywords."""
         arguments = (self.recipe,) if self.task is None else (self.recipe, self.task)
         try:
             return _run.run(function, *arguments, options=self.options,
@@ -60,7 +60,7 @@ class Request(NamedTuple):
             raise self.told(error) from None
 
     def told(self, error: Error) -> Error:
-        """What is wrong, with a way out where a keyword is one."""
+        """The error message, with the keyword that helps if there is one."""
         message = str(error)
         if isinstance(error, MemoryLimitError):
             return self._with_ways_to_fit(error)
@@ -121,7 +121,7 @@ def _task_of(o: dict[str, Any], loops: str, kinds: tuple[str, ...] = _CHAINS) ->
                  o["min_persistence"], o["representatives"], o["cells"], loops, kinds)
     try:
         return _cached_task(*arguments)
-    except TypeError:  # a list, for one, cannot be looked up
+    except TypeError:  # a list, for example, is not hashable
         return _task(*arguments)
 
 
@@ -144,7 +144,7 @@ def _threshold(o: dict[str, Any], least: float = -math.inf) -> float | None:
 
 
 def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
-    """What a barcode knows of its origin; what was found out on the way comes later."""
+    """The facts about the origin of a barcode that are known before the computation."""
     kind = o["representatives"]
     meta = {"complex": complex_name, "field": o["field"], "threshold": o["threshold"],
             "min_persistence": float(o["min_persistence"]), "min_dim": int(o["min_dim"]) or None,
@@ -153,7 +153,7 @@ def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
 
 
 def rips_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `rips`, and X."""
+    """The request for X and all keywords of `rips`."""
     _run.check_names("rips", o["run"], o)
     source = source_of(o["X"], metric=o["metric"], minkowski_p=o["minkowski_p"], nan=o["nan"],
                        diagonal=o["diagonal"], symmetrise=o["symmetrise"])
@@ -205,7 +205,7 @@ def _finite(name: str, value: Any) -> float:
 
 def _weights(o: dict[str, Any], source: Source
              ) -> tuple[NDArray[np.float64] | None, int | None, str]:
-    """Births, neighbours of the distance to a measure, exponent."""
+    """Returns births, the number of neighbours of the distance to a measure, and the exponent."""
     weights, neighbours, exponent = o["weights"], o["dtm_neighbors"], o["weight_exponent"]
     is_dtm = isinstance(weights, str)
     if weights is not None and source.births is not None:
@@ -240,7 +240,7 @@ def _weights(o: dict[str, Any], source: Source
 
 
 def alpha_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `alpha`, and X."""
+    """The request for X and all keywords of `alpha`."""
     _run.check_names("alpha", o["run"], o)
     value = _options.choice("values", o["values"], ALPHA_VALUES)
     source = source_of(o["X"], nan=o["nan"])
@@ -255,11 +255,11 @@ def alpha_request(o: dict[str, Any]) -> Request:
 
 def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
                  threshold: float | None = None) -> tuple[_core.AlphaRecipe, bool, list[float]]:
-    """With whether values are squares, and the lengths of axes that close up."""
+    """Returns also whether values are squares, and the lengths of periodic axes."""
     if not _core.alpha_support():
-        raise NotBuiltIn("alpha: alpha complexes are not in this libph, for CGAL was not there when "
-                         "it was built. Install it (Debian: apt install libcgal-dev), then install "
-                         "libph again (pip install .); what has CGAL in it falls under the GPL")
+        raise NotBuiltIn("alpha: this build of libph has no alpha complexes, because CGAL was "
+                         "missing. Install it (Debian: apt install libcgal-dev), then install "
+                         "libph again (pip install .); a build with CGAL falls under the GPL")
     dims = source.coordinates
     if dims is not None and not 1 <= dims <= 3 and source.points:
         raise UsageError(f"X: found points of R^{dims}, expected R^1 to R^3; ph.rips takes any")
@@ -285,10 +285,10 @@ def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
 
 
 def _period(period: Any, axes: int) -> list[float]:
-    """A length for each axis, 0 where none closes up; empty: none does."""
+    """A length for each axis, 0 for axes that are not periodic; empty if none is."""
     if period is None:
         return []
-    expected = f"a length, or one for each of {axes} axes, 0 or None where it does not close up"
+    expected = f"a length, or one for each of {axes} axes, 0 or None for an axis that does not close up"
     if isinstance(period, (str, bytes)) or np.ndim(period) > 1:
         raise _options.refuse("period", period, expected)
     given = [period] * axes if np.ndim(period) == 0 else list(period)
@@ -298,7 +298,7 @@ def _period(period: Any, axes: int) -> list[float]:
 
 
 def cubical_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `cubical`, and the image."""
+    """The request for the image and all keywords of `cubical`."""
     _run.check_names("cubical", o["run"], o)
     image, nan = o["image"], _options.choice("nan", o["nan"], ["error", "drop"])
     if isinstance(image, PointImage):
@@ -320,7 +320,7 @@ def cubical_request(o: dict[str, Any]) -> Request:
 
 
 def lower_star_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `lower_star`, values and simplices."""
+    """The request for values, simplices and all keywords of `lower_star`."""
     _run.check_names("lower_star", o["run"], o)
     values = _arrays.as_values(o["values"], "values")
     cells = simplex_list(o["simplices"])
@@ -330,7 +330,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
 
 
 def filtered_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `filtered`, simplices and values."""
+    """The request for simplices, values and all keywords of `filtered`."""
     _run.check_names("filtered", o["run"], o)
     cells = simplex_list(o["simplices"])
     values = joined_values(o["values"], len(cells))
@@ -340,7 +340,7 @@ def filtered_request(o: dict[str, Any]) -> Request:
 
 
 def boundary_request(o: dict[str, Any]) -> Request:
-    """Of all keywords of `boundary`, matrix, dims and values."""
+    """The request for matrix, dims, values and all keywords of `boundary`."""
     _run.check_names("boundary", o["run"], o)
     matrix = o["matrix"]
     if not _arrays.is_sparse(matrix):
@@ -353,7 +353,7 @@ def boundary_request(o: dict[str, Any]) -> Request:
     columns.sum_duplicates()
     incidences = _arrays.as_integers(columns.data, "matrix")
     if o["field"] == 2:
-        incidences = incidences % 2  # signs need not be known
+        incidences = incidences % 2  # signs do not matter
     columns = type(columns)((incidences, columns.indices, columns.indptr), shape=columns.shape)
     columns.eliminate_zeros()
     cells = columns.shape[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What results have in common: they say where they come from, and they can be pickled."""
+"""The common base of results: they state their origin, and they can be pickled."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -12,7 +12,7 @@ from ._errors import UsageError
 
 
 class Meta(Mapping[str, Any]):
-    """Where a result comes from: a dictionary that cannot be changed."""
+    """The origin of a result: an immutable dictionary."""
 
     __slots__ = ("_items",)
 
@@ -39,7 +39,7 @@ class Meta(Mapping[str, Any]):
 
 
 def with_arrays(state: Any) -> Any:
-    """A state of _core that can be pickled: its blocks are arrays."""
+    """A state of _core in a form that can be pickled, with blocks as arrays."""
     if isinstance(state, _core.Block):
         return np.asarray(state)
     if isinstance(state, dict):
@@ -48,14 +48,14 @@ def with_arrays(state: Any) -> Any:
 
 
 def require_version(found: int, expected: int) -> None:
-    """Refuses the state of another libph."""
+    """Refuses the state of another version of libph."""
     if found != expected:
         raise UsageError(f"pickle: found version {found}, expected {expected}: it was written by "
                          "another libph")
 
 
 def description_of(meta: Any) -> str:
-    """What the data were: "20 points in R^2". Empty: nobody knows."""
+    """A description of the data: "20 points in R^2". Empty if unknown."""
     if "shape" in meta:
         return " x ".join(map(str, meta["shape"]))
     if "points" not in meta:
@@ -65,7 +65,8 @@ def description_of(meta: Any) -> str:
 
 
 def vertex_weights_of(meta: Any) -> str:
-    """Why vertices enter late, as ph-barcode says it: "dtm 5, exponent 1". Empty: they do not."""
+    """Why vertices enter late, in the words of ph-barcode: "dtm 5, exponent 1". Empty if they do
+    not."""
     weights = meta.get("weights")
     if weights is None:
         return ""
@@ -77,13 +78,13 @@ def vertex_weights_of(meta: Any) -> str:
 
 
 def origin_of(meta: Any) -> dict[str, Any]:
-    """What files say of where a barcode came from."""
+    """The origin of a barcode as files state it."""
     known = {"input_description": description_of(meta), "vertex_weights": vertex_weights_of(meta)}
     return {**known, **meta, "program": f"libph {_core.version}"}
 
 
 def spaced(number: int) -> str:
-    """A number as people read it.
+    """A number with spaces between groups of three digits.
 
     >>> spaced(12345)
     '12 345'

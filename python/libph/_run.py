@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How computations are bounded, watched and stopped: the options that all of them have."""
+"""The options of all computations, which bound, watch and stop them."""
 from __future__ import annotations
 
 import atexit
@@ -17,13 +17,13 @@ _Result = TypeVar("_Result")
 
 
 class Stop(Protocol):
-    """What can tell to stop: a ``threading.Event``."""
+    """An object that can request a stop: a ``threading.Event``."""
 
     def is_set(self) -> bool: ...
 
 
 class RunOptions(TypedDict, total=False):
-    """Keywords that each computation takes."""
+    """Keywords that every computation accepts."""
 
     threads: int | None
     memory_limit: int | str | None
@@ -55,7 +55,7 @@ def limits(*, memory: int | str | None = None, threads: int | None = None,
     timeout : float, optional
         Seconds that a computation may take.
     progress : bool or callable, optional
-        Who is told of progress.
+        The receiver of progress reports; see `libph`.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def limits(*, memory: int | str | None = None, threads: int | None = None,
 
 def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, Any],
         slab_layers: int = 0) -> _Result:
-    """Calls a function of _core that takes RunOptions last.
+    """Calls a function of _core whose last argument is RunOptions.
 
     `options` are the keywords that the user gave.
     """
@@ -90,7 +90,7 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
 
 def check_names(function: str, options: Mapping[str, object],
                 known: Iterable[str] | Callable[..., Any] = ()) -> None:
-    """As Python does for keywords that are written out, with a hint.
+    """Refuses unknown keywords, as Python does for explicit ones, with a hint.
 
     `known` are the other keywords, or the function that has them.
     """
@@ -102,7 +102,7 @@ def check_names(function: str, options: Mapping[str, object],
 
 
 def _check(given: dict[str, Any]) -> dict[str, Any]:
-    """The options as _core takes them."""
+    """The options in the form that _core expects."""
     checked = {}
     for name, value in given.items():
         if name == "threads":
@@ -121,7 +121,7 @@ def _check(given: dict[str, Any]) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def _reporter(progress: Progress) -> Iterator[Callable[[str, int, int], object] | None]:
-    """What is told of progress: of True a bar of tqdm's, if it is installed."""
+    """The callback for progress: for True, a tqdm bar if tqdm is installed."""
     if not isinstance(progress, bool):
         yield progress
         return

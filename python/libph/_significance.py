@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which bars are more than chance, and which groups of barcodes differ."""
+"""Tests which bars are significant and whether groups of barcodes differ."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -23,30 +23,30 @@ _MOST = 2**63 - 1
 
 def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: str | None = None,
              corrected: bool = True) -> NDArray[np.float64]:
-    """The p-value of each bar: how likely noise is to have a bar that stands out as much.
+    """The p-value of each bar: the probability that noise has a bar that stands out as much.
 
-    Of point sets, for loops, voids and holes of higher dimension. log log (death / birth), shifted
+    For loops, voids and holes of higher dimension of point sets. log log (death / birth), shifted
     to the mean that it has for noise, follows one law whatever the points are drawn from
-    [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. Few bars say little: the
-    shift is their mean.
+    [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few bars the test is
+    weak, because the shift is their mean.
 
     Parameters
     ----------
     bars : Barcode or array_like
-        A barcode, or rows birth, death.
+        A barcode, or an array of rows birth, death.
     dim : int, optional
-        Of a barcode: the dimension, at least 1.
+        For a barcode: the dimension, at least 1.
     filtration : {"rips", "cech"}, optional
-        What the bars are of; "cech" also for alpha complexes. Default: "rips" for barcodes of
-        `rips`, "cech" for those of `alpha`.
+        The filtration of the bars; "cech" also for alpha complexes. Default: "rips" for barcodes of
+        `rips`, "cech" for barcodes of `alpha`.
     corrected : bool
-        Whether p is multiplied by the number of bars, at most 1 (Bonferroni): then all bars with p
+        If True, p is multiplied by the number of bars, up to 1 (Bonferroni): then all bars with p
         at most 0.05 are real with a probability of 95 %.
 
     Returns
     -------
     ndarray
-        A number for each bar of `dim`, in their order. NaN for bars that never die.
+        A p-value for each bar of `dim`, in their order. NaN for bars that never die.
 
     Examples
     --------
@@ -80,25 +80,25 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
 
 def confidence_radius(X: ArrayLike, *, alpha: float = 0.05, subsamples: int = 100,
                       size: int | None = None, seed: int = 0, **run: Unpack[RunOptions]) -> float:
-    """How far points may be from the whole of the set that they were drawn from.
+    """A bound on the distance between points and the set from which they were drawn.
 
-    With probability 1 - alpha the Hausdorff distance is at most c, as the number of points grows
-    [Fasy et al. 2014, subsampling]. So bars of the distance function that are longer than 2 c are
-    real. Bars of `rips` are twice as long, since its values are diameters: there those longer than
-    4 c are. The answer is careful: expect it to be large.
+    With probability 1 - alpha, the Hausdorff distance is at most c, as the number of points grows
+    [Fasy et al. 2014, subsampling]. Therefore bars of the distance function that are longer than 2
+    c are real. Bars of `rips` are twice as long, because its values are diameters: there, bars
+    longer than 4 c are real. The bound is conservative: expect it to be large.
 
     Parameters
     ----------
     X : array_like
-        Points, one a row; Euclidean.
+        Points, one per row; Euclidean.
     alpha : float
-        The probability to be wrong, above 0 and below 1.
+        The probability of being wrong, above 0 and below 1.
     subsamples : int
-        How many are drawn.
+        Number of subsamples.
     size : int, optional
-        Points of each. Default: n / ln n.
+        Number of points of each subsample. Default: n / ln n.
     seed : int
-        Of the random numbers; the same seed gives the same result.
+        Seed of the random numbers; the same seed gives the same result.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -130,7 +130,7 @@ class Band(NamedTuple):
     Attributes
     ----------
     mean : ndarray
-        In the shape of one function, as the others.
+        The mean, in the shape of one function, as are the others.
     lower : ndarray
         The lower end of the band.
     upper : ndarray
@@ -148,13 +148,13 @@ class Band(NamedTuple):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where. Default: a new figure.
+            The axes to draw on. Default: those of a new figure.
         grid : array_like, optional
-            Where the functions were evaluated. Default: 0, 1, 2, …
+            The values at which the functions were evaluated. Default: 0, 1, 2, …
         layer : int
-            Which row, of landscapes with several layers.
+            The row to draw, for landscapes with several layers.
         **options
-            Of the line, as `Axes.plot` takes them: `color`, `label`, …
+            Style of the line, passed to `Axes.plot`: `color`, `label`, …
 
         Returns
         -------
@@ -178,23 +178,23 @@ class Band(NamedTuple):
 
 def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: int = 1000,
                     seed: int = 0, **run: Unpack[RunOptions]) -> Band:
-    """The mean of functions such as landscapes, and a band that has the true mean in it.
+    """The mean of functions such as landscapes, and a band that contains the true mean.
 
-    With probability 1 - alpha the true mean lies in the band everywhere at once, as the number of
-    samples grows: the multiplier bootstrap [Chazal et al. 2014].
+    With probability 1 - alpha, the true mean lies in the band everywhere at once, as the number of
+    samples grows. Uses the multiplier bootstrap [Chazal et al. 2014].
 
     Parameters
     ----------
     functions : array_like
         An array whose first axis counts samples, at least 2: the rows that
-        `libph.sklearn.Landscape` makes, or ``[bars.landscape(1, range=...) for bars in ...]`` on
+        `libph.sklearn.Landscape` returns, or ``[bars.landscape(1, range=...) for bars in ...]`` on
         one grid.
     alpha : float
-        The probability to be wrong, above 0 and below 1.
+        The probability of being wrong, above 0 and below 1.
     repetitions : int
-        Of the bootstrap.
+        Number of repetitions of the bootstrap.
     seed : int
-        Of the random numbers; the same seed gives the same result.
+        Seed of the random numbers; the same seed gives the same result.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -227,14 +227,14 @@ def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: i
 
 
 class PermutationTest(NamedTuple):
-    """What `permutation_test` found.
+    """The result of `permutation_test`.
 
     Attributes
     ----------
     p : float
-        How likely groups of one distribution are to be as far apart.
+        The probability that groups from one distribution are as far apart.
     loss : float
-        The sum over the groups of half the mean of the distances within.
+        The sum over the groups of half the mean distance within each.
     """
 
     p: float
@@ -243,23 +243,23 @@ class PermutationTest(NamedTuple):
 
 def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000, power: float = 1.0,
                      seed: int = 0, **run: Unpack[RunOptions]) -> PermutationTest:
-    """Whether groups of barcodes differ [Robinson, Turner 2017].
+    """Tests whether groups of barcodes differ [Robinson, Turner 2017].
 
-    Labels are shuffled, and the mean distance within groups is compared.
+    The test shuffles the labels and compares the mean distances within groups.
 
     Parameters
     ----------
     distances : array_like
-        A square matrix, as `diagram_distances` makes it; finite.
+        A finite square matrix, as `diagram_distances` returns it.
     groups : sequence
-        Of each barcode its group: numbers other than NaN, or words. At least two groups of at
-        least two.
+        The group of each barcode: numbers other than NaN, or words. There must be at least two
+        groups of at least two barcodes.
     shuffles : int
-        How many. The least p is 1 / (shuffles + 1).
+        Number of shuffles. The least possible p is 1 / (shuffles + 1).
     power : float
-        Of the distances, above 0.
+        Exponent of the distances, above 0.
     seed : int
-        Of the random numbers; the same seed gives the same result.
+        Seed of the random numbers; the same seed gives the same result.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

@@ -23,12 +23,13 @@ class SimplexList(NamedTuple):
 
 
 def simplex_list(simplices: Any, name: str = "simplices") -> SimplexList:
-    """Takes an array with a simplex a row, a list of such arrays, or a list of vertex tuples."""
+    """Accepts an array with one simplex per row, a list of such arrays, or a list of vertex
+    tuples."""
     if isinstance(simplices, SimplexList):
         return simplices
     if isinstance(simplices, (str, bytes, dict)) or not isinstance(simplices, Iterable):
         raise UsageError(f"{name}: found {type(simplices).__name__}, expected an array with a "
-                         "simplex a row, a list of such arrays, or a list of tuples of vertices")
+                         "simplex per row, a list of such arrays, or a list of tuples of vertices")
     if hasattr(simplices, "__array__"):
         return _joined([_of_array(simplices, name)])
     items = list(simplices)
@@ -64,7 +65,7 @@ def _of_tuples(items: list[Any], name: str) -> SimplexList:
     try:
         numbers = _arrays.as_integers(vertices, name) if vertices else np.empty(0, dtype=np.int64)
     except (DataError, UsageError):
-        for i in range(len(items)):  # which of them it is
+        for i in range(len(items)):  # its index in the list
             _arrays.as_integers(vertices[offsets[i]:offsets[i + 1]], f"{name}: simplex {i}")
         raise
     if numbers.ndim != 1:
@@ -82,7 +83,7 @@ def _joined(parts: list[SimplexList]) -> SimplexList:
 
 
 def joined_values(values: Any, count: int, name: str = "values") -> NDArray[np.float64]:
-    """A number for each simplex, of one array or of an array for each of a list of arrays."""
+    """A number for each simplex: from one array, or from an array for each array of simplices."""
     if isinstance(values, (list, tuple)) and values and all(
             getattr(item, "ndim", 0) == 1 for item in values):
         values = np.concatenate([_arrays.as_values(item, f"{name}[{k}]")

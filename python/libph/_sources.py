@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where distances come from: points, matrices, functions; and what each of them needs of options."""
+"""Sources of distances: points, matrices, functions, with the options that each one accepts."""
 from __future__ import annotations
 
 import warnings
@@ -16,25 +16,25 @@ METRICS = {"euclidean": "euclidean", "manhattan": "manhattan", "chebyshev": "che
            "minkowski": "minkowski", "cosine": "cosine", "hamming": "hamming",
            "l2": "euclidean", "l1": "manhattan", "cityblock": "manhattan"}
 _ACCEPTED = "; symmetrise='max', 'min' or 'lower' accepts it"
-_ROUNDING = 1e-6  # of the largest distance, as in the readers of files
+_ROUNDING = 1e-6  # relative to the largest distance, as in the readers of files
 
 
 class Source(NamedTuple):
-    """Distances, and what was found in the data beside them."""
+    """Distances, and other facts found in the data."""
 
     space: _core.MetricSpace
     points: int
     coordinates: int | None = None            # of points
-    births: NDArray[np.float64] | None = None  # on the diagonal
-    ids: NDArray[np.int64] | None = None       # of the points that are left
+    births: NDArray[np.float64] | None = None  # births, from the diagonal
+    ids: NDArray[np.int64] | None = None       # numbers of the points that are left
 
 
 def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
               diagonal: Any = "zero", symmetrise: Any = None,
               has_nan_option: bool = True) -> Source:
-    """A metric space of what the user gave; a Source is one already.
+    """Makes a metric space from the user's data; a Source is returned unchanged.
 
-    Messages do not name the option `nan` of a function that has none.
+    For a function without an option `nan`, messages do not name this option.
     """
     if isinstance(X, Source):
         return X
@@ -60,7 +60,7 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
 
 
 def metric_name(metric: Any) -> str:
-    """The name of a metric, of its aliases the first; "function" of the user's own."""
+    """The first name of a metric; "function" for a user's own function."""
     if callable(metric):
         return "function"
     name = None
@@ -68,8 +68,8 @@ def metric_name(metric: Any) -> str:
         name = metric if metric == "precomputed" else METRICS.get(metric)
     if name is None:
         raise _options.refuse("metric", metric, ", ".join(METRICS) + ", 'precomputed' or a function "
-                              "of two points; scipy.spatial.distance.pdist has more: its distances "
-                              "are taken with metric='precomputed'")
+                              "of two points; scipy.spatial.distance.pdist has more metrics: its distances "
+                              "are accepted with metric='precomputed'")
     return name
 
 
@@ -99,7 +99,7 @@ def _of_matrix(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
     if diagonal == "zero" and _is_correlation(array):
         raise DataError("X: found 1 on all of the diagonal and nothing beyond, as correlations are, "
                         "expected distances, with 0 there; 1 - X are distances; diagonal='births' "
-                        "takes the diagonal for the births of the points, diagonal='any' for 0")
+                        "treats the diagonal as births of the points, diagonal='any' as 0")
     if array.ndim == 1 and (diagonal == "births" or symmetrise is not None):
         name = "diagonal" if diagonal == "births" else "symmetrise"
         raise UsageError(f"{name}: does nothing for condensed distances, expected a square matrix")
@@ -115,7 +115,7 @@ def _is_correlation(array: NDArray[Any]) -> bool:
     if array.ndim != 2 or len(array) < 2 or not _are_near(np.diagonal(array), 1, _ROUNDING):
         return False
     with np.errstate(invalid="ignore"):
-        return not (np.abs(array) > 1 + _ROUNDING).any()  # NaN is no objection
+        return not (np.abs(array) > 1 + _ROUNDING).any()  # NaN is allowed here
 
 
 def _are_near(numbers: NDArray[Any], number: Any, rounding: float) -> bool:
@@ -124,8 +124,8 @@ def _are_near(numbers: NDArray[Any], number: Any, rounding: float) -> bool:
 
 
 def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
-    """An array that is symmetric and has 0 or 1 on its diagonal is hardly one of points, unless they
-    are the corners of a regular simplex, with two numbers as coordinates."""
+    """A symmetric array with 0 or 1 on its diagonal hardly holds points. The exception are the
+    corners of a regular simplex, whose coordinates take two values."""
     rows, columns = points.shape
     if rows != columns or rows < 4:
         return
@@ -143,7 +143,7 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
 
 
 def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
-    """Both triangles are read. Zeros that are stored are distances; what is not stored never joins."""
+    """Both triangles are read. Stored zeros are distances; pairs that are not stored never join."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
     row, column, values = _arrays.sparse_entries(X)
@@ -165,8 +165,8 @@ def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
         elif diagonal == "zero":
             wrong = on_diagonal & (np.abs(values) > rounding)
             if wrong.any():
-                _fail(row, column, values, wrong, "0 on the diagonal; diagonal='births' takes it "
-                      "for the birth of the point, diagonal='any' for 0")
+                _fail(row, column, values, wrong, "0 on the diagonal; diagonal='births' treats it "
+                      "as the birth of the point, diagonal='any' as 0")
     keep = ~on_diagonal & (values != np.inf)
     row, column, values = row[keep], column[keep], values[keep]
     if (values < -rounding).any():
@@ -179,8 +179,8 @@ def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
 def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
                  rounding: float, symmetrise: str | None, hint: str, name: str = "X"
                  ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Each pair once. Entries of one pair must be equal; of those that differ by rounding the one
-    below the diagonal is taken."""
+    """Each pair once. Entries of one pair must be equal; if they differ by rounding, the one below
+    the diagonal is used."""
     i, j = np.minimum(row, column), np.maximum(row, column)
     order = np.lexsort((row > column, j, i))
     i, j, values = i[order], j[order], values[order]
@@ -205,8 +205,8 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
 
 def diagonal_of(size: int, places: NDArray[np.int64], values: NDArray[np.float64], rounding: float,
                 symmetrise: str | None, hint: str) -> NDArray[np.float64]:
-    """What a sparse matrix has on the diagonal, 0 where nothing is stored. Entries that are stored
-    twice are taken as those of pairs are."""
+    """The diagonal of a sparse matrix, 0 where nothing is stored. Entries that are stored twice are
+    treated like the two entries of a pair."""
     i, _, values = unique_pairs(places, places, values, rounding, symmetrise, hint)
     diagonal = np.zeros(size)
     diagonal[i] = values
@@ -237,7 +237,7 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -
                                 f"{type(distance).__name__}, expected a number") from None
             place += 1
     if n == 0:
-        distances = np.empty((0, 0))  # no numbers are the condensed form of one point
+        distances = np.empty((0, 0))  # an empty array is the condensed form of one point
     space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none,
                                            _policy(nan), True, nan is not None)
     return Source(space, n)

@@ -26,12 +26,12 @@ class Surface(NamedTuple):
     Attributes
     ----------
     vertices : ndarray
-        The points, all of them, (n, 2) or (n, 3); of no points (0, 3).
+        All points, (n, 2) or (n, 3); without points (0, 3).
     triangles : ndarray
         Rows of three points, (m, 3). Seen from outside they are counterclockwise.
     singular : ndarray of bool
-        Which triangles have no tetrahedron of the complex on either side; they come last. Of
-        points of the plane none has.
+        True for triangles without a tetrahedron of the complex on either side; they come last. For
+        points of the plane, this holds for all triangles.
     """
 
     vertices: NDArray[np.float64]
@@ -39,17 +39,18 @@ class Surface(NamedTuple):
     singular: NDArray[np.bool_]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the surface, with the points that it has, as a PLY or OFF file.
+        """Writes the surface and its points as a PLY or OFF file.
 
         Parameters
         ----------
         path : path
-            Its extension, ``.ply`` or ``.off``, says the format. PLY names the points, too.
+            The file; its extension, ``.ply`` or ``.off``, selects the format. PLY also stores the
+            numbers of the points.
 
         Raises
         ------
         UsageError, DataError
-            If the arrays do not fit together, as those that `alpha_shape` gives do.
+            If the arrays do not fit together as they do in the result of `alpha_shape`.
         """
         name = path_of(path)
         if not name.lower().endswith((b".ply", b".off")):
@@ -59,7 +60,7 @@ class Surface(NamedTuple):
                  regular, options={})
 
     def _checked(self) -> tuple[NDArray[np.float64], NDArray[np.int64], int]:
-        """Vertices, triangles, and how many of these are not singular."""
+        """Vertices, triangles, and the number of triangles that are not singular."""
         points = _arrays.as_points(self.vertices, "vertices")
         if points.shape[1] not in (2, 3):
             raise UsageError(f"vertices: found an array of shape {points.shape}, expected (n, 2) "
@@ -88,9 +89,10 @@ class Surface(NamedTuple):
 def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | None = None,
                 weights: ArrayLike | None = None, nan: str = "error",
                 **run: Unpack[RunOptions]) -> Surface:
-    """The surface of the alpha complex of points at a value: what balls of that radius enclose.
+    """The surface of the alpha complex of points at a value: it encloses the union of balls of that
+    radius.
 
-    Of points of the plane it is all triangles up to the value.
+    For points of the plane, it consists of all triangles up to the value.
 
     Parameters
     ----------
@@ -99,10 +101,11 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     value : float
         The radius, or its square if `squared`.
     wrap : bool
-        The wrap complex instead: the critical simplices up to the value with all that lies below
-        them. It has the same holes without frayed edges [Edelsbrunner 2003].
+        If True, use the wrap complex instead: the critical simplices up to the value with
+        everything below them in the gradient. It has the same holes without frayed edges
+        [Edelsbrunner 2003].
     squared, weights, nan
-        As of `alpha`.
+        As in `alpha`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -123,6 +126,6 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     corners, regular = _run.run(_core.surface, recipe, at, _options.flag("wrap", wrap),
                                 options=dict(run))
     triangles = np.asarray(corners).reshape(-1, 3)
-    # A copy: the surface stays what it is when the caller's array changes.
+    # A copy, so that the surface does not change with the caller's array.
     vertices = np.array(_arrays.as_points(X)) if source.points else np.empty((0, 3))
     return Surface(vertices, triangles, np.arange(len(triangles)) >= regular)

@@ -22,23 +22,24 @@ _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
 class MergeTree:
     """H0 as a tree: how components of the sublevel sets join as the value grows.
 
-    Of points this is single-linkage clustering. Vertices are points, or voxels in C
-    order; corners of voxels, where the construction is "cells".
+    For points, this is single-linkage clustering. Vertices are points, or voxels in C order; with
+    the construction "cells", they are corners of voxels.
 
     Attributes
     ----------
     births : ndarray
-        When each vertex enters; inf: never.
+        The value at which each vertex enters; inf if it never does.
     values : ndarray
-        Of each merge its value, ascending.
+        The value of each merge, ascending.
     edges : ndarray
-        Of each merge the edge that joins two components: of a minimum spanning forest, (m, 2).
+        The edge that joins two components in each merge, (m, 2). Together they form a minimum
+        spanning forest.
     elder : ndarray
-        Of each merge the vertex that gave birth to the component that survives.
+        The birth vertex of the component that survives each merge.
     younger : ndarray
-        Of each merge the vertex that gave birth to the component that dies.
+        The birth vertex of the component that dies in each merge.
     shape : tuple of int or None
-        Of an image: what `components` and `basins` may be reshaped to.
+        For an image: the shape to which `components` and `basins` can be reshaped.
     """
 
     def __init__(self, tree: _core.MergeTree, shape: tuple[int, ...] | None) -> None:
@@ -66,22 +67,24 @@ class MergeTree:
     def linkage(self) -> NDArray[np.float64]:
         """The merges as a linkage matrix of ``scipy.cluster.hierarchy``.
 
-        Rows of two clusters, value and size: n - 1 of them if all n vertices become one component.
+        Each row has two clusters, a value and a size. There are n - 1 rows if all n vertices become
+        one component.
         """
         return np.asarray(self._tree.linkage)
 
     def components(self, t: float) -> NDArray[np.int64]:
-        """For each vertex the vertex that gave birth to its component at the value `t`.
+        """For each vertex, the birth vertex of its component at the value `t`.
 
         -1 for a vertex that has not entered.
         """
         return np.asarray(self._tree.components(_options.real("t", t)))
 
     def basins(self, min_persistence: float, min_size: int = 1) -> NDArray[np.int64]:
-        """For each vertex a vertex of its basin, the same for all of it; -1 if it never enters.
+        """For each vertex, one vertex that stands for its whole basin; -1 if the vertex never
+        enters.
 
-        Two basins stay apart if the merge of their components is so persistent, and both have so
-        many vertices: clustering by persistence (ToMATo).
+        Two basins stay apart if the merge of their components has at least this persistence and
+        both have at least this many vertices: clustering by persistence (ToMATo).
         """
         return np.asarray(self._tree.basins(_options.real("min_persistence", min_persistence),
                                             _options.whole("min_size", min_size, 1)))
@@ -98,15 +101,16 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
     Parameters
     ----------
     data : array_like, sparse matrix or PointImage
-        As of `rips`, `cubical` or `alpha`.
+        As in `rips`, `cubical` or `alpha`.
     complex : {None, "rips", "cubical", "alpha"}
-        Which of them. Default: cubical for three axes or more and for a PointImage, else rips.
+        Which complex to use. Default: cubical for three axes or more and for a PointImage, else
+        rips.
     **options
-        As of `rips`: `threshold`, `metric`, `minkowski_p`, `weights`, `dtm_neighbors`,
-        `weight_exponent`, `nan`, `diagonal`, `symmetrise`. As of `cubical`: `threshold`,
-        `construction`, `superlevel`, `periodic`, `nan`. As of `alpha`: `threshold`, `values`,
-        `squared`, `weights`, `nan`. And `threads`, `memory_limit`, `progress`, `timeout`, `stop`.
-        With ``nan="drop"`` points that are left out never enter.
+        As in `rips`: `threshold`, `metric`, `minkowski_p`, `weights`, `dtm_neighbors`,
+        `weight_exponent`, `nan`, `diagonal`, `symmetrise`. As in `cubical`: `threshold`,
+        `construction`, `superlevel`, `periodic`, `nan`. As in `alpha`: `threshold`, `values`,
+        `squared`, `weights`, `nan`. Also `threads`, `memory_limit`, `progress`, `timeout`, `stop`.
+        With ``nan="drop"``, points that are left out never enter.
 
     Returns
     -------
@@ -129,7 +133,7 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
         if name not in allowed:
             raise UsageError(f"{name}: does nothing for a merge tree of {request.meta['complex']}, "
                              f"expected {', '.join(allowed)}")
-    points = request.meta.get("points", 0)  # those that nan="drop" leaves out included
+    points = request.meta.get("points", 0)  # including the points that nan="drop" leaves out
     tree = request._replace(task=None).run(functools.partial(_core.merge_tree, size=points))
     shape = request.meta.get("shape")
     if shape is not None and request.meta["construction"] == "cells":

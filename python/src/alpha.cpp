@@ -53,7 +53,7 @@ std::unique_ptr<AlphaRecipe> recipe_of(std::shared_ptr<MetricSpace> space, const
                                        ids ? vector_of<Index>(*ids) : std::vector<Index>());
 }
 
-/// The corners of the triangles, three of each, and how many of these are regular.
+/// The corners of the triangles, three per triangle, and the number of regular triangles.
 py::tuple surface_of(const AlphaRecipe& recipe, double value, bool is_wrap,
                      const RunOptions& options) {
   SurfaceMesh mesh = run(options, false, [&](const RunContext& context) {

@@ -8,10 +8,10 @@
 
 namespace ph::python {
 
-/// Of points, in one to three dimensions, which it shares.
+/// Alpha complexes of points in one to three dimensions; the recipe shares the points.
 class AlphaRecipe final : public Recipe {
  public:
-  /// @param ids of the points in the input; empty: their numbers.
+  /// @param ids of the points in the input; empty: their own numbers.
   AlphaRecipe(std::shared_ptr<const MetricSpace> space, AlphaOptions options,
               std::vector<Index> ids)
       : space_(std::move(space)), options_(std::move(options)), ids_(std::move(ids)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The parts of the module, one a file, in the order in which they are added.
+// The parts of the module, one per file, in the order in which they are added.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

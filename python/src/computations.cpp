@@ -52,7 +52,7 @@ Bars barcode(const Recipe& recipe, const Task& task, const RunOptions& options) 
              [&](const RunContext& context) { return compute(recipe, task, context); });
 }
 
-/// Of each recipe its barcode; recipes and tasks belong together.
+/// The barcode of each recipe; recipes and tasks correspond.
 std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
                            const std::vector<Task>& tasks, const RunOptions& options) {
   return run(options, false, [&](const RunContext& context) {
@@ -93,7 +93,7 @@ std::vector<WayOut> ways_to_fit(const Recipe& recipe, const Task& task, const Ru
   return ways;
 }
 
-/// The edges that are left: larger end, smaller end, value.
+/// The remaining edges: larger end, smaller end, value.
 py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
   struct Edges {
     std::vector<std::int64_t> u, v;
@@ -113,7 +113,7 @@ py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
                         Block::of(std::move(edges.values)));
 }
 
-/// @throws Error (usage) if there is none of that name.
+/// @throws Error (usage) if nothing has this name.
 Engine engine_of(const std::string& name) {
   if (const std::optional<Engine> engine = engine_named(name)) return *engine;
   throw Error(ErrorKind::usage, "engine: found '" + name + "', expected one of engine_names()");

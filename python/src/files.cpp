@@ -23,7 +23,7 @@
 namespace ph::python {
 namespace {
 
-/// What was read, as arrays and plain values.
+/// The data that were read, as arrays and plain values.
 class Answer {
  public:
   explicit Answer(SharedContext context) : context_(std::move(context)) {}
@@ -31,7 +31,7 @@ class Answer {
   py::dict operator()(Points& points) const {
     return of("points", {{"points", py::cast(Block::of(std::move(points)))}});
   }
-  /// Both triangles, births on the diagonal.
+  /// Both triangles, with births on the diagonal.
   py::dict operator()(DistanceMatrix& distances) const {
     const Index n = distances.size();
     std::vector<double> square;
@@ -145,7 +145,7 @@ py::dict read(const std::string& path, const std::string& format_name,
                 "format: found '" + format_name + "', expected one of format_names()");
   std::vector<Index> dropped;
   how.dropped = &dropped;
-  SharedContext used;  // by what was read, too
+  SharedContext used;  // also used by the data that were read
   ReadResult result;
   run_task(options, false, [&](const SharedContext& context) {
     used = context;

@@ -5,7 +5,7 @@
 
 PYBIND11_MODULE(_core, m) {
   using namespace ph::python;
-  m.doc() = "What libph has in C++. No interface: use the functions of the package libph.";
+  m.doc() = "The C++ part of libph. Use the functions of the package libph instead.";
   m.attr("version") = PH_VERSION;
   bind_errors(m);
   bind_run(m);

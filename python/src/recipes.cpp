@@ -14,8 +14,8 @@
 namespace ph::python {
 namespace {
 
-// Cells that the engine which is chosen is through with in milliseconds, whatever the input: to
-// start a thread takes a tenth of one, more on a busy machine. 215 points up to H1, 80 up to H2.
+// The number of cells that the chosen engine processes in milliseconds, whatever the input:
+// starting a thread takes a tenth of one, more on a busy machine. 215 points up to H1, 80 up to H2.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
 
@@ -69,7 +69,7 @@ Rips RipsRecipe::rips(const RunContext& context) const {
 Built RipsRecipe::build(const RunContext& context) const { return {rips(context)}; }
 
 bool RipsRecipe::is_short(const Options& task) const {
-  // A simplex that is listed has max_dim + 2 vertices at most.
+  // A listed simplex has at most max_dim + 2 vertices.
   return task.engine == Engine::automatic && std::pow(static_cast<double>(space_->size()),
                                                       task.max_dim.value_or(1) + 2) < kFewSimplices;
 }
@@ -127,7 +127,7 @@ Built ListedRecipe::build(const RunContext& context) const {
 }
 
 bool ListedRecipe::is_short(const Options& task) const {
-  // Columns may become as long as there are cells.
+  // Columns may become as long as the number of cells.
   constexpr std::size_t few = 1000;
   return task.engine == Engine::automatic && cells_ < few;
 }
@@ -154,7 +154,7 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
                                       const py::buffer& vertex_values,
                                       std::optional<double> threshold) {
   SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), {}};
-  list.values.resize(list.size());  // have no say
+  list.values.resize(list.size());  // values without an effect
   std::vector<double> values = vector_of<double>(vertex_values);
   const std::size_t cells = values.size() + 4 * list.vertices.size();
   return std::make_unique<ListedRecipe>(

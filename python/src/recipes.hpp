@@ -15,43 +15,44 @@
 
 namespace ph::python {
 
-/// Whether bars of H1 that come with cycles come with loops, too.
+/// True if bars of H1 that have cycles also get loops.
 enum class LoopChoice { none, plain, tight };
 
-/// What is computed.
+/// The computation to run.
 struct Task {
   Options options;
   LoopChoice loops = LoopChoice::none;
 };
 
-/// A complex, and what was found out while it was built.
+/// A complex, and the facts found while it was built.
 struct Built {
   AnyComplex complex;
   Facts facts = {};
 };
 
-/// What a complex is built of, and how. It is built within a run, which can be stopped.
+/// The data and options from which a complex is built. It is built within a run, which can be
+/// stopped.
 class Recipe {
  public:
   virtual ~Recipe() = default;
   /// @param context outlives the complex.
   virtual Built build(const RunContext& context) const = 0;
-  /// Whether building it and computing its homology takes milliseconds at most.
+  /// True if building it and computing its homology takes milliseconds at most.
   virtual bool is_short(const Options& options) const = 0;
-  /// By vertex of the complex its number in the input; empty: its own.
+  /// For each vertex of the complex its number in the input; empty: the vertex's own number.
   virtual const std::vector<Index>& vertex_ids() const;
 
   // For a page that shows the data.
-  /// The points, if it is built of some.
+  /// The points, if the complex is built from points.
   virtual std::optional<PointsView> points() const { return std::nullopt; }
-  /// Whether all pairs of points within a distance are the edges at that distance.
+  /// True if the edges at a distance are all pairs of points within it.
   virtual bool is_euclidean() const { return false; }
 };
 
 class RipsRecipe final : public Recipe {
  public:
-  /// @param options but for the distance of points, which the space has. @param ids of the points
-  /// in the input; empty: their numbers.
+  /// @param options except the metric, which the space has. @param ids of the points in the input;
+  /// empty: their own numbers.
   RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options, std::vector<Index> ids);
 
   Built build(const RunContext& context) const override;
@@ -59,7 +60,7 @@ class RipsRecipe final : public Recipe {
   const std::vector<Index>& vertex_ids() const override { return ids_; }
   std::optional<PointsView> points() const override;
   bool is_euclidean() const override;
-  /// The edges of the complex after they were collapsed.
+  /// The edges of the complex after the collapse.
   RipsGraph collapsed(const RunContext& context) const;
 
  private:
@@ -70,10 +71,11 @@ class RipsRecipe final : public Recipe {
   const std::vector<Index> ids_;
 };
 
-/// Of an image in an array of one of the types of voxels, which it keeps.
+/// The complex of an image in an array with one of the voxel types; the recipe keeps the array
+/// alive.
 class CubicalRecipe final : public Recipe {
  public:
-  /// @param is_file whether the array is a file that is mapped and cannot be written.
+  /// @param is_file true if the array is a mapped file that cannot be written.
   CubicalRecipe(const py::buffer& image, bool is_masked, bool is_file, CubicalOptions options);
 
   Built build(const RunContext& context) const override;
@@ -88,7 +90,7 @@ class CubicalRecipe final : public Recipe {
   CubicalOptions options_;
 };
 
-/// Of cells that are listed one by one.
+/// A complex of cells that are listed one by one.
 class ListedRecipe final : public Recipe {
  public:
   using List = std::function<ExplicitComplex(const RunContext&)>;

@@ -47,7 +47,7 @@ report::Provenance provenance_of(const py::dict& meta,
   return provenance;
 }
 
-/// A tree that has not all bars is one of other data. @throws Error (bad_data).
+/// A tree that lacks some of the bars belongs to other data. @throws Error (bad_data).
 void require_bars(const report::ShownTree& tree, const Barcode& barcode) {
   std::vector<bool> is_linked(barcode.bars(0).size());
   for (const auto* bars : {&tree.bars.of_merge, &tree.bars.of_vertex})
@@ -58,13 +58,13 @@ void require_bars(const report::ShownTree& tree, const Barcode& barcode) {
     if (is_linked[i] || !(bar.persistence() > 0)) continue;
     throw Error(ErrorKind::bad_data,
                 fmt::format("X: its merge tree has no class [{}, {}), which is a bar of H0; are "
-                            "these the data and the options that the bars were computed of?",
+                            "these the data and the options from which the bars were computed?",
                             bar.birth, bar.death));
   }
 }
 
 /// @param recipe null: the bars alone.
-/// @param vertices float64, a vertex of the complex a row; none: as the recipe has them.
+/// @param vertices float64, one vertex of the complex per row; none: the vertices of the recipe.
 py::bytes page_of_bars(const Bars& bars, const Recipe* recipe, const Task& task,
                        const std::optional<py::buffer>& vertices, bool has_axes_of_space,
                        const std::string& title, const py::dict& meta,

@@ -26,7 +26,8 @@ using Task = std::function<void(const SharedContext&)>;
 
 constexpr std::chrono::milliseconds kLook(20);
 
-/// What the machine has for us, less what this process has already: the arrays of the caller.
+/// The free memory of the machine for this process, less the memory that it already uses: the
+/// arrays of the caller.
 std::size_t memory_left() {
   static const std::size_t all = machine_memory();  // slow to find out
   return all - std::min<std::size_t>(all, status_bytes("RssAnon:").value_or(0));
@@ -40,18 +41,19 @@ std::shared_ptr<RunContext> new_context(const RunOptions& options) {
   return context;
 }
 
-/// The calls that are under way, guarded by the GIL.
+/// The calls in progress, guarded by the GIL.
 ///
-/// When Python ends, a thread that comes back to it from one would be ended within C++, and the
-/// process with it. So the last thing Python does is to stop them and to wait until they are back.
+/// When Python ends, a thread that returns to it from a call would be ended within C++, and the
+/// process with it. Therefore the last thing that Python does is to stop these calls and wait for
+/// their return.
 class Calls {
  public:
-  /// One call: as long as it lives. Made and destroyed with the GIL.
+  /// Represents one call while it lives. Made and destroyed with the GIL.
   class Call {
    public:
     explicit Call(std::stop_source* stop = nullptr) : stop_(stop) {
       if (ender_ != std::thread::id() && ender_ != std::this_thread::get_id())
-        throw Error(ErrorKind::cancelled, "Python is at its end");
+        throw Error(ErrorKind::cancelled, "Python is shutting down");
       calls_.push_back(this);
     }
     ~Call() { std::erase(calls_, this); }
@@ -74,11 +76,11 @@ class Calls {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  /// In a process that was forked: their threads are not there.
+  /// In a forked process, the threads of these calls do not exist.
   static void forget_all() { calls_.clear(); }
 
  private:
-  static inline std::thread::id ender_;  // none: Python goes on
+  static inline std::thread::id ender_;  // none: Python continues
   static inline std::vector<const Call*> calls_;
 };
 
@@ -91,7 +93,7 @@ News news_of(const Progress& progress) {
   return {std::string(progress.stage), progress.done, progress.total};
 }
 
-/// A computation on a thread of its own, and what the caller's thread is told of it.
+/// A computation on a thread of its own, and its messages to the caller's thread.
 class Computation {
  public:
   Computation(const RunOptions& options, const Task& task)
@@ -103,30 +105,31 @@ class Computation {
 
   std::stop_source& stop() { return stop_; }
 
-  /// Until it is done.
+  /// Waits until it is done.
   void run() {
     if (!options_.memory_limit) context_->memory.set_limit(memory_left());
-    look(std::nullopt);  // it may have been stopped before it began, and be short
+    look(std::nullopt);  // it may have been stopped before it began, and finish soon
     context_->poll();
     std::jthread worker;
     try {
       worker = std::jthread([this] { compute(); });
       unless_it_throws([this] { watch(); });
     } catch (const std::system_error&) {
-      // The system gives no thread: it looks after itself, where it says how far it is.
+      // If the system has no thread left, the computation checks for stops itself whenever it
+      // reports progress.
       context_->on_progress = [this](const Progress& progress) {
         unless_it_throws([&] { look_in_between(progress); });
       };
       compute();
     }
     if (worker.joinable()) worker.join();
-    context_->on_progress = nullptr;  // it may live on
+    context_->on_progress = nullptr;  // the thread may outlive this call
     if (of_caller_) std::rethrow_exception(of_caller_);
     if (error_) rethrow_error();
   }
 
  private:
-  // On the computation's thread.
+  // Called on the computation's thread.
   void compute() {
     try {
       task_(context_);
@@ -143,8 +146,8 @@ class Computation {
     changed_.notify_one();
   }
 
-  // On the caller's thread.
-  /// What a signal handler or a callback throws stops the computation.
+  // Called on the caller's thread.
+  /// An exception from a signal handler or a callback stops the computation.
   void unless_it_throws(const std::function<void()>& look) {
     try {
       if (!of_caller_) look();
@@ -228,7 +231,7 @@ void run_task(const RunOptions& options, bool is_short, const Task& task) {
   const Calls::Call call;
   const py::gil_scoped_release no_gil;
   const std::shared_ptr<RunContext> context = new_context(options);
-  if (options.threads == 0) context->threads = 1;  // a second one would take longer to start
+  if (options.threads == 0) context->threads = 1;  // a second thread would take longer to start
   task(context);
 }
 

@@ -14,7 +14,7 @@ bool is_placeholder(std::string_view value) { return value[0] >= 'A' && value[0]
 std::string in_keywords(Setting setting, std::string_view value) {
   const auto [name, given] = keyword_of(setting, value);
   if (name.empty() || given.empty()) return name;
-  // A camera is named in what is said of it.
+  // A camera is named in messages about it.
   if (setting == Setting::camera || is_placeholder(given)) return name + ' ' + given;
   if (setting == Setting::columns) return name + "=['" + given + "']";
   if (is_number(given)) return name + '=' + given;
@@ -31,8 +31,8 @@ Keyword keyword_of(Setting setting, std::string_view value) {
     return Keyword{std::string(name), std::string(value)};
   };
   switch (setting) {
-    case Setting::allow_empty:  // it always is
-    case Setting::labels:       // of a file, which is not written
+    case Setting::allow_empty:  // this option is always on
+    case Setting::labels:       // for a file, which is not written
     case Setting::plane_guess:
     case Setting::report:
       return {};

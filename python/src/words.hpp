@@ -7,12 +7,12 @@
 
 namespace ph::python {
 
-/// A keyword with a value, as it is: "nan", "drop".
+/// A keyword with a literal value: "nan", "drop".
 struct Keyword {
-  std::string name;  ///< empty: no function takes what the setting sets
+  std::string name;  ///< empty: no function has a keyword for the setting
   std::string value;
 };
-/// What sets the same in Python. Some settings have another name there, or another value.
+/// The Python keyword for a setting. Some settings have another name or another value there.
 Keyword keyword_of(Setting setting, std::string_view value);
 
 /// Settings as keywords: "nan='drop'".

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests share. PH_BARCODE: the program, to compare with."""
+"""Fixtures shared by all tests. PH_BARCODE: the program to compare with."""
 import os
 
 import numpy as np
@@ -16,7 +16,7 @@ def _names_of_doctests(doctest_namespace):
 
 @pytest.fixture
 def rng(request):
-    """Random numbers of the test's own, the same each time."""
+    """A separate random generator for each test, with the same numbers each time."""
     return np.random.default_rng(list(request.node.name.encode()))
 
 

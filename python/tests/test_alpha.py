@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph.alpha: bars against a triangulation of SciPy that is valued by the definition, weights, surfaces,
-what is refused."""
+"""ph.alpha: bars against a SciPy triangulation with values by the definition, weights, surfaces,
+refusals."""
 import itertools
 import pickle
 
@@ -71,7 +71,7 @@ def test_components_are_half_those_of_rips():
 
 
 def first_within(points, reach):
-    """For each point the first one of those it is joined to by steps of at most `reach`."""
+    """For each point, the first of the points that it reaches by steps of at most `reach`."""
     apart = np.linalg.norm(points[:, None] - points, axis=2) <= reach
     first = np.arange(len(points))
     for _ in points:
@@ -138,7 +138,7 @@ def test_a_file_keeps_what_values_are(tmp_path):
     points = np.random.default_rng(4).random((20, 2))
     for options in ({"squared": False}, {"squared": True}, {"squared": False, "period": 1}):
         bars = ph.alpha(points, **options)
-        for _ in range(2):  # what was read is written again
+        for _ in range(2):  # a surface that was read is written again
             bars.save(tmp_path / "bars.json")
             bars = ph.read_barcode(tmp_path / "bars.json")
             assert bars.meta["squared"] is options["squared"]
@@ -152,7 +152,7 @@ def test_periodic_spaces():
     bars = ph.alpha(points, period=1, squared=True)
     assert np.bincount(bars.dims[np.isinf(bars.deaths)]).tolist() == [1, 3, 3, 1]
     assert bars.meta["period"] == (1.0, 1.0, 1.0)
-    # Moved around the torus, by what is exact.
+    # Moved around the torus by exact amounts.
     moved = ph.alpha(np.round(points * 2**20) / 2**20 + [0.5, 0.25, 3], period=[1, 1, 1])
     still = ph.alpha(np.round(points * 2**20) / 2**20, period=1)
     for dim in range(4):

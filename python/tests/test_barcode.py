@@ -41,7 +41,7 @@ each = pytest.mark.parametrize("bars", [pytest.param(make(), id=name)
 
 
 def parts(bars):
-    """All that there is to see of a barcode."""
+    """All visible properties of a barcode."""
     seen = [bars.dims, bars.births, bars.deaths]
     if bars._bars.has_cells:
         for dim in range(4):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Distances of barcodes beside SciPy's assignments, on matrices with a diagonal for each bar."""
+"""Compares distances of barcodes with SciPy's assignments, on matrices with a diagonal place for
+each bar."""
 import itertools
 import math
 import pickle
@@ -21,7 +22,8 @@ def random_diagram(rng, size, infinite=0, grid=None):
 
 
 def costs_of(a, b, ground):
-    """Of each pair; of each bar with the diagonal: rows of `a`, columns of `b`, then copies."""
+    """Costs of each pair and of each bar with the diagonal: rows of `a`, columns of `b`, then
+    copies."""
     def to_diagonal(dgm):  # the midpoint is nearest, in any norm
         return np.linalg.norm(dgm - dgm.mean(axis=1, keepdims=True), ground, axis=1)
     size = len(a) + len(b)
@@ -165,7 +167,7 @@ def test_matrices(rng, distance, options):
 
 
 def test_barycentre(rng):
-    """No bar of it can be moved for the better, and no diagram is a better mean."""
+    """No bar of it can be improved by moving, and no diagram is a better mean."""
     dgms = [random_diagram(rng, 8) + [[0, 0.3]] for _ in range(4)]
     found = ph.barycentre(dgms)
     distances = [ph.wasserstein(found.diagram, dgm, order=2, ground=2) for dgm in dgms]

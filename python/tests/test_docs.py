@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Examples in docstrings and on pages give what they say; each function has one."""
+"""Examples in docstrings and on pages give the stated results; each function has one."""
 import ast
 import doctest
 import importlib
@@ -18,7 +18,7 @@ import libph as ph
 from libph import _core
 
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
-HAS_ALPHA = bool(_core.alpha_support())  # else examples with alpha complexes are not tried
+HAS_ALPHA = bool(_core.alpha_support())  # otherwise examples with alpha complexes are skipped
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 # Those that need an optional package have their submodules here only where it is installed.
 MODULES = ["libph", *sorted(module.name for module in pkgutil.walk_packages(
@@ -43,7 +43,7 @@ def test_docstrings(name):
 
 
 OPTIONAL = {"distributed", "matplotlib", "open3d", "pandas", "scipy", "skimage", "sklearn"}
-# What a page needs without a word.
+# Names that pages use without an import.
 NEEDED = {"docs/how-to/coming-from.md": {"sklearn", "scipy"}, "docs/how-to/scikit-learn.md": {"pandas"}}
 PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs").rglob("*.md"))
          if ">>> " in page.read_text()]
@@ -53,7 +53,7 @@ PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs"
 @pytest.mark.filterwarnings("ignore:make_current is deprecated:DeprecationWarning")
 @pytest.mark.parametrize("name", PAGES)
 def test_pages(name, monkeypatch):
-    """Each in the root of the sources. What a page imports has to be there."""
+    """Each runs in the root of the sources. The packages that a page imports must be installed."""
     page = SOURCE / name
     imported = set(re.findall(r">>> (?:import|from) (\w+)", page.read_text())) & OPTIONAL
     for package in sorted(imported | NEEDED.get(name, set())):
@@ -70,7 +70,8 @@ def test_pages(name, monkeypatch):
 
 
 def test_that_the_reference_has_all_names():
-    """Those of libph, libph.sklearn and libph.torch; the latter as written, for torch may be missing."""
+    """The functions of libph, libph.sklearn and libph.torch; the latter from the source, because
+    torch may be missing."""
     pages = "".join(page.read_text() for page in (SOURCE / "docs/reference/python-api").glob("*.md"))
     names = {f"libph.{name}" for name in ph.__all__} - {"libph.__version__", "libph.gradients"}
     names |= {f"libph.gradients.{name}" for name in ph.gradients.__all__}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What users of other packages try first is answered in words; answers name what is there."""
+"""Calls that users of other packages try first get helpful messages, which name existing
+functions."""
 import inspect
 import re
 import subprocess
@@ -82,7 +83,7 @@ def test_names_of_a_barcode(name, hint):
 
 
 def test_names_in_hints_are_there():
-    """Whatever a hint calls ph.X, libph.X.Y, or a call is an attribute."""
+    """Everything that a hint names as ph.X, libph.X.Y or a call exists."""
     pytest.importorskip("sklearn", reason="scikit-learn is missing, which libph.sklearn needs")
     bars = ph.rips(POINTS)
     for table, owner in ((_hints.MODULE, ph), (_hints.BARCODE, bars), (_hints.SKLEARN, ph.sklearn)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bars that are born at -inf, some of which die there, too."""
+"""Bars that are born at -inf, some of which also die there."""
 import numpy as np
 import pytest
 

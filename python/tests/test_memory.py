@@ -15,7 +15,7 @@ MIB = 1 << 20
 
 
 def peak_above_the_data(code):
-    """MiB of a process of its own: the most that is resident beyond what was there before."""
+    """MiB of a separate process: the peak of its resident memory beyond the initial value."""
     script = textwrap.dedent("""
         import numpy as np, libph as ph
 
@@ -65,7 +65,7 @@ def test_ten_million_distances_are_not_copied(dtype, layout):
 
 @pytest.mark.parametrize("layout", ["points", "points[::-1]", "points[:, ::1]"])
 def test_points_are_not_copied(layout):
-    """73 MiB of points; H0 takes memory for their number only."""
+    """73 MiB of points; the memory for H0 depends only on their number."""
     taken = peak_above_the_data(f"""
         points = np.random.default_rng(0).random((1500, 6400))
         def compute(warm_up):
@@ -76,7 +76,7 @@ def test_points_are_not_copied(layout):
 
 
 def test_an_image_is_not_copied():
-    """128 MiB of bytes, looked at four layers at a time."""
+    """128 MiB of bytes, processed four layers at a time."""
     taken = peak_above_the_data("""
         image = np.zeros((512, 512, 512), np.uint8)
         image[::2] = 1
@@ -91,7 +91,7 @@ def test_an_image_is_not_copied():
 @pytest.mark.parametrize("how", ["", ", range=(0, 255), resolution=256"])
 @pytest.mark.parametrize("layout", ["image", "image[::-1, ::-1, ::-1]"])
 def test_an_euler_curve_does_not_copy_the_image(layout, how):
-    """128 MiB of bytes; one that runs backwards is brought into order first, and only that."""
+    """128 MiB of bytes; only an array that runs backwards is copied into order first."""
     taken = peak_above_the_data(f"""
         image = np.zeros((512, 512, 512), np.uint8)
         image[::2] = 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""First mistakes: what is likely meant otherwise is warned of, or refused with a way out."""
+"""First mistakes: likely misunderstandings cause a warning, or a refusal with a way out."""
 import inspect
 import warnings
 from pathlib import Path
@@ -45,7 +45,7 @@ def test_correlations_given_as_distances(dtype):
         ph.rips(missing, metric="precomputed")
     bars = ph.rips(1 - CORRELATIONS, metric="precomputed")
     assert len(bars.dgm(0)) == 8
-    # What is asked for is done.
+    # An explicit request is obeyed.
     births = ph.rips(np.ones((3, 3)), metric="precomputed", diagonal="births")
     assert births.dgm(0).tolist() == [[1, np.inf]]
 
@@ -55,7 +55,7 @@ def test_metrics_of_scipy():
         ph.rips(SERIES, metric="correlation")
 
 
-# ---- what is missing or too large
+# ---- missing or too large
 
 
 @pytest.mark.parametrize("shape, place, words", [
@@ -131,7 +131,7 @@ def test_a_dimension_is_a_number():
         ph.rips(SERIES).filter(dim="H1")
 
 
-# ---- in the words of Python
+# ---- in Python's terms
 
 NO_KEYWORDS = {"allow_empty", "labels", "plane_guess", "report"}
 METHODS = {"first_meeting"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Notebooks run without errors and warnings, and what they say in numbers is so."""
+"""Notebooks run without errors and warnings, and their numbers are right."""
 import copy
 import gc
 import json
@@ -23,7 +23,7 @@ from jupyter_client.manager import AsyncKernelManager  # noqa: E402
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 FOLDER = SOURCE / "python/notebooks"
 
-# What the words say, and what has to be true in the kernel after the last cell.
+# The statements of the text, and the conditions that must hold in the kernel after the last cell.
 FACTS = {
     "circle_and_torus": [
         ("These 60 points", "circle.shape == (60, 2)"),
@@ -139,7 +139,7 @@ FACTS = {
         ("voxels are 0.005 m wide", "own.meta['voxel'] == 0.005"),
     ],
 }
-# Numbers that need no check, for they define.
+# Numbers that need no check, because they are definitions.
 DEFINITIONS = ["is 1 if one rises whenever", "−1 if it falls then, and near 0 if it does neither",
                "where two groups of variables join"]
 NUMBER = re.compile(r"(?<![\w.])(?:\d+(?:[.]\d+)?|two|three|four|five|six|seven|eight|nine|ten)\b")

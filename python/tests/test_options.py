@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Options: defaults are today's, and what makes no sense is refused in words."""
+"""Options: defaults are the current ones, and meaningless values are refused with a message."""
 import threading
 
 import numpy as np

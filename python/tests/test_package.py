@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package as such: what it exports, wheels."""
+"""The package itself: its exports, wheels."""
 import os
 import re
 import shutil
@@ -23,7 +23,7 @@ def test_version():
 
 def test_names():
     assert sorted(ph.__all__) == ph.__all__
-    # Modules with other packages in them are there once they are imported.
+    # Modules that need other packages appear once they are imported.
     optional = {"compat", "sklearn", "torch"}
     assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__) | optional
     assert (Path(ph.__file__).parent / "py.typed").exists()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Statistics of bars and of groups of barcodes beside their definitions."""
+"""Compares statistics of bars and of groups of barcodes with their definitions."""
 import itertools
 import math
 
@@ -53,7 +53,7 @@ def test_p_values_of_barcodes(rng):
 
 
 def test_confidence_radius(rng):
-    """Of subsamples that leave one point out: how far the farthest is from its nearest."""
+    """For subsamples that leave one point out: the largest distance to the nearest point."""
     X = rng.random((12, 3))
     gaps = np.linalg.norm(X[:, None] - X, axis=2) + np.diag(np.full(12, INF))
     found = ph.confidence_radius(X, size=11, subsamples=3000, alpha=0.001)
@@ -105,7 +105,7 @@ def test_confidence_band(rng):
     assert np.allclose(band.mean, samples.mean(axis=0))
     width = band.upper - band.lower
     assert width.shape == (3, 4) and np.allclose(width, width[0, 0])
-    # Of twelve independent numbers: between the quantile of one and Bonferroni's.
+    # For twelve independent numbers: between the quantile of one and Bonferroni's.
     sd = samples.std(axis=0).max() / math.sqrt(80)
     assert 1.96 * sd * 0.8 < width[0, 0] / 2 < 3.2 * sd
     one = ph.confidence_band(samples[:, 0, :1], repetitions=20000)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Types: of the package itself, of the stub of _core, and what they tell a user."""
+"""Types of the package itself and of the stub of _core, and their use for users."""
 import ast
 import os
 import re
@@ -15,7 +15,7 @@ from libph import _core
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 CONFIG = SOURCE / "pyproject.toml"
 
-# What a user writes. The comment of a line: the code of mypy's error, and a part of its words.
+# User code. The comment of a line: the code of mypy's error, and a part of its message.
 USE = '''
 from __future__ import annotations
 
@@ -155,7 +155,8 @@ def test_stub_names_all_that_there_is(mypy):
 
 
 def arguments_of(function):
-    """Of each, but for self: its name, None if it has none, and whether it may be None."""
+    """For each parameter except self: its name (None if it has none), and True if it may be
+    None."""
     arguments = function.args.args + function.args.kwonlyargs
     return [(None if a.arg.startswith("__") else a.arg,
              re.search(r"\bNone\b", ast.unparse(a.annotation)) is not None)
@@ -188,6 +189,6 @@ def test_stub_knows_arguments(name, function):
     for part in name.split("."):
         thing = getattr(thing, part)
     stated, found = arguments_of(function), signature_of(thing)
-    # Objects and null pointers may be None, and pybind11 does not say so.
+    # Objects and null pointers may be None, which pybind11 does not state.
     may = {"progress", "stop", "recipe"}
     assert [(n, o and n not in may) for n, o in stated] == found

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes, and what belongs to bars: cells, chains, loops."""
+"""Barcodes and the data of their bars: cells, chains, loops."""
 from ._barcode import Bar, Barcode
 from ._chains import Chain, Loop
 

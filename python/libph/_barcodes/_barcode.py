@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes: sequences of bars, with arrays of the same."""
+"""Barcodes: sequences of bars, also available as arrays."""
 from __future__ import annotations
 
 import html
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from .._report import Report
 
-# As the bars lie in _core.
+# The layout of bars in _core.
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
                  "offsets": [0, 8, 16], "itemsize": 24})
 _STATE_VERSION = 1
@@ -32,10 +32,10 @@ _Arrays = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]
 
 
 class Bar(NamedTuple):
-    """A hole: there from `birth` on, gone at `death`, which is ``inf`` if it never is.
+    """A hole that appears at `birth` and disappears at `death`, which is ``inf`` if it never does.
 
-    Of `dim` 0 it is a component, of 1 a loop, of 2 a hollow; in general a class of H_dim. It is a
-    tuple: ``dim, birth, death = bar``.
+    In dimension 0 it is a component, in 1 a loop, in 2 a hollow; in general a class of H_dim. A bar
+    is a tuple: ``dim, birth, death = bar``.
     """
 
     dim: int
@@ -51,14 +51,14 @@ class Bar(NamedTuple):
 class Barcode(Cells, Summaries, Sequence[Bar]):
     """The result of persistent homology: bars, ordered by dimension, birth and death.
 
-    A sequence of `Bar` that cannot be changed, with arrays of the same. Barcodes are equal if their
-    bars are. Those that never die have the death ``inf``.
+    An immutable sequence of `Bar`, also available as arrays. Barcodes are equal if their bars are
+    equal. Bars that never die have the death ``inf``.
 
     Attributes
     ----------
     meta : Mapping
-        Where it comes from: `complex`, `field`, `max_dim`, `engine`, the `threshold` if there is
-        one, and what else is known, as the number of `points` or the `shape` of the image.
+        Its origin: `complex`, `field`, `max_dim`, `engine`, the `threshold` if there is one, and
+        further facts such as the number of `points` or the `shape` of the image.
 
     Examples
     --------
@@ -74,7 +74,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     __slots__ = ("_bars", "_values", "meta", "__weakref__")
 
     _bars: _core.Bars
-    _values: _Arrays | None  # once they were asked for
+    _values: _Arrays | None  # filled on first use
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
@@ -82,7 +82,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     @classmethod
     def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
-        """With what was found out while they were computed."""
+        """Adds the facts found during the computation."""
         facts = bars.facts
         known = {"max_dim": facts.max_dim, "threshold": facts.threshold, "engine": facts.engine,
                  "collapsed": facts.collapses or None, "vertices": facts.vertices,
@@ -99,7 +99,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         self.meta = meta if isinstance(meta, Meta) else Meta(meta)
         return self
 
-    # ---- the sequence
+    # ---- sequence methods
 
     def __len__(self) -> int:
         return len(self._bars)
@@ -122,7 +122,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             raise IndexError(f"bars[{place}]: found {len(self)} bars")
         return Bar(*self._records[place].item())
 
-    if not TYPE_CHECKING:  # for a type checker a name that is missing is an error
+    if not TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 
         def __getattr__(self, name):
             from .. import _hints
@@ -180,18 +180,18 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         return self._arrays[2]
 
     def _range(self, dim: int) -> slice:
-        """The places of the bars of a dimension."""
+        """The indices of the bars of a dimension."""
         first, last = np.searchsorted(self.dims, [dim, dim + 1])
         return slice(int(first), int(last))
 
     @property
     def _top_dim(self) -> int:
-        """The highest dimension that was asked for, or of which there is a bar."""
+        """The highest dimension that was requested or that has a bar."""
         known: int = self.meta.get("max_dim", -1)
         return max(known, int(self.dims[-1])) if len(self) else known
 
     def dgm(self, dim: int) -> NDArray[np.float64]:
-        """The bars of one dimension, a fresh array of rows birth, death.
+        """The bars of one dimension, as a new array of rows birth, death.
 
         >>> ph.rips([[0], [1]]).dgm(0)
         array([[ 0.,  1.],
@@ -204,7 +204,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         return rows
 
     def dgms(self) -> list[NDArray[np.float64]]:
-        """The bars of all dimensions, as `dgm`."""
+        """A list with the `dgm` of every dimension."""
         return [self.dgm(dim) for dim in range(self._top_dim + 1)]
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
@@ -213,7 +213,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         rows = np.column_stack(self._arrays)
         return rows if dtype is None else rows.astype(dtype, copy=False)
 
-    # ---- places and selections
+    # ---- indices and selections
 
     def _place(self, i: Any) -> int:
         place = _options.whole("i", i, -len(self), len(self) - 1)
@@ -229,9 +229,9 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     def longest(self, dim: int, n: int) -> NDArray[np.int64]: ...
 
     def longest(self, dim: int, n: int | None = None) -> int | NDArray[np.int64]:
-        """The place of the longest bar of a dimension, or those of the `n` longest.
+        """The index of the longest bar of a dimension, or the indices of the `n` longest.
 
-        Bars that never die come first, then the longest; the first among equals.
+        Bars that never die come first, then the longest; equal bars keep their order.
         """
         places = self._range(_options.whole("dim", dim, 0))
         births, deaths = self.births[places], self.deaths[places]
@@ -245,14 +245,14 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     def filter(self, *, dim: int | Iterable[int] | None = None,
                min_persistence: float | None = None, born_before: float | None = None) -> Barcode:
-        """Some of the bars, with all that belongs to them.
+        """A barcode of some of the bars, with their cells and chains.
 
         Parameters
         ----------
         dim : int or iterable of int, optional
-            Their dimension, or some.
+            The dimension or dimensions to keep.
         min_persistence : float, optional
-            Bars with death - birth <= this are left out.
+            Bars with death - birth <= this value are left out.
         born_before : float, optional
             Bars born at this value or later are left out.
         """
@@ -276,9 +276,10 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Parameters
         ----------
         layout : {"dim-birth-death", "giotto", "ripser", "gudhi"}
-            Rows dim, birth, death; rows birth, death, dim of giotto-tda; the list of arrays of
-            ripser.py, H0 by death and others by descending birth; the list of (dim, (birth,
-            death)) of GUDHI, dimensions descending, the longest first.
+            "dim-birth-death": rows dim, birth, death. "giotto": rows birth, death, dim, as in
+            giotto-tda. "ripser": a list of arrays as in ripser.py, with H0 sorted by death and
+            other dimensions by descending birth. "gudhi": a list of (dim, (birth, death)) as in
+            GUDHI, with dimensions descending and the longest bars first.
         """
         return _output.in_layout(self, layout)
 
@@ -293,8 +294,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Parameters
         ----------
         path : path
-            Its extension chooses the format: .csv, .json (with cells and chains), .ripser, .pers,
-            .dipha or .npy.
+            The file; its extension selects the format: .csv, .json (with cells and chains),
+            .ripser, .pers, .dipha or .npy.
         format : str, optional
             "csv", "json", "ripser", "pers", "dipha" or "npy".
         """
@@ -313,16 +314,17 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Parameters
         ----------
         kind : {"diagram", "barcode", "betti"}
-            Points birth, death; lines from birth to death; Betti numbers over the value.
+            "diagram": points birth, death. "barcode": lines from birth to death. "betti": Betti
+            numbers over the filtration value.
         ax : Axes, optional
-            Where to draw; default: a new figure.
+            The axes to draw on. Default: those of a new figure.
         dim : int or iterable of int, optional
-            Bars of these dimensions alone. Default: all.
+            Show only these dimensions. Default: all.
         noise : float, optional
-            Of a diagram: a grey band along the diagonal, where bars of this length and shorter are;
-            of points ``4 * ph.confidence_radius(X)``.
+            For a diagram: draws a grey band along the diagonal that covers bars of this length and
+            shorter; for points use ``4 * ph.confidence_radius(X)``.
         **style
-            Passed on to what draws: `scatter`, `hlines` or `step`.
+            Passed on to the drawing function: `scatter`, `hlines` or `step`.
 
         Returns
         -------
@@ -332,18 +334,19 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         return plot(self if dim is None else self.filter(dim=dim), kind, ax, noise, style)
 
     def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
-        """An interactive page: diagram, barcode, and the data, all linked.
+        """An interactive page that links diagram, barcode and data.
 
         Parameters
         ----------
         X : optional
-            What the bars were computed of: the page shows it, with cells, chains and the merge
-            tree. Of a mesh or simplices what `read` gave. Default: the bars alone.
+            The data from which the bars were computed: the page shows them with cells, chains and
+            the merge tree. For a mesh or simplices, pass the result of `read`. Default: only the
+            bars are shown.
         title : str
-            Of the page. Default: what the data are.
+            Title of the page. Default: a description of the data.
         **options
-            Keywords with which the bars were computed that they do not know: an array of `weights`,
-            a function as `metric`; of a barcode that was read, all that were not defaults.
+            Keywords of the computation that the barcode does not store: an array of `weights`, a
+            function as `metric`. For a barcode from a file, all keywords that were not defaults.
 
         Returns
         -------
@@ -354,7 +357,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         NotBuiltIn
             If libph was built without npm.
         DataError
-            If the bars are not those of X.
+            If the bars do not belong to X.
         """
         from .._report import report_of_bars
         return report_of_bars(self, X, title, options)
@@ -371,6 +374,6 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
 
 def _restored(version: int, state: dict[str, Any], meta: dict[str, Any]) -> Barcode:
-    """What pickle calls."""
+    """Called by pickle."""
     require_version(version, _STATE_VERSION)
     return Barcode._made(_core.Bars.from_state(state), meta)

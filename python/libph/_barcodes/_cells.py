@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where holes are: cells, chains and voxels of bars."""
+"""The locations of holes: cells, chains and voxels of bars."""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from ._chains import Chain
 
 
 class Cells:
-    """What a `Barcode` knows of where its holes are."""
+    """The methods of `Barcode` that locate its holes."""
 
     __slots__ = ()
 
@@ -28,11 +28,11 @@ class Cells:
         def _place(self, i: Any) -> int: ...
 
     def birth_cells(self, dim: int) -> NDArray[np.int64]:
-        """The cell that gave birth to each bar of a dimension, a row each.
+        """The birth cell of each bar of a dimension, one row per bar.
 
-        Vertices, ascending; of images doubled grid coordinates, in which the voxel (i, j) is
-        (2 i, 2 j); rows of a boundary matrix. `gradients.deciders` tells the edge or the voxel
-        whose value the cell has.
+        A row lists the vertices, ascending; for images it is the cell's doubled grid coordinates,
+        in which the voxel (i, j) is (2 i, 2 j); for a boundary matrix it is the number of the row.
+        `gradients.deciders` returns the edge or the voxel that determines the value of the cell.
 
         >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
         >>> bars.birth_cells(1), bars.death_cells(1)
@@ -41,11 +41,11 @@ class Cells:
         return np.asarray(self._bars.birth_cells(self._dim_of_cells(dim)))
 
     def death_cells(self, dim: int) -> NDArray[np.int64]:
-        """The cell that killed each bar of a dimension; -1 in all places if it never dies."""
+        """The death cell of each bar of a dimension; a row of -1 if the bar never dies."""
         return np.asarray(self._bars.death_cells(self._dim_of_cells(dim)))
 
     def birth_cell(self, i: int) -> NDArray[np.int64]:
-        """The cell that gave birth to bar i, as a row of `birth_cells`.
+        """The birth cell of bar i, as a row of `birth_cells`.
 
         >>> bars = ph.lower_star([0, 2, 1], [[0, 1], [1, 2]])
         >>> bars[1], bars.birth_cell(1), bars.death_cell(1)
@@ -56,7 +56,7 @@ class Cells:
         return np.asarray(self.birth_cells(dim)[place - self._range(dim).start])
 
     def death_cell(self, i: int) -> NDArray[np.int64] | None:
-        """The cell that killed bar i; None if it never dies."""
+        """The death cell of bar i; None if the bar never dies."""
         place = self._place(i)
         dim = int(self.dims[place])
         cell = self.death_cells(dim)[place - self._range(dim).start]
@@ -68,7 +68,7 @@ class Cells:
         return _options.whole("dim", dim, 0, 2**31 - 2)
 
     def representative(self, i: int) -> Chain:
-        """The cycle or cocycle of bar i, as asked for by `representatives`.
+        """The cycle or cocycle of bar i, as requested by `representatives`.
 
         Examples
         --------
@@ -92,7 +92,7 @@ class Cells:
     def voxels(self, i: int) -> NDArray[np.bool_]:
         """A mask of the image: the component or hollow of bar i.
 
-        Bars of other dimensions have a cycle in its place, and no voxel is true.
+        For bars of other dimensions, which have a cycle instead, the mask is empty.
         """
         mask = np.zeros(self._require_voxels(), dtype=bool)
         mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
@@ -104,6 +104,6 @@ class Cells:
         return tuple(np.asarray(self._bars.birth_voxel(self._place(i))).tolist())
 
     def death_voxel(self, i: int) -> tuple[int, ...] | None:
-        """The voxel whose value is the death of bar i; None if it never dies."""
+        """The voxel whose value is the death of bar i; None if the bar never dies."""
         self._require_voxels()
         return tuple(np.asarray(self._bars.death_voxel(self._place(i))).tolist()) or None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Representatives of bars: cycles, cocycles, and the loops that cycles are made of."""
+"""Representatives of bars: cycles, cocycles, and the loops that make up cycles."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -15,12 +15,12 @@ _STATE_VERSION = 1
 
 
 class Loop(NamedTuple):
-    """A closed walk along edges, the last vertex joined to the first.
+    """A closed walk along edges; the last vertex is joined to the first.
 
     Attributes
     ----------
     vertices : ndarray
-        Numbers of points, in order; of images their doubled grid coordinates, a row each.
+        Indices of points, in order; for images, doubled grid coordinates, one row per vertex.
     coefficient : int
         How often the walk counts in the chain.
     length : float or None
@@ -38,7 +38,7 @@ class Chain:
     Attributes
     ----------
     cells : ndarray
-        A cell a row: its vertices, ascending; of images its doubled grid coordinates.
+        One row per cell: its vertices, ascending; for images, its doubled grid coordinates.
     coefficients : ndarray
         Between -p/2 and p/2; always 1 over Z/2.
     """
@@ -68,13 +68,13 @@ class Chain:
         Raises
         ------
         UsageError
-            If the chain is no cycle of edges.
+            If the chain is not a cycle of edges.
         """
         return self._loops_found()[0]
 
     @property
     def tightness(self) -> str:
-        """What is known of the length of its loops: "no", "locally" or "shortest"."""
+        """How short its loops are known to be: "no", "locally" or "shortest"."""
         return self._loops_found()[1]
 
     def _loops_found(self) -> tuple[list[Loop], str]:
@@ -92,7 +92,7 @@ class Chain:
         return self._found
 
     def loop(self) -> NDArray[np.int64]:
-        """The vertices of the first loop, in order: of most cycles the only one."""
+        """The vertices of the first loop, in order; most cycles have only one."""
         loops = self.loops()
         if not loops:
             raise UsageError("loop: found a chain without edges, expected a cycle of H1")
@@ -112,6 +112,6 @@ class Chain:
 
 
 def _restored(version: int, state: dict[str, Any]) -> Chain:
-    """What pickle calls: the chain of a barcode of one bar."""
+    """Called by pickle: the chain of a barcode of one bar."""
     require_version(version, _STATE_VERSION)
     return Chain(_core.Bars.from_state(state), 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes as other programs and people have them."""
+"""Barcodes in the layouts of other programs, and as text."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def lengths(births: NDArray[np.float64], deaths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """0 of a bar that dies when it is born, at -inf, too."""
+    """0 for a bar that dies at its birth, even at -inf."""
     lengths = np.zeros(len(births))
     np.subtract(deaths, births, out=lengths, where=deaths != births)
     return lengths
@@ -38,7 +38,7 @@ def in_layout(bars: Barcode, layout: str) -> Any:
 
 
 def in_words(bars: Barcode) -> str:
-    """The first line that a user sees: what the data were, how many bars there are."""
+    """The first line that a user sees: the kind of data and the number of bars."""
     meta = bars.meta
     name = " of ".join(filter(None, [str(meta.get("complex") or "barcode"),
                                      description_of(meta)]))

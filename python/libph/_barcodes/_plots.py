@@ -42,7 +42,7 @@ class _Ends(NamedTuple):
     infinite: tuple[float, float]
 
     def place(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where values are drawn."""
+        """The position at which each value is drawn."""
         return np.clip(values, *self.infinite)
 
 
@@ -111,7 +111,7 @@ def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:
-    """Where no bar is, of a picture of bars from the bottom up; None: nowhere.
+    """A corner without bars in a picture of bars from the bottom up; None if there is none.
 
     matplotlib's own choice does not see their lines.
     """

@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 
 class Barycentre(NamedTuple):
-    """A diagram in the middle of others; see `barycentre`.
+    """A mean of diagrams; see `barycentre`.
 
     Attributes
     ----------
     diagram : ndarray
         Rows birth, death, ascending.
     root_mean_square : float
-        Of its distances to the diagrams.
+        The root mean square of its distances to the diagrams.
     rounds : int
-        That lowered it.
+        Number of rounds that lowered the root mean square.
     converged : bool
-        Whether it ended before `max_rounds`.
+        True if the search ended before `max_rounds`.
     """
 
     diagram: NDArray[np.float64]
@@ -45,19 +45,19 @@ def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, 
     """A barycentre (Fréchet mean) of diagrams [Turner, Mileyko, Mukherjee, Harer 2014].
 
     A local minimum of the mean square of the Wasserstein distances of order 2 with Euclidean ground
-    norm. It begins at the medoid. Each of its bars is the mean of the bars that it is paired with,
-    so there may be many that are short.
+    norm. The search starts at the medoid. Each bar of the result is the mean of the bars with which
+    it is paired; many of them may be short.
 
     Parameters
     ----------
     diagrams : sequence of Barcode or array_like
-        Barcodes, or arrays of rows birth, death, with as many bars that never die.
+        Barcodes, or arrays of rows birth, death, all with the same number of bars that never die.
     dim : int, optional
-        Of barcodes: the dimension.
+        For barcodes: the dimension.
     max_rounds : int
-        The most rounds; 0: the medoid.
+        The largest number of rounds; 0 returns the medoid.
     tolerance : float
-        It ends after a round that lowers the root mean square by this part of it, or less.
+        The search ends after a round that lowers the root mean square by this fraction or less.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The diagrams that a caller gives, as rows birth, death."""
+"""The diagrams given by the caller, as rows birth, death."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -21,7 +21,7 @@ def two_diagrams(a: Any, b: Any, dim: int | None
 
 
 def all_rows(name: str, diagrams: Iterable[Any], dim: int | None) -> list[NDArray[np.float64]]:
-    """The rows of each diagram of a list; `name` is that of the argument."""
+    """The rows of each diagram of a list; `name` is the name of the argument."""
     if isinstance(diagrams, (str, bytes, dict, Barcode)) or not isinstance(diagrams, Iterable):
         raise _options.refuse(name, diagrams, "a list of barcodes or diagrams")
     given = list(diagrams)

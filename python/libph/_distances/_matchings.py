@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which bars of two diagrams are paired."""
+"""Matchings between the bars of two diagrams."""
 from __future__ import annotations
 
 import math
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """Which bars of two diagrams are paired; see `bottleneck_matching`, `wasserstein_matching`.
+    """A matching of two diagrams; see `bottleneck_matching`, `wasserstein_matching`.
 
     Attributes
     ----------
     distance : float
-        What the matching costs: the distance of the diagrams, or a number above it as near as was
-        asked for.
+        The cost of the matching: the distance of the diagrams, or a larger number within the
+        requested error.
     lower : float
-        The distance is not below this.
+        A lower bound of the distance.
     pairs : ndarray
         Rows (i, j): bar i of `a` is paired with bar j of `b`; -1 is the diagonal. Each bar is in
-        one row. No rows if the distance is infinite.
+        one row. Empty if the distance is infinite.
     order : float
         p, see `wasserstein`; inf for the bottleneck distance.
     ground : float
@@ -59,9 +59,9 @@ class Matching:
         Parameters
         ----------
         ax : Axes, optional
-            Where to draw. Default: new ones.
+            The axes to draw on. Default: new ones.
         **style
-            Of the lines, for matplotlib's LineCollection.
+            Style of the lines, for matplotlib's LineCollection.
 
         Returns
         -------
@@ -73,14 +73,14 @@ class Matching:
 
 def bottleneck_matching(a: Barcode | ArrayLike, b: Barcode | ArrayLike, dim: int | None = None,
                         **run: Unpack[RunOptions]) -> Matching:
-    """Which bars the bottleneck distance pairs.
+    """The matching that attains the bottleneck distance.
 
     Parameters
     ----------
     a, b : Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     dim : int, optional
-        Of barcodes: the dimension.
+        For barcodes: the dimension.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -101,16 +101,16 @@ def bottleneck_matching(a: Barcode | ArrayLike, b: Barcode | ArrayLike, dim: int
 def wasserstein_matching(a: Barcode | ArrayLike, b: Barcode | ArrayLike, dim: int | None = None, *,
                          order: float = 1.0, ground: float = math.inf, relative_error: float = 0.0,
                          **run: Unpack[RunOptions]) -> Matching:
-    """Which bars the Wasserstein distance pairs.
+    """The matching that attains the Wasserstein distance.
 
     Parameters
     ----------
     a, b : Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     dim : int, optional
-        Of barcodes: the dimension.
+        For barcodes: the dimension.
     order, ground, relative_error : float
-        As of `wasserstein`.
+        As in `wasserstein`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -135,6 +135,6 @@ def _matching(a: Any, b: Any, dim: int | None, kind: str, order: float, ground: 
     rows_a, rows_b = two_diagrams(a, b, dim)
     metric = metric_of(kind, order, ground, relative_error)
     value, lower, pairs = _run.run(_core.matching, rows_a, rows_b, metric, options=dict(run))
-    # Copies: a matching stays what it is when the caller's arrays change.
+    # Copies, so that the matching does not change with the caller's arrays.
     return Matching(value, lower, np.asarray(pairs), float(order), float(ground), np.array(rows_a),
                     np.array(rows_b))

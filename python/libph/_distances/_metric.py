@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is measured between two diagrams."""
+"""The distance to measure between two diagrams."""
 from __future__ import annotations
 
 import math
@@ -20,7 +20,7 @@ def metric_of(kind: str, order: float = 1.0, ground: float = math.inf, relative_
 
 def refuse_options_of_others(distance: str, order: float, ground: float, relative_error: float,
                              directions: int) -> None:
-    """Refuses what the distance does not look at."""
+    """Refuses parameters that the distance does not use."""
     for name, value, default, owners in (
             ("order", order, 1.0, ["wasserstein"]), ("ground", ground, math.inf, ["wasserstein"]),
             ("relative_error", relative_error, 0.0, ["wasserstein", "bottleneck"]),

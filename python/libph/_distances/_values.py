@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances of barcodes: of two, and of all pairs."""
+"""Distances of two barcodes, and of all pairs of many."""
 from __future__ import annotations
 
 import math
@@ -37,27 +37,27 @@ def bottleneck(a: Any, b: Any, dim: int | None = None, *, relative_error: float 
 
     Bars are paired or left over. The distance is the least d such that births and deaths of each
     pair are at most d apart, and bars left over are at most 2 d long. Bars that never die are
-    paired with such bars only; where their numbers differ the distance is inf.
+    paired only with each other; if their numbers differ, the distance is inf.
 
     Parameters
     ----------
     a, b : Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     dim : int, optional
-        Of two barcodes: the dimension to compare. Default: each.
+        For two barcodes: the dimension to compare. Default: every dimension.
     relative_error : float
-        0: the distance itself. Else what is returned is at least the distance, and at most
-        1 + relative_error times as large.
+        0: the exact distance. Otherwise the result is at least the distance, and at most 1 +
+        relative_error times as large.
     at_most : float
-        Distances beyond need not be known: then what is returned is at least the distance, and
-        more than `at_most`.
+        Distances above this value need not be exact: for them, the result is at least the distance,
+        and more than `at_most`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     float or dict of int to float
-        Of two barcodes without `dim` the distance in each dimension.
+        For two barcodes without `dim`, the distance in each dimension.
 
     Examples
     --------
@@ -85,34 +85,35 @@ def wasserstein(a: Any, b: Any, dim: int | None = None, *, order: float = 1.0,
                 **run: Unpack[RunOptions]) -> float | dict[int, float]:
     """The Wasserstein distance of two barcodes, to the last digits or certified within a bound.
 
-    Bars are paired or left over. A pair costs its distance to the power of `order`, and a bar left
-    over its distance from the diagonal to this power. The distance is the root of the least sum.
-    Bars that never die are paired with such bars only; where their numbers differ it is inf.
+    Bars are paired or left over. A pair costs its distance to the power of `order`; a bar left over
+    costs its distance from the diagonal to the same power. The Wasserstein distance is the root, of
+    degree `order`, of the least sum. Bars that never die are paired only with each other; if their
+    numbers differ, the distance is inf.
 
     Parameters
     ----------
     a, b : Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     dim : int, optional
-        Of two barcodes: the dimension to compare. Default: each.
+        For two barcodes: the dimension to compare. Default: every dimension.
     order : float
-        p, at least 1 and finite. `bottleneck` is what p = inf would be.
+        p, at least 1 and finite. `bottleneck` corresponds to p = inf.
     ground : float
         q, the norm of a pair, at least 1: inf for the larger difference of births and deaths, 2
         for the Euclidean norm.
     relative_error : float
-        0: the distance itself. Else what is returned is at least the distance, and at most
-        1 + relative_error times as large; 0.01 is several times as fast.
+        0: the exact distance. Otherwise the result is at least the distance, and at most 1 +
+        relative_error times as large; 0.01 is several times as fast.
     at_most : float
-        Distances beyond need not be known: then what is returned is at least the distance, and
-        more than `at_most`.
+        Distances above this value need not be exact: for them, the result is at least the distance,
+        and more than `at_most`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     float or dict of int to float
-        Of two barcodes without `dim` the distance in each dimension.
+        For two barcodes without `dim`, the distance in each dimension.
 
     Examples
     --------
@@ -139,25 +140,25 @@ def sliced_wasserstein(a: Any, b: Any, dim: int | None = None, *, directions: in
                        **run: Unpack[RunOptions]) -> float | dict[int, float]:
     """The sliced Wasserstein distance of two barcodes [Carrière, Cuturi, Oudot 2017].
 
-    Bars are projected to lines, and sorted numbers are compared. It is another distance than
-    `wasserstein`: at most 2 √2 times as large as that of order 1. exp(-distance) is a positive
-    definite kernel.
+    Bars are projected to lines, and the sorted projections are compared. This distance differs from
+    `wasserstein`: it is at most 2 √2 times the Wasserstein distance of order 1. exp(-distance) is a
+    positive definite kernel.
 
     Parameters
     ----------
     a, b : Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     dim : int, optional
-        Of two barcodes: the dimension to compare. Default: each.
+        For two barcodes: the dimension to compare. Default: every dimension.
     directions : int
-        How many lines, evenly around; the mean over them is returned.
+        Number of lines, evenly spread over all directions; the mean over them is returned.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     float or dict of int to float
-        Of two barcodes without `dim` the distance in each dimension.
+        For two barcodes without `dim`, the distance in each dimension.
 
     Examples
     --------
@@ -180,25 +181,25 @@ def diagram_distances(diagrams: Iterable[Barcode | ArrayLike],
     diagrams : sequence of Barcode or array_like
         Barcodes, or arrays of rows birth, death.
     others : sequence of Barcode or array_like, optional
-        Others, to each of which the distance is computed. Default: the diagrams themselves.
+        The diagrams to which distances are computed. Default: `diagrams` themselves.
     dim : int, optional
-        Of barcodes: the dimension.
+        For barcodes: the dimension.
     distance : {"wasserstein", "bottleneck", "sliced_wasserstein"}
         Which distance.
     order, ground : float
-        Of "wasserstein", as of `wasserstein`.
+        For "wasserstein"; see `wasserstein`.
     relative_error : float
-        Of "wasserstein" and "bottleneck": how much too large a distance may be.
+        For "wasserstein" and "bottleneck": the allowed relative error; results are never too small.
     directions : int
-        Of "sliced_wasserstein".
+        For "sliced_wasserstein": number of lines.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     ndarray
-        Of shape (len(diagrams), len(others)); symmetric without `others`. Estimators of
-        scikit-learn take it with ``metric="precomputed"``.
+        A matrix of shape (len(diagrams), len(others)); symmetric without `others`. Estimators of
+        scikit-learn accept it with ``metric="precomputed"``.
 
     Examples
     --------
@@ -218,7 +219,7 @@ def diagram_distances(diagrams: Iterable[Barcode | ArrayLike],
 
 def _of_each_dim(a: Any, b: Any, dim: int | None, metric: _core.DiagramMetric, run: Any
                  ) -> float | dict[int, float]:
-    """The distance, or one of each dimension of two barcodes."""
+    """The distance, or a distance for each dimension of two barcodes."""
     def distance(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
         return float(_run.run(_core.distance, x, y, metric, options=dict(run))[0])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What users of other packages look for, and how libph says it: the ends of error messages."""
+"""Hints at the end of error messages: names from other packages, and their equivalents in libph."""
 from __future__ import annotations
 
 import difflib
@@ -11,7 +11,7 @@ __all__ = ["BARCODE", "KEYWORDS", "MODULE", "SKLEARN", "of_keyword", "of_name"]
 
 
 def of_name(name: str, table: dict[str, str], known: Iterable[str]) -> str:
-    """The end of the message that a name is missing; empty: nothing is known.
+    """The end of the message that a name is missing; empty if there is no hint.
 
     >>> of_name("wasserstein", {"wasserstein": "use ph.bottleneck"}, [])
     '; use ph.bottleneck'
@@ -26,7 +26,7 @@ def of_name(name: str, table: dict[str, str], known: Iterable[str]) -> str:
 
 
 def of_keyword(name: str, known: Iterable[str]) -> str:
-    """The same of a keyword that a function does not have.
+    """The same for a keyword that a function does not have.
 
     >>> of_keyword("distance_matrix", ["metric"]), of_keyword("treshold", ["threshold"])
     ("; did you mean metric='precomputed'?", "; did you mean 'threshold'?")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What other packages call it, and what libph has in its place."""
+"""Names in other packages, and their equivalents in libph."""
 from __future__ import annotations
 
 
@@ -95,7 +95,7 @@ SKLEARN = _table(
      "giotto-tda has it, and takes what output='giotto' gives"),
 )
 
-# By the keyword that the function has in its place.
+# Keyed by the equivalent keyword of the function.
 _KEYWORDS = {
     "max_dim": "maxdim max_dimension maxdimension homology_dimensions max_homology_dim",
     "threshold": "thresh max_edge_length max_edge maxscale",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts of images and of clouds that processes compute apart, and what they make together."""
+"""Parts of images and clouds that separate processes compute, and their results."""
 from ._cloud import CloudPart, cloud_part
 from ._image import ImagePart, image_part
 from ._join import join_parts

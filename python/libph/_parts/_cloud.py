@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 
 
 class CloudPart(Part):
-    """What is known of a cloud's components from some blocks of it; see `cloud_part`.
+    """The components of a cloud, as far as some of its blocks determine them; see `cloud_part`.
 
-    It can be pickled, and sent to another process. Two are equal if they are the same bytes.
+    A part can be pickled and sent to another process. Two parts are equal if their bytes are equal.
 
     Attributes
     ----------
     parts : int
-        How many there are in all.
+        Total number of parts.
     points, coordinates : int
-        Of the whole cloud: how many points, of how many coordinates each.
+        Number of points of the whole cloud, and of coordinates per point.
     threshold : float or None
         The largest distance at which two points are joined.
     """
@@ -41,19 +41,20 @@ class CloudPart(Part):
         self.threshold: float | None = facts["threshold"]
 
     def barcode(self, *, cells: bool = True, **run: Unpack[RunOptions]) -> Barcode:
-        """The bars of H0 of the cloud, the same as `rips` gives with ``max_dim=0``.
+        """The bars of H0 of the cloud, identical to those of `rips` with ``max_dim=0``.
 
         Parameters
         ----------
         cells : bool
-            Whether bars know the cells of their birth and death. Without them a bar takes 24 bytes.
+            If True, bars store the cells of their birth and death. Without cells, a bar takes 24
+            bytes.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
         Raises
         ------
         DataError
-            If parts are missing, or the cloud changed while they were computed.
+            If parts are missing, or if the cloud changed during the computation.
         """
         _run.check_names("barcode", run, self.barcode)
         meta = {"complex": "rips", "field": 2, "points": self.points,
@@ -70,21 +71,21 @@ def cloud_part(points: ArrayLike, part: int, parts: int, *, threshold: float | N
                **run: Unpack[RunOptions]) -> CloudPart:
     """Computes one of several parts of the components (H0) of a point cloud: some blocks of it.
 
-    Each part reads all points and holds those of one block at a time, about 200 bytes a point. So
-    the points may be a memory map, ``numpy.load(path, mmap_mode="r")``, that no machine could hold:
-    in float64 they stay in the file.
+    Each part reads all points but holds one block at a time, at about 200 bytes per point. The
+    points may therefore be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than
+    any memory: in float64, they stay in the file.
 
     Parameters
     ----------
     points : array_like
         Points of at most 8 coordinates, one a row. Distances are Euclidean.
     part : int
-        Which one, from 0 on.
+        Index of this part, from 0.
     parts : int
-        How many there are. All need the same.
+        Number of parts, the same for all parts.
     threshold : float, optional
         The largest distance at which two points are joined, in the unit of the points. Default: no
-        limit. All parts need the same.
+        limit. It must be the same for all parts.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 
 class ImagePart(Part):
-    """What is known of an image's barcode from some of its layers; see `image_part`.
+    """The barcode of an image, as far as some of its layers determine it; see `image_part`.
 
-    It can be pickled, and sent to another process. Two are equal if they are the same bytes.
+    A part can be pickled and sent to another process. Two parts are equal if their bytes are equal.
 
     Attributes
     ----------
     first, last : int
-        Which parts it covers, from 0 on.
+        The first and the last of the parts that it covers, from 0.
     parts : int
-        How many there are in all.
+        Total number of parts.
     shape : tuple of int
-        Of the whole image.
+        Shape of the whole image.
     has_loops : bool
-        Whether `ImageLoops` have bars that are wanted.
+        True if `ImageLoops` must find some of the requested bars.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -39,7 +39,7 @@ class ImagePart(Part):
         facts = _core.image_part_facts(data)
         super().__init__(data)
         self._facts = facts
-        self._held: _core.HeldPart | None = None  # until its loops take it
+        self._held: _core.HeldPart | None = None  # until its ImageLoops takes it
         self.first: int = facts["first"]
         self.last: int = facts["last"]
         self.parts: int = facts["parts"]
@@ -48,14 +48,14 @@ class ImagePart(Part):
         self.has_loops: bool = facts["has_loops"]
 
     def told_to_loops(self, **run: Unpack[RunOptions]) -> list[bytes]:
-        """What the joins have found out for the loops of each part: what they begin with.
+        """The messages from which the loops of each part start, as the joins determined them.
 
         Raises
         ------
         DataError
             If parts are missing.
         UsageError
-            If it has no loops.
+            If the part has no loops.
         """
         _run.check_names("told_to_loops", run)
         if not self.has_loops:
@@ -65,19 +65,19 @@ class ImagePart(Part):
 
     def barcode(self, *, loops: Iterable[Barcode] | None = None,
                 **run: Unpack[RunOptions]) -> Barcode:
-        """The barcode of the image, the same as `cubical` gives.
+        """The barcode of the image, identical to the result of `cubical`.
 
         Parameters
         ----------
         loops : iterable of Barcode, optional
-            What `ImageLoops.barcode` gives of each part, in any order, if the part has loops.
+            The results of `ImageLoops.barcode` of all parts, in any order, if the part has loops.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
         Raises
         ------
         DataError
-            If parts are missing, or loops of parts, or messages between them.
+            If parts, loops of parts, or messages between them are missing.
         """
         _run.check_names("barcode", run, self.barcode)
         meta = self._meta()
@@ -96,25 +96,26 @@ class ImagePart(Part):
                 "periodic": tuple(k for k, closes in enumerate(facts["periodic"]) if closes)}
 
     def _check_loops(self, loops: list[Barcode]) -> None:
-        """That they are of this image, one of each part, and that no message was lost."""
+        """Checks that the loops belong to this image, that there is one for each part, and that no
+        message was lost."""
         for bars in loops:
             if not isinstance(bars, Barcode) or "messages_sent" not in bars.meta:
                 raise UsageError(f"loops: found {type(bars).__name__}, expected what "
                                  "ImageLoops.barcode gives")
         if not self.has_loops:
             if loops:
-                raise UsageError("loops: found some, of an image that has none")
+                raise UsageError("loops: found some, for an image that has none")
             return
         found = sorted(bars.meta["part"] for bars in loops)
         if found != list(range(self.parts)):
-            raise DataError(f"loops: found those of {len(set(found))} of {self.parts} parts in "
-                            f"{len(found)} barcodes, expected one of each part")
+            raise DataError(f"loops: found loops of {len(set(found))} of {self.parts} parts in "
+                            f"{len(found)} barcodes, expected one for each part")
         expected = {**self._meta(), "parts": self.parts, "field": loops[0].meta["field"],
                     "threshold": self._facts["threshold"]}
         for bars in loops:
             for name, value in expected.items():
                 if bars.meta.get(name) != value:
-                    raise DataError(f"loops: found those of another image, field or option: {name} "
+                    raise DataError(f"loops: found loops of another image, field or option: {name} "
                                     f"is {bars.meta.get(name)!r}, expected {value!r}")
         sent, received = (sum(bars.meta[name] for bars in loops)
                           for name in ("messages_sent", "messages_received"))
@@ -133,29 +134,29 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
                **run: Unpack[RunOptions]) -> ImagePart:
     """Computes one of several parts of an image's barcode: some layers of its first axis.
 
-    Only the voxels of these layers, and of one on either side, are looked at. So the image may be a
-    memory map, ``numpy.load(path, mmap_mode="r")``, that no machine could hold.
+    Reads only the voxels of these layers and of one layer on either side. The image may therefore
+    be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than any memory.
 
     Parameters
     ----------
     image : array_like
-        As of `cubical`, of 2 axes or more.
+        As in `cubical`, with 2 axes or more.
     part : int
-        Which one, from 0 on.
+        Index of this part, from 0.
     parts : int
-        How many there are: at most one a layer.
+        Number of parts, at most one per layer.
     construction, superlevel, periodic, threshold, nan, slab_layers
-        As of `cubical`. All parts need the same.
+        As in `cubical`. They must be the same for all parts.
     max_dim, min_dim : int, optional
-        As of `cubical`. Images of d axes, three or more, have ``max_dim=0`` or, if no axis closes
-        up, ``min_dim=d - 1``: what lies between needs all layers at once. Volumes have all of it if
-        `loops` is true.
+        As in `cubical`. Images with d axes, three or more, need ``max_dim=0`` or, if no axis is
+        periodic, ``min_dim=d - 1``, because the dimensions between need all layers at once. For
+        volumes, `loops` lifts this restriction.
     cells : bool
-        Whether bars know the cells of their birth and death.
+        If True, bars store the cells of their birth and death.
     loops : bool
-        Whether `ImageLoops` will find bars of a volume that need all layers at once. The part holds
-        the voxels until they take it, and has all its layers in memory, whatever `slab_layers` is.
-        `ImagePart.has_loops` says whether there can be such bars.
+        If True, `ImageLoops` will find the bars of a volume that need all layers at once. The part
+        holds its voxels until an `ImageLoops` takes it, with all its layers in memory whatever
+        `slab_layers` is. `ImagePart.has_loops` is True if there can be such bars.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

@@ -19,14 +19,14 @@ _P = TypeVar("_P", ImagePart, CloudPart)
 
 
 def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
-    """Joins parts of one image, which are neighbours, or of one cloud, in any order.
+    """Joins neighbouring parts of one image, or any parts of one cloud, in any order.
 
-    It is associative: parts can be joined in any grouping, on any machines.
+    Joining is associative: parts can be joined in any grouping, on any machines.
 
     Parameters
     ----------
     parts : iterable of ImagePart, or of CloudPart
-        One at least.
+        At least one part.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -37,8 +37,8 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
     Raises
     ------
     DataError
-        If parts are there twice, or belong to another image or cloud or to other options; if parts
-        of an image are missing between others.
+        If parts occur twice, if they belong to different images, clouds or options, or if parts of
+        an image are missing between others.
 
     Examples
     --------
@@ -53,7 +53,7 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
             raise UsageError(
                 f"parts: found {type(part).__name__}, expected ImagePart or CloudPart")
     if not chosen:
-        raise DataError("parts: found none, expected one at least")
+        raise DataError("parts: found none, expected at least one")
     kind = type(chosen[0])
     for part in chosen:
         if type(part) is not kind:

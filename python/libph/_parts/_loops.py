@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Loops of volumes, which parts find together, in messages."""
+"""Loops of volumes, which parts find together by exchanging messages."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -22,37 +22,37 @@ def _as_bytes(name: str, data: Any) -> bytes:
 
 
 class ImageLoops:
-    """The bars of a volume that need all layers at once, as far as they belong to one part: loops.
+    """The loops of a volume that belong to one part; finding loops needs all layers at once.
 
     The parts work side by side, in any processes on any machines, and send each other messages
-    until nothing is on its way. Who works when, and in which order messages arrive, is all the
-    same. It stays in its process. Once a call has failed, or was stopped, nothing can be made of
-    it; a new part can.
+    until no message is in transit. Neither the schedule nor the order in which messages arrive
+    affects the result. An object cannot leave its process. After a call failed or was stopped, the
+    object is useless, and a new part must be computed.
 
     Parameters
     ----------
     part : ImagePart
-        Right from ``image_part(…, loops=True)``, in the same process. It lends its voxels, once.
-        The image must not change until all is done.
+        A fresh result of ``image_part(…, loops=True)``, in the same process. It lends its voxels
+        once. The image must not change until the work is done.
     field : int
-        Coefficients are in Z/p for this prime p. All parts need the same.
+        Coefficients are in Z/p for this prime p. It must be the same for all parts.
     **run
-        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. The first two are
-        those of all that is done.
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. The first two apply
+        to the whole work.
 
     Attributes
     ----------
     part, parts : int
-        Which part it is, from 0 on, of how many.
+        Index of the part, from 0, and the number of parts.
 
     Raises
     ------
     UsageError
-        If the part has no loops, was sent or joined, or has lent its voxels already.
+        If the part has no loops, was sent or joined, or has already lent its voxels.
 
     Examples
     --------
-    Three parts in one process. `letters` is what is on its way, each with the part that it is for:
+    Three parts in one process. `letters` holds the messages in transit, each with its receiver:
 
     >>> volume = np.random.default_rng(0).random((9, 8, 7))
     >>> parts = [ph.image_part(volume, i, 3, loops=True) for i in range(3)]
@@ -88,75 +88,78 @@ class ImageLoops:
         try:
             self._loops = _run.run(_core.RunningLoops, held, self._field, options=dict(run))
         except UsageError:
-            part._held = held  # it was not looked at
+            part._held = held  # the message was not examined
             raise
         self._meta = part._meta()
         self.part: int = self._loops.part
         self.parts: int = part.parts
 
     def begin(self, told: bytes, **run: Unpack[RunOptions]) -> None:
-        """Begins, once, with what `ImagePart.told_to_loops` of the whole says of this part.
+        """Starts the work, once, with the entry of `ImagePart.told_to_loops` for this part.
 
         Raises
         ------
         DataError
-            If that is damaged, or of another part, or of an image of other extents or options.
-            Voxels are not compared: no part has seen them all.
+            If the entry is damaged, or belongs to another part or to an image with other extents or
+            options. Voxels are not compared, because no part has seen them all.
         """
         _run.check_names("begin", run, ["told"])
         _run.run(self._loops.begin, _as_bytes("told", told), options=dict(run))
 
     def receive(self, message: bytes) -> None:
-        """Takes in a message for this part, also before it begins. Each must come once.
+        """Receives a message for this part, even before `begin`. Each message must come exactly
+        once.
 
         Raises
         ------
         DataError
-            If it is damaged, is for another part, or has come before.
+            If the message is damaged, is for another part, or has come before.
         """
         self._loops.receive(_as_bytes("message", message))
 
     @property
     def is_idle(self) -> bool:
-        """Whether there is nothing to do until something is received."""
+        """True if there is nothing to do until a message is received."""
         return self._loops.is_idle
 
     def work(self, most: int | None = None, **run: Unpack[RunOptions]) -> None:
-        """Works until all is done or waits for others; on `most` columns, if that is given."""
+        """Works until everything is done or waits for other parts; on at most `most` columns, if
+        given."""
         _run.check_names("work", run, ["most"])
         count = None if most is None else _options.whole("most", most, 1)
         _run.run(self._loops.work, count, options=dict(run))
 
     def take_messages(self) -> list[tuple[int, bytes]]:
-        """What is to be sent since the last call: for which part, and the message."""
+        """The messages to send since the last call, each as a pair of receiver and message."""
         return self._loops.take_messages()
 
     @property
     def messages_sent(self) -> int:
-        """How many messages were taken so far."""
+        """Number of messages taken so far."""
         return self._loops.traffic[0]
 
     @property
     def messages_received(self) -> int:
-        """How many messages were received so far.
+        """Number of messages received so far.
 
-        Nothing is on its way once all parts together have received as many as they have sent. If
-        they are idle then, too, and there are no messages to take, all is done.
+        No message is in transit once all parts together have received as many messages as they have
+        sent. If all parts are also idle and have no messages to take, the work is done.
         """
         return self._loops.traffic[1]
 
     @property
     def bytes_sent(self) -> int:
-        """The bytes of all messages that were taken so far."""
+        """Number of bytes of all messages taken so far."""
         return self._loops.traffic[4]
 
     def barcode(self, **run: Unpack[RunOptions]) -> Barcode:
-        """The bars of this part, for ``ImagePart.barcode(loops=…)``, once all parts are done.
+        """The bars of this part, for ``ImagePart.barcode(loops=…)``; available once all parts are
+        done.
 
         Raises
         ------
         UsageError
-            If there is work to do, or there are messages to take.
+            If there is work left, or there are messages to take.
         """
         _run.check_names("barcode", run)
         bars = _run.run(self._loops.bars, options=dict(run))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What parts of images and of clouds have in common."""
+"""The common base of parts of images and clouds."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ _P = TypeVar("_P", bound="Part")
 
 
 class Part:
-    """A part, as its bytes, and what they say of it."""
+    """A part: its bytes, and the facts that they state."""
 
     parts: int
     _present: Sequence[int]  # ascending
@@ -29,31 +29,31 @@ class Part:
 
     @classmethod
     def from_bytes(cls: type[_P], data: bytes) -> _P:
-        """The part that `to_bytes` stored, or ``ph-barcode --part`` in a file.
+        """The part that `to_bytes` stored, or that ``ph-barcode --part`` wrote to a file.
 
         Raises
         ------
         DataError
-            If it is no such part, or damaged: a part has a checksum.
+            If the bytes are not such a part or are damaged; a part has a checksum.
         """
         return cls(data)
 
     def to_bytes(self) -> bytes:
-        """The part as bytes, the same on every machine: what a file of it has.
+        """The part as bytes, as its file holds them; the same on every machine.
 
-        ``ph-barcode --join`` takes such a file.
+        ``ph-barcode --join`` accepts such a file.
         """
         return self._bytes
 
     @property
     def missing(self) -> tuple[int, ...]:
-        """The parts that it does not have, from 0 on, ascending."""
+        """The missing parts, from 0, ascending."""
         present = set(self._present)
         return tuple(i for i in range(self.parts) if i not in present)
 
     @property
     def is_whole(self) -> bool:
-        """Whether it has all parts."""
+        """True if it has all parts."""
         return len(self._present) == self.parts
 
     def __eq__(self, other: object) -> bool:
@@ -68,7 +68,7 @@ class Part:
         return (type(self), (self._bytes,))
 
     def _words(self) -> str:
-        """Which parts it has, for people: "2 of 8", "1 to 3 of 8", "3 parts of 8"."""
+        """Its parts, as text: "2 of 8", "1 to 3 of 8", "3 parts of 8"."""
         first, last, count = self._present[0], self._present[-1], len(self._present)
         if count == 1:
             return f"{first} of {self.parts}"
@@ -78,6 +78,6 @@ class Part:
 
 
 def checked_numbers(part: Any, parts: Any) -> tuple[int, int]:
-    """Which part of how many."""
+    """Index of a part and the number of parts."""
     count = _options.whole("parts", parts, 1, _MOST_PARTS)
     return _options.whole("part", part, 0, count - 1), count

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From what a user has of a scene to a cloud of _core."""
+"""Converts a user's description of a scene into a cloud of _core."""
 from __future__ import annotations
 
 import os
@@ -14,16 +14,16 @@ from .._files import path_of
 
 
 class Scene(NamedTuple):
-    """What is segmented, and where it came from."""
+    """The input of a segmentation, and its origin."""
 
-    cloud: _core.Cloud | _core.Segmentation  # the latter: a stored tree was read
-    name: str                                # of the file; empty: it was an array
+    cloud: _core.Cloud | _core.Segmentation  # a SceneTree if a stored tree was read
+    name: str                                # path of the file; empty for an array
     is_depth: bool
 
 
 def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_scale: Any,
              run: dict[str, Any]) -> Scene:
-    """Of an array, or of a file."""
+    """Reads the input from an array or a file."""
     is_path = isinstance(data, (str, bytes, os.PathLike))
     if intrinsics is not None and camera is not None:
         raise UsageError("camera: excludes intrinsics")
@@ -53,7 +53,7 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
 def _scale(value: Any) -> float:
     scale = _options.positive("depth_scale", value)
     if scale < 1:
-        raise UsageError(f"depth_scale: found {scale}, expected units a metre, at least 1; if a "
+        raise UsageError(f"depth_scale: found {scale}, expected units per metre, at least 1; if a "
                          f"unit is {scale} m: {1 / scale:.6g}")
     return scale
 
@@ -72,7 +72,7 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
 
 
 def _intrinsics(given: Any) -> list[float]:
-    """FX, FY, CX, CY; or the camera matrix that OpenCV has."""
+    """FX, FY, CX, CY; or a camera matrix as in OpenCV."""
     expected = "fx, fy, cx, cy, or the 3 x 3 matrix [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"
     numbers = _arrays.as_float64(_arrays.as_array(given, "intrinsics"), "intrinsics")
     if numbers.shape == (3, 3):
@@ -112,7 +112,7 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
     if array.ndim != 2:
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
                          "rows and columns, as a camera is given")
-    if scale is None:  # masked whole numbers are floats by now
+    if scale is None:  # masked integers have been converted to floats
         given = data if isinstance(data, np.ma.MaskedArray) else array
         scale = 1.0 if given.dtype.kind == "f" else 1000.0
     image = _arrays.side_by_side(_arrays.as_image(array, "cloud"), "cloud")
@@ -121,7 +121,7 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
 
 
 def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
-    """Bytes, three or four for each point."""
+    """The colours as bytes, three or four per point."""
     array = _arrays.as_array(data, "colours")
     if array.shape[:-1] != shape or array.shape[-1] not in (3, 4):
         raise UsageError(f"colours: found an array of shape {array.shape}, expected "

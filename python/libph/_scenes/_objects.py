@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import pandas
 
-_MOST_ROWS = 30  # of a table in a notebook
+_MOST_ROWS = 30  # number of rows of a table in a notebook
 
 
 class Segment(NamedTuple):
@@ -22,32 +22,32 @@ class Segment(NamedTuple):
     label : int
         Its number in `Segmentation.labels`: 1, 2, ... by decreasing number of points.
     points : int
-        How many it has.
+        Number of its points.
     voxels : int
-        How many it has.
+        Number of its voxels.
     persistence : float
-        How far the value at which it meets another object is above its own lowest one: the
-        confidence in it. inf if it meets none.
+        The value at which it first meets another object, less its own lowest value. It measures the
+        confidence in the object; inf if it meets no other.
     centroid : ndarray
-        The mean of its points, without those at its base on the plane.
+        The mean of its points, without the points at its base on the plane.
     box : ndarray
         The least and the largest coordinates of its points, (2, 3).
     centre : ndarray
-        The middle of the tight box around what is seen of it.
+        The middle of the tight box around its visible part.
     axes : ndarray
-        Three unit vectors along the tight box, one a row. Where a plane was removed, the last one
-        is its normal.
+        Three unit vectors along the tight box, one per row. If a plane was removed, the last one is
+        its normal.
     size : ndarray
-        How long the tight box is along each of the axes.
+        The length of the tight box along each axis.
     neighbours : tuple of (int, float)
-        The labels of the objects that it touches, the first met first, with the values at which
-        they meet.
+        The labels of the objects that it touches with the values at which they meet, in the order
+        of these values.
     role : str
-        "object", or "unknown": it stands on nothing that is seen, and the border of the image cuts
-        it off; or there is no support at all.
+        "object", or "unknown" if there is no support at all, or if it stands on nothing visible and
+        the border of the image cuts it off.
     on : tuple of (str, int) or None
-        What it stands on: ("surface", i), the i-th of `Segmentation.surfaces` from 0, or
-        ("object", label). None: that is not seen.
+        What it stands on: ("surface", i), where i is an index into `Segmentation.surfaces`, or
+        ("object", label). None if this is not visible.
     """
 
     label: int
@@ -74,15 +74,15 @@ class Segment(NamedTuple):
 
 
 class SceneSurface(NamedTuple):
-    """A plane that bounds a scene; it is no object.
+    """A plane that bounds a scene; it is not an object.
 
     Attributes
     ----------
     role : str
-        "support": objects stand on it, as a table, a board, the floor. "wall": nothing is seen
-        behind it.
+        "support": objects stand on it, such as a table, a board or the floor. "wall": nothing is
+        visible behind it.
     plane : tuple of float
-        (a, b, c, d) of ax + by + cz + d = 0, above 0 on the side of the camera.
+        (a, b, c, d) of ax + by + cz + d = 0; the left side is positive on the side of the camera.
     """
 
     role: str
@@ -90,7 +90,7 @@ class SceneSurface(NamedTuple):
 
 
 class Objects(Sequence[Segment]):
-    """The objects of a scene as a table. A row is a `Segment`, a column an array."""
+    """The objects of a scene as a table. A row is a `Segment`, and a column is an array."""
 
     def __init__(self, segments: Iterable[Segment]) -> None:
         self._segments = tuple(segments)
@@ -122,46 +122,46 @@ class Objects(Sequence[Segment]):
 
     @property
     def label(self) -> NDArray[np.int64]:
-        """The label of each."""
+        """The label of each object."""
         return self._column("label", np.int64)
 
     @property
     def points(self) -> NDArray[np.int64]:
-        """How many points each has."""
+        """The number of points of each object."""
         return self._column("points", np.int64)
 
     @property
     def voxels(self) -> NDArray[np.int64]:
-        """How many voxels each has."""
+        """The number of voxels of each object."""
         return self._column("voxels", np.int64)
 
     @property
     def persistence(self) -> NDArray[np.float64]:
-        """The confidence in each."""
+        """The persistence of each object: the confidence in it."""
         return self._column("persistence", np.float64)
 
     @property
     def centroid(self) -> NDArray[np.float64]:
-        """The mean of the points of each, (k, 3)."""
+        """The mean of the points of each object, (k, 3)."""
         return self._column("centroid", np.float64, (3,))
 
     @property
     def centre(self) -> NDArray[np.float64]:
-        """The middle of the tight box of each, (k, 3)."""
+        """The middle of the tight box of each object, (k, 3)."""
         return self._column("centre", np.float64, (3,))
 
     @property
     def axes(self) -> NDArray[np.float64]:
-        """The axes of that box, (k, 3, 3)."""
+        """The axes of the tight box of each object, (k, 3, 3)."""
         return self._column("axes", np.float64, (3, 3))
 
     @property
     def size(self) -> NDArray[np.float64]:
-        """How long that box is along its axes, (k, 3)."""
+        """The lengths of the tight box of each object along its axes, (k, 3)."""
         return self._column("size", np.float64, (3,))
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table, a row for each object, with the label as its index."""
+        """A DataFrame with one row per object and the label as its index."""
         import pandas
         columns: dict[str, Any] = {"points": self.points, "voxels": self.voxels,
                                    "persistence": self.persistence}
@@ -187,12 +187,12 @@ def _numbers(values: Iterable[float]) -> str:
 
 
 def standing_on(surface: int, label: int) -> tuple[str, int] | None:
-    """What _core calls a surface, from 1, or a label."""
+    """Converts _core's number of a surface, from 1, or a label."""
     return ("surface", surface - 1) if surface else ("object", label) if label else None
 
 
 def segment_of(facts: dict[str, Any]) -> Segment:
-    """Of what _core knows of it."""
+    """Made from the data of _core."""
     arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
     for array in arrays.values():
         array.flags.writeable = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Objects in a point cloud or a depth image, by H0 persistence of its surface."""
+"""Finds objects in a point cloud or a depth image, by H0 persistence of its surface."""
 from __future__ import annotations
 
 import inspect
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _LOG = logging.getLogger("libph")
 _METHODS = ("surface", "paper", "supervoxels")
-# What is read of the scene itself. All others decide how it is segmented.
+# Options for reading the scene. All others control the segmentation.
 _OF_INPUT = ("cloud", "colours", "intrinsics", "camera", "depth_scale", "run")
 _MOST_STEPS = 2**31 - 1
 _SPACING, _DISTANCE, _STEPS, _NOISE = 0.03, 0.025, 10, 0.005
@@ -43,69 +43,72 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
             depth_scale: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:
     """Segments a point cloud or a depth image into objects.
 
-    All lengths are metres. What should be known before the result is trusted is a ``UserWarning``,
-    and in `Segmentation.meta`: no plane, or lengths that look like millimetres.
+    All lengths are in metres. Doubts about the result, such as a missing plane or lengths that look
+    like millimetres, are raised as a ``UserWarning`` and stored in `Segmentation.meta`.
 
     Parameters
     ----------
     cloud : array_like or path
-        Points in space (n, 3), or (rows, columns, 3) as a camera sees them, NaN where it sees
-        nothing. With `intrinsics` or `camera` a depth image (rows, columns): floats are metres,
-        whole numbers millimetres; what is not above 0 is a hole. A file of either, or of a tree
-        that `Segmentation.save` wrote; then there are no other options.
+        Points in space (n, 3), or (rows, columns, 3) as a camera sees them, with NaN where it sees
+        nothing. With `intrinsics` or `camera`, a depth image (rows, columns): floats are metres,
+        integers millimetres, and values up to 0 are holes. Or the path of a file of either kind, or
+        of a tree that `Segmentation.save` wrote; a tree accepts no other options.
     method : {None, "surface", "paper", "supervoxels"}
-        By the shape of the surface (default); by distance alone, as in Beksi & Papanikolopoulos,
-        ICRA 2016; or into pieces of about one size.
+        "surface" (default): by the shape of the surface. "paper": by distance alone, as in Beksi &
+        Papanikolopoulos, ICRA 2016. "supervoxels": into pieces of similar size.
     supervoxels : float, optional
-        Method "supervoxels": the surface is nowhere farther from a seed. Default: 0.03.
+        For "supervoxels": the largest distance of the surface from a seed. Default: 0.03.
     voxel : float, optional
         The edge of a voxel. Default: 0.005, or more for a sparse cloud; "paper": 0.01.
     min_persistence : float, optional
-        The least persistence of a part. "surface": in units of the noise, that is, of how hollow
-        the free supporting plane looks, default 1; "supervoxels": a length, default 0.
+        The least persistence of a part. For "surface" in units of the noise, that is, of how
+        concave the free supporting plane looks, default 1; for "supervoxels" a length, default 0.
     min_part : int, optional
-        The fewest voxels of a part; a smaller one joins a neighbour. Default: 200; "supervoxels":
-        8. Not of "paper".
+        The fewest voxels of a part; a smaller part joins a neighbour. Default: 200; for
+        "supervoxels"
+        8. Not for "paper".
     min_size : int, optional
-        The fewest voxels of an object. Default: 32; "supervoxels": 1.
+        The fewest voxels of an object. Default: 32; for "supervoxels" 1.
     min_seam : float, optional
-        Parts join over a seam whose lower quartile is less than so many times `min_persistence`.
-        0: its lowest place alone counts. Default: 2. Of "surface" only.
+        Parts join over a seam if its lower quartile is less than this many times `min_persistence`.
+        0: only the lowest place of a seam counts. Default: 2. Only for "surface".
     objects : bool, optional
-        Whether the visible parts of one object are joined. Default: True. Of "surface" only.
+        If True, the visible parts of one object are joined. Default: True. Only for "surface".
     max_range : float
         Points farther from the viewpoint are left out.
     crop : array_like, optional
         Points outside this box are left out: xmin, xmax, ymin, ymax, zmin, zmax.
     plane : bool
-        Whether the supporting plane, and what lies behind it, is removed.
+        If True, the supporting plane and everything behind it are removed.
     plane_distance : float, optional
         Half the thickness of the plane. Default: 0.005; "paper": 0.006.
     plane_noise : float, optional
-        The least of it at a range of one metre; it grows with the square of the range. Default:
-        0.005. Not of "paper".
+        The least half thickness at a range of one metre; it grows with the square of the range.
+        Default: 0.005. Not for "paper".
     previous : Segmentation, optional
-        That of the frame before, seen by the same camera. The supporting plane is looked for where
-        it was, so that it does not jump.
+        The segmentation of the frame before, from the same camera. The search for the supporting
+        plane starts where it was, so that it does not jump.
     viewpoint : sequence of float, optional
-        Where the sensor stood. Default: as the file or the rays of the pixels say, else the origin.
+        The position of the sensor. Default: as the file or the rays of the pixels tell, else the
+        origin.
     distance : float, optional
-        Of "paper": the largest distance that joins two voxels. Default: 0.025.
+        For "paper": the largest distance that joins two voxels. Default: 0.025.
     steps : int or "exact", optional
-        Of "paper": the steps of the filtration up to it. Default: 10.
+        For "paper": the number of steps of the filtration up to `distance`. Default: 10.
     check : bool
-        Whether persistence is computed twice, by union-find and by reduction of a matrix.
+        If True, persistence is computed twice, by union-find and by reduction of a matrix, and
+        compared.
     colours : array_like or path, optional
         Red, green and blue of each point or pixel, as bytes or as floats from 0 to 1. The
-        segmentation does not look at them; files and pictures have them. A path of an image where
-        `cloud` is the path of a depth image.
+        segmentation does not use them; they appear in files and pictures. If `cloud` is the path of
+        a depth image, the path of an image.
     intrinsics : array_like, optional
-        Of a depth image: fx, fy, cx, cy in pixels, or the matrix of the camera (3, 3).
+        For a depth image: fx, fy, cx, cy in pixels, or the matrix of the camera (3, 3).
     camera : str or path, optional
-        In its place a calibration file (camera_info of ROS, OpenCV, Open3D), or the name of a
-        camera, as "realsense-d435".
+        Instead of `intrinsics`: a calibration file (camera_info of ROS, OpenCV, Open3D), or the
+        name of a camera, such as "realsense-d435".
     depth_scale : float, optional
-        Units of a depth image that make a metre.
+        Number of units of a depth image per metre.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -145,7 +148,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
 
 
 def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
-    """What the user hears; also for the record."""
+    """The warnings for the user; also kept in the result."""
     for note in scene.cloud.notes:
         _LOG.info("%s: %s", scene.name or "cloud", note)
     for note in found.notes:
@@ -159,12 +162,12 @@ def _require_no_options(given: dict[str, Any]) -> None:
         is_default = value is default or (
             isinstance(value, (bool, int, float, np.generic)) and value == default)
         if name not in _OF_INPUT and not is_default:
-            raise UsageError(f"{name}: does nothing for a stored tree, which was made with what it "
-                             "was made with; Segmentation.cut cuts it anew")
+            raise UsageError(f"{name}: does nothing for a stored tree, which keeps the options it "
+                             "was made with; Segmentation.cut makes another cut")
 
 
 def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
-    """The options as _core takes them. One that does nothing is refused."""
+    """The options in the form that _core expects. Refuses an option that has no effect."""
     method = o["method"]
     if o["supervoxels"] is not None:
         if method not in (None, "supervoxels"):
@@ -206,7 +209,7 @@ def _if_given(check: Any, name: str, options: dict[str, Any], default: Any = Non
 def _plane_of(name: str, value: Any) -> tuple[float, ...] | None:
     """The plane of a segmentation, and its share of the points."""
     if not isinstance(value, Segmentation):
-        raise _options.refuse(name, value, "what ph.segment gave for the frame before")
+        raise _options.refuse(name, value, "the result of ph.segment for the frame before")
     plane = value.meta.get("plane")
     return None if plane is None else (*plane, value.meta["plane_share"])
 
@@ -245,7 +248,7 @@ def _point(name: str, value: Any) -> list[float]:
 def _box(name: str, value: Any) -> list[list[float]]:
     """Its two corners."""
     numbers = _arrays.as_float64(_arrays.as_array(value, name), name)
-    expected = "xmin, xmax, ymin, ymax, zmin, zmax, each least before its most"
+    expected = "xmin, xmax, ymin, ymax, zmin, zmax, each minimum before its maximum"
     if numbers.shape not in ((6,), (3, 2)):
         raise _options.refuse(name, value, expected)
     corners = numbers.reshape(3, 2).T

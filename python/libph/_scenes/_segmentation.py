@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a segmentation gives."""
+"""The result of a segmentation."""
 from __future__ import annotations
 
 import functools
@@ -36,15 +36,17 @@ class Voxels(NamedTuple):
     Attributes
     ----------
     centroids : ndarray
-        The mean of the points in each, (v, 3).
+        The mean of the points in each voxel, (v, 3).
     normals : ndarray or None
-        The normal of the surface in each, NaN where there is none, (v, 3). None: method "paper".
+        The normal of the surface in each voxel, NaN where there is none, (v, 3). None for method
+        "paper".
     points : ndarray
-        How many points each centroid is the mean of.
+        Number of points in each voxel.
     labels : ndarray
-        The object of each, 0: none.
+        The object of each voxel; 0 for none.
     of_point : ndarray
-        The voxel of each point of the cloud, -1: none. Shaped as `Segmentation.labels`.
+        The voxel of each point of the cloud; -1 for none. It has the shape of
+        `Segmentation.labels`.
     """
 
     centroids: NDArray[np.float64]
@@ -55,31 +57,32 @@ class Voxels(NamedTuple):
 
 
 class Segmentation:
-    """The objects of a scene: one cut of a merge tree, with the tree.
+    """The objects of a scene: a merge tree and one cut of it.
 
-    It cannot be changed. Two are equal if their trees and cuts are.
+    A segmentation is immutable. Two segmentations are equal if their trees and cuts are equal.
 
     Attributes
     ----------
     labels : ndarray
-        The object of each point, 0: none. (rows, columns) if the cloud has them, else (n,).
-        Read-only.
+        The object of each point; 0 for none. Shape (rows, columns) if the cloud has rows and
+        columns, else (n,). Read-only.
     objects : Objects
-        What is known of each object.
+        The properties of each object.
     surfaces : tuple of SceneSurface
-        What bounds the scene: the plane that was removed, other supports, walls.
+        The planes that bound the scene: the removed plane, other supports, walls.
     surface_labels : ndarray
-        Shaped as `labels`: which surface each point is on, the first being 1; 0: none. Read-only.
+        The surface of each point, counted from 1; 0 for none. It has the shape of `labels`.
+        Read-only.
     tree : MergeTree
-        How the voxels join. `voxels` says where they are.
+        The merge tree of the voxels. `voxels` gives their positions.
     voxels : Voxels
         The vertices of the tree.
     barcode : Barcode
-        The H0 of the tree, with bars of no length.
+        The H0 barcode of the tree, including bars of length 0.
     meta : Mapping
         How it was made: `method`, `voxel`, `plane` (a, b, c, d of ax + by + cz + d = 0),
-        `viewpoint`, where it was cut, `noise` (pairs of a range and of the concavity that a flat
-        surface seems to have there), and `notes`.
+        `viewpoint`, the cut, `noise` (pairs of a range and of the concavity that a flat surface
+        shows there), and `notes`.
     """
 
     _found: _core.Segmentation
@@ -130,7 +133,7 @@ class Segmentation:
 
     @property
     def tree(self) -> MergeTree:
-        """How the voxels join."""
+        """The merge tree of the voxels."""
         return MergeTree(self._found.tree, None)
 
     @property
@@ -144,7 +147,7 @@ class Segmentation:
 
     @property
     def barcode(self) -> Barcode:
-        """The H0 of the tree."""
+        """The H0 barcode of the tree."""
         paper = self.meta["method"] == "paper"
         meta = {"complex": "rips" if paper else "lower-star", "points": self.meta["voxels"]}
         return Barcode._of(self._found.barcode, meta)
@@ -159,13 +162,13 @@ class Segmentation:
         Parameters
         ----------
         value : float, optional
-            The least persistence of a part; method "paper": the distance up to which voxels join,
-            no larger than that of the tree. Default: as it is.
+            The least persistence of a part; for method "paper", the distance up to which voxels
+            join, at most the distance of the tree. Default: unchanged.
         n : int, optional
-            In its place: how many objects there shall be. The cut stays where it is if it gives
-            them; else `min_seam` is 0 unless it is given.
+            Instead of `value`: the number of objects to find. A cut that already has this number
+            does not change; otherwise `min_seam` is 0 unless it is given.
         min_part, min_size, objects, min_seam
-            As of `segment`. Default: as they are.
+            As in `segment`. Default: unchanged.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -176,7 +179,7 @@ class Segmentation:
         Raises
         ------
         UsageError
-            If no cut was found that gives `n` objects.
+            If no cut was found that has `n` objects.
         """
         _run.check_names("cut", dict(run))
         method = self.meta["method"]
@@ -211,7 +214,7 @@ class Segmentation:
             n = _options.whole("n", n, 0)
             if len(found.segments) != n:
                 if method == "surface" and min_seam is None:
-                    min_seam = 0.0  # the levels between which nothing changes are those of the tree
+                    min_seam = 0.0  # the number of objects changes only at the levels of the tree
                 found = found_at(self._value_of(n, min_part, min_size, found_at))
             if len(found.segments) != n:
                 raise _no_cut(n, [str(len(found.segments))])
@@ -219,7 +222,7 @@ class Segmentation:
 
     def _value_of(self, n: int, min_part: int | None, min_size: int | None, found_at: Any
                   ) -> float:
-        """Where to cut for so many objects."""
+        """The cut value for this number of objects."""
         tree = self._found.tree
         sizes = np.sort(np.column_stack([np.asarray(tree.elder_sizes),
                                          np.asarray(tree.younger_sizes)]), axis=1)
@@ -229,7 +232,8 @@ class Segmentation:
                                 self.meta["voxels"], min_size or self.meta["min_size"])
         separates = sizes[:, 0] >= (min_part or self.meta["min_part"])
         births = np.asarray(tree.births)[np.asarray(tree.younger)]
-        # Between two of these all cuts are the same, and the last one joins all that can be.
+        # Between two consecutive values all cuts are equal, and the last value joins all that can
+        # be joined.
         levels = np.unique(np.append((values - births)[separates], 0.0))
         levels = np.append(levels, np.nextafter(levels[-1], np.inf))
 
@@ -238,7 +242,7 @@ class Segmentation:
             return len(found_at(float(levels[i])).segments)
 
         def first_with(most: int) -> int:
-            """By halves: the coarser the cut, the fewer objects there are."""
+            """Bisection works because a coarser cut has fewer objects."""
             low, high = 0, len(levels)
             while low < high:
                 middle = (low + high) // 2
@@ -256,15 +260,15 @@ class Segmentation:
     # ---- more about objects
 
     def signature(self, *labels: int, **run: Unpack[RunOptions]) -> Barcode:
-        """The shape of an object, or of several together: loops and hollows.
+        """The loops and hollows of an object, or of several objects together.
 
         A bar of dimension 1 is a loop. It closes when the voxels have grown by its birth, and a
-        ball as large as its death goes through. Lengths are metres.
+        ball with its death as the radius fits through it. Lengths are in metres.
 
         Parameters
         ----------
         *labels : int
-            Of the objects.
+            Labels of the objects.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
         """
@@ -276,7 +280,7 @@ class Segmentation:
         return Barcode._of(bars, {"complex": "cubical", "field": 2})
 
     def first_meeting(self, a: int, b: int) -> tuple[float, NDArray[np.float64]] | None:
-        """The value at which two objects join, and where in space; None: they never do."""
+        """The value at which two objects join, and the place in space; None if they never do."""
         meeting = self._found.first_meeting(self._label("a", a), self._label("b", b))
         return None if meeting is None else (meeting[0], np.array(meeting[1]))
 
@@ -293,9 +297,9 @@ class Segmentation:
         Parameters
         ----------
         path : path
-            Its extension chooses the format. The labels: .npy, .png (16 bits, rows and columns) or
-            .csv. The cloud with its labels, and all that it had: .pcd or .ply. The tree: .tree, for
-            `segment` and the program ph-segment, or .json.
+            The file; its extension selects content and format. The labels: .npy, .png (16 bits,
+            rows and columns) or .csv. The cloud with all its fields and the labels: .pcd or .ply.
+            The tree: .tree, for `segment` and the program ph-segment, or .json.
         format : str, optional
             One of these extensions without its dot.
         """
@@ -307,7 +311,7 @@ class Segmentation:
                                   ", ".join(_FORMATS) if format is None
                                   else ", ".join(dict.fromkeys(_FORMATS.values())))
         if known in ("pcd", "ply") and not self._found.has_cloud:
-            raise UsageError(f"format: found {known}, but of a stored tree there is no cloud")
+            raise UsageError(f"format: found {known}, but a stored tree has no cloud")
         if known == "png" and self.labels.ndim == 1:
             raise UsageError("format: found png for a cloud without rows and columns, expected npy "
                              "or csv")
@@ -319,7 +323,7 @@ class Segmentation:
         Parameters
         ----------
         title : str
-            Of the page. Default: the name of the file, or what the scene is.
+            Title of the page. Default: the name of the file, or what the scene is.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -357,7 +361,7 @@ class Segmentation:
 
 def _restored(version: int, state: dict[str, Any], told: tuple[str, Sequence[str], str]
               ) -> Segmentation:
-    """What pickle calls."""
+    """Called by pickle."""
     require_version(version, _STATE_VERSION)
     found = _run.run(_core.Segmentation.from_state, state, options={})
     return Segmentation._of(found, *told)
@@ -365,12 +369,13 @@ def _restored(version: int, state: dict[str, Any], told: tuple[str, Sequence[str
 
 def _distance_of(n: int, values: NDArray[np.float64], sizes: NDArray[np.int64], voxels: int,
                  least: int) -> float:
-    """The largest distance at which `n` components have `least` voxels.
+    """The largest distance at which `n` components have at least `least` voxels.
 
     Parameters
     ----------
     values, sizes
-        Of each merge, in order: its distance, and the voxels of both sides, the smaller first.
+        For each merge, in order: its distance, and the number of voxels on both sides, the smaller
+        first.
     """
     gained = (sizes[:, 1] < least) & (sizes.sum(axis=1) >= least)
     lost = (sizes[:, 0] >= least).astype(int)
@@ -385,5 +390,5 @@ def _distance_of(n: int, values: NDArray[np.float64], sizes: NDArray[np.int64], 
 
 
 def _no_cut(n: int, counts: Sequence[str]) -> UsageError:
-    return UsageError(f"n: found no cut into {n} objects; those next to it give "
+    return UsageError(f"n: found no cut into {n} objects; the nearest ones give "
                       f"{' and '.join(counts) or 'none'}")

@@ -14,17 +14,17 @@ from ._segmentation import Segmentation
 
 
 class Tracked(NamedTuple):
-    """What an object of a frame is over some frames.
+    """The identity of an object over several frames.
 
     Attributes
     ----------
     number : int
-        It keeps it from frame to frame.
+        The number of the object, which stays the same from frame to frame.
     role : str
         "object", "unknown", "support" or "wall": a wall that is an object in one frame is still a
         wall.
     on : tuple of (str, int) or None
-        What it stands on, as `Segment.on` of that frame says it.
+        What it stands on, in the form of `Segment.on` of that frame.
     """
 
     number: int
@@ -33,19 +33,20 @@ class Tracked(NamedTuple):
 
 
 class LabelTracker:
-    """Gives the objects of a stream of frames numbers and roles that hold.
+    """Gives the objects of a stream of frames stable numbers and roles.
 
-    A segment takes the number of the object with which it shares most places, if they share more
-    than a quarter of the smaller of the two. All else gets a new number. Places are pixels, or
-    cubes of `cell` in clouds without rows and columns; then the camera must stand still. The role
-    of an object, and what it stands on, change when three frames in a row say the same.
+    A segment takes the number of the object with which it shares most places, if the shared places
+    are more than a quarter of the smaller of the two. All other segments get new numbers. Places
+    are pixels, or cubes of edge `cell` in clouds without rows and columns; in that case the camera
+    must stand still. The role of an object, and what it stands on, change when three frames in a
+    row agree.
 
     Parameters
     ----------
     patience : int
-        For so many frames an object that is not seen is remembered.
+        Number of frames for which an object that is not visible is remembered.
     cell : float
-        The edge of those cubes, metres.
+        The edge of the cubes, in metres.
 
     Examples
     --------
@@ -63,22 +64,23 @@ class LabelTracker:
         self._tracker = _core.LabelTracker(frames, _options.positive("cell", cell))
 
     def __reduce__(self) -> NoReturn:
-        # Else protocols 0 and 1 of pickle ask a base class of pybind11, which ends the process.
-        raise TypeError("cannot pickle a LabelTracker: it is what was seen of one stream so far")
+        # Without this, protocols 0 and 1 of pickle call a base class of pybind11, which ends the
+        # process.
+        raise TypeError("cannot pickle a LabelTracker: it belongs to one stream of frames")
 
     def update(self, frame: Any) -> Any:
-        """The next frame.
+        """Takes the next frame.
 
         Parameters
         ----------
         frame : Segmentation or array_like of int
-            What `segment` gave, or labels of a raster from elsewhere, 0: none.
+            The result of `segment`, or labels of a raster from elsewhere, where 0 means none.
 
         Returns
         -------
         tuple of Tracked, or ndarray
-            Of a `Segmentation` what each of its objects is, that of ``objects[i]`` at i. Of labels
-            the number of the object of each.
+            For a `Segmentation`, a `Tracked` for each of its objects, in the order of ``objects``.
+            For labels, an array with the number of each label's object.
         """
         if isinstance(frame, Segmentation):
             return tuple(Tracked(number, role, standing_on(*on))

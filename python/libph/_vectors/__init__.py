@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of diagrams, which _core computes, and the methods of `Barcode` that give them.
+"""Vectors of diagrams, which _core computes, and the methods of `Barcode` that return them.
 
-`_diagrams`: what a diagram is, and what becomes of bars that never die. `_ranges`: grids and pixels.
-`_functions`: a vector of one diagram. `_steps`: functions that are exact. `_summaries`: methods.
-`_euler` and `_kernels` know of barcodes, and are imported by who needs them.
+`_diagrams` defines diagrams and the treatment of bars that never die, `_ranges` grids and pixels,
+`_functions` vectors of one diagram, `_steps` exact functions, and `_summaries` the methods.
+`_euler` and `_kernels` depend on barcodes and are imported where they are needed.
 """
 from ._diagrams import Diagram, Infinity, as_diagram, checked_infinity, settled
 from ._ranges import Range

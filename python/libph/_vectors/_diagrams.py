@@ -16,7 +16,7 @@ Infinity = Union[float, str]
 
 
 def as_diagram(data: Any, name: str) -> Diagram:
-    """Rows birth, death of numbers with birth <= death, none born at an infinite value."""
+    """Rows birth, death with birth <= death and finite births."""
     array = _arrays.as_array(data, name)
     if array.size == 0 and array.ndim < 3:
         return np.empty((0, 2))
@@ -37,7 +37,8 @@ def as_diagram(data: Any, name: str) -> Diagram:
 
 
 def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
-    """What becomes of deaths at infinity: "error", "drop", "keep" if it is defined, a number."""
+    """The treatment of infinite deaths: "error", "drop", "keep" where it is defined, or a
+    number."""
     words = ["error", "drop"] + ["keep"] * may_keep
     if isinstance(infinity, str):
         if infinity not in words:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .._run import RunOptions
 
-# What cubical_request wants beside what an Euler curve has: no bar is computed.
+# Arguments of cubical_request that an Euler curve lacks; no bar is computed.
 _OF_BARS = {"max_dim": None, "min_dim": 0, "field": 2, "representatives": None, "loops": None,
             "min_persistence": 0.0, "cells": False, "engine": "auto"}
 
@@ -42,28 +42,29 @@ def euler_curve(image: Any, *, range: Iterable[float] | None = None,
                 ) -> StepFunction | NDArray[np.float64]:
     """The Euler characteristic curve of an image, without its bars.
 
-    At t it is the number of cells of even dimension that are there, less those of odd dimension: in
-    two dimensions components less holes, in three components less tunnels plus hollows. It is equal
-    to `Barcode.euler_curve` of `cubical`, and takes some nanoseconds a voxel [Heiss, Wagner 2017].
+    At t, it is the number of cells of even dimension that are present, minus the number of cells of
+    odd dimension: in two dimensions, components minus holes; in three, components minus tunnels
+    plus hollows. It equals `Barcode.euler_curve` of the result of `cubical`, and takes some
+    nanoseconds per voxel [Heiss, Wagner 2017].
 
     Parameters
     ----------
     image : array_like or PointImage
-        As of `cubical`.
+        As in `cubical`.
     range : pair of float, optional
-        The curve at the values of a grid from the one number to the other; with little memory,
-        whatever the image. Default: the exact curve, with all its steps.
+        The ends of a grid at whose values the curve is computed, in little memory whatever the
+        image. Default: the exact curve, with all its steps.
     resolution : int, optional
-        How many values the grid has, both ends of the range among them. Default: 100.
+        Number of values of the grid, including both ends of the range. Default: 100.
     construction, superlevel, periodic, threshold, nan
-        As of `cubical`.
+        As in `cubical`.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     StepFunction or ndarray
-        An array if there is a `range`.
+        A StepFunction, or an array if there is a `range`.
 
     Examples
     --------

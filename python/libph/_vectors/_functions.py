@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of one diagram, whose bars have the ends that the function takes.
+"""Vectors of one diagram, whose bars must suit the function.
 
-_core computes them. What stands here is the conventions of other packages.
+_core computes them. This module adds the conventions of other packages.
 """
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ NORMS = (None, "count", "total")
 PIXELS = ("integral", "density")
 ORIENTATIONS = ("ascending", "descending", "births")
 
-_BLOCK = 2**20  # numbers that are made at a time
+_BLOCK = 2**20  # numbers computed at a time
 
 
 def _filled(function: Callable[..., None], dgm: Diagram, shape: int | tuple[int, ...],
             *arguments: Any) -> Vector:
-    """What a function of _core writes."""
+    """The output of a function of _core."""
     out = _arrays.new_array(shape)
     _run.run(function, dgm, *arguments, out.reshape(-1), options={})
     return out
@@ -40,7 +40,7 @@ def _filled(function: Callable[..., None], dgm: Diagram, shape: int | tuple[int,
 
 
 def statistics_names() -> list[str]:
-    """Of the numbers of `statistics`, in order."""
+    """The names of the numbers of `statistics`, in order."""
     return _core.statistics_names()
 
 
@@ -50,7 +50,7 @@ def statistics(dgm: Diagram) -> Vector:
 
 
 def checked_entropy(unit: Any, normalised: Any, norms: Sequence[Any]) -> None:
-    """Refuses what is no unit or norm, and a unit of what has none."""
+    """Refuses unknown units and norms, and a unit for a number that has none."""
     _options.choice("unit", unit, UNITS)
     _options.choice("normalised", normalised, norms)
     if normalised and unit != "nats":
@@ -61,8 +61,8 @@ def checked_entropy(unit: Any, normalised: Any, norms: Sequence[Any]) -> None:
 def entropy(dgm: Diagram, unit: str = "nats", normalised: str | None = None) -> float:
     """The persistent entropy of the finite bars.
 
-    "count": divided by the logarithm of the number of bars; "total": by that of the sum of their
-    lengths.
+    "count": divided by the logarithm of the number of bars; "total": divided by the logarithm of
+    the sum of their lengths.
     """
     finite = dgm[np.isfinite(dgm).all(axis=1)]
     value = _run.run(_core.entropy, finite, normalised == "count", options={})
@@ -76,7 +76,7 @@ def entropy(dgm: Diagram, unit: str = "nats", normalised: str | None = None) -> 
 
 
 def longest(dgm: Diagram, count: int) -> Vector:
-    """The largest lengths, descending; 0 where there are no more bars."""
+    """The largest lengths, descending, padded with 0."""
     return _filled(_core.longest_lengths, dgm, count)
 
 
@@ -92,12 +92,12 @@ def checked_power(name: str, value: Any) -> float:
 
 
 def factor_of(height: str) -> float:
-    """Of the heights of tents."""
+    """The factor of the heights of tents."""
     return math.sqrt(2) if height == "euclidean" else 1.0
 
 
 def landscape(dgm: Diagram, layers: int, ends: Range, count: int, height: str = "tent") -> Vector:
-    """The first persistence landscapes at `count` values between two ends, a row each."""
+    """The first persistence landscapes at `count` values between two ends, one row per layer."""
     values = _filled(_core.landscape, dgm, (layers, count), ends, layers)
     return values * factor_of(height)
 
@@ -108,13 +108,13 @@ def silhouette(dgm: Diagram, power: float, ends: Range, count: int, height: str 
 
 
 def betti_curve(dgm: Diagram, ends: Range, count: int) -> Vector:
-    """How many bars live at each value."""
+    """The number of bars alive at each value."""
     return _filled(_core.betti_curve, dgm, count, ends)
 
 
 def life_entropy(dgm: Diagram, ends: Range, count: int, unit: str = "nats",
                  normalised: bool = False) -> Vector:
-    """What the bars that live at each value have of the entropy.
+    """The entropy of the bars that are alive at each value.
 
     `normalised`: the values have the sum 1.
     """
@@ -163,14 +163,14 @@ def _densities(dgm: Diagram, bandwidth: float, resolution: tuple[int, int], birt
 
 
 def _density(centres: Vector, span: Range, count: int, bandwidth: float) -> Vector:
-    """Of a normal distribution around each number the density in the middle of each interval."""
+    """The density of a normal distribution around each number, in the middle of each interval."""
     width = (span[1] - span[0]) / count
     middles = span[0] + width * (np.arange(count) + 0.5)
     values: Vector = np.exp(-((middles - centres[:, None]) / bandwidth)**2 / 2)
     return values / (bandwidth * math.sqrt(2 * math.pi))
 
 
-# ---- by a batch
+# ---- learned from a batch
 
 
 def fit_atol(dgms: list[Diagram], centres: int, seed: int) -> tuple[Vector, Vector]:
@@ -180,5 +180,5 @@ def fit_atol(dgms: list[Diagram], centres: int, seed: int) -> tuple[Vector, Vect
 
 
 def atol(dgm: Diagram, centres: Vector, widths: Vector, contrast: str) -> Vector:
-    """How much of a diagram is near each centre."""
+    """Measures how much of a diagram is near each centre."""
     return _filled(_core.atol_vector, dgm, len(widths), centres, widths, contrast)

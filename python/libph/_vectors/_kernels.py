@@ -35,7 +35,7 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
     "weighted_gaussian" is the persistence weighted Gaussian kernel [Kusano et al. 2016], the linear
     one: the sum of ``w(p) w(q) exp(-|p - q|² / (2 sigma²))``, with w = arctan(slope · length^power).
 
-    Bars have to be finite.
+    All bars must be finite.
 
     Parameters
     ----------
@@ -44,22 +44,22 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
     others : sequence of Barcode or array_like, optional
         The columns of the matrix. Default: the diagrams themselves.
     dim : int, optional
-        Of barcodes: the dimension.
+        For barcodes: the dimension.
     kernel : {"scale_space", "weighted_gaussian"}
         Which kernel.
     sigma : float
-        How wide it is: of "scale_space" in the unit of the values, squared; of "weighted_gaussian"
-        in the unit of the values.
+        Width of the kernel: for "scale_space" in the squared unit of the values, for
+        "weighted_gaussian" in the unit of the values.
     slope, power : float
-        Of "weighted_gaussian".
+        Parameters of "weighted_gaussian".
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
     Returns
     -------
     ndarray
-        Of shape (len(diagrams), len(others)); symmetric without `others`. ``SVC`` of scikit-learn
-        takes it with ``kernel="precomputed"``.
+        A matrix of shape (len(diagrams), len(others)); symmetric without `others`. ``SVC`` of
+        scikit-learn accepts it with ``kernel="precomputed"``.
 
     Examples
     --------
@@ -83,7 +83,7 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
 
 
 def kernel_choice(kernel: Any, sigma: Any, slope: Any, power: Any) -> _core.KernelChoice:
-    """The kernel that these words mean."""
+    """The kernel with this name."""
     _options.choice("kernel", kernel, _KERNELS)
     for name, value in (("slope", slope), ("power", power)):
         if value != 1 and kernel != "weighted_gaussian":

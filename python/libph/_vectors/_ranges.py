@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Grids and pixels: what is checked, and what is learned of diagrams."""
+"""Grids and pixels: their checks, and their defaults learned from diagrams."""
 from __future__ import annotations
 
 import math
@@ -13,7 +13,7 @@ from ._diagrams import Diagram
 
 Range = tuple[float, float]
 
-_BANDWIDTH = 1 / 20  # of the longer range
+_BANDWIDTH = 1 / 20  # relative to the longer range
 
 
 def checked_range(name: str, value: Any) -> Range:
@@ -29,12 +29,13 @@ def checked_range(name: str, value: Any) -> Range:
 
 
 def widened(low: float, high: float, width: float = 1.0) -> Range:
-    """The range; of one number a range of a width around it, of none (inf, -inf) [0, width]."""
+    """The range itself; for a single number, a range of some width around it; for no numbers (inf,
+    -inf), [0, width]."""
     if low > high:
         return 0.0, width
     if low < high:
         return low, high
-    half = max(width / 2, abs(low) * 2**-40)  # or rounding would swallow it
+    half = max(width / 2, abs(low) * 2**-40)  # otherwise rounding would swallow it
     return low - half, high + half
 
 
@@ -45,7 +46,8 @@ def range_of_values(dgms: Sequence[Diagram]) -> Range:
 
 def ranges_of_image(dgms: Sequence[Diagram], births: Range | None, lengths: Range | None
                     ) -> tuple[Range, Range]:
-    """Ranges of births and persistence. Those that are None: all births, and 0 to the longest."""
+    """Ranges of births and persistence. None stands for all births, and for 0 to the longest
+    bar."""
     joined = np.concatenate([np.empty((0, 2)), *dgms])
     joined = joined[joined[:, 0] < joined[:, 1]]  # bars of length 0 do not count
     if lengths is None:

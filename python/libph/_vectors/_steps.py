@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Functions of a real number that are exact: step functions, and piecewise linear ones."""
+"""Exact functions of a real number: step functions and piecewise linear functions."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -14,15 +14,15 @@ from .._errors import DataError
 
 @dataclass(frozen=True, eq=False)
 class StepFunction:
-    """A function of whole numbers that changes at some values; an Euler curve, a Betti curve.
+    """A step function with integer values, such as an Euler curve or a Betti curve.
 
-    It is 0 before ``at[0]``, and ``value[i]`` from ``at[i]`` to before ``at[i + 1]``. Call it with a
-    number or an array, without NaN.
+    It is 0 before ``at[0]``, and ``value[i]`` from ``at[i]`` up to, but not including, ``at[i +
+    1]``. Call it with a number or an array, without NaN.
 
     Attributes
     ----------
     at : ndarray
-        Where it changes, ascending.
+        The values at which it changes, ascending.
     value : ndarray
         The value from there on.
 
@@ -67,9 +67,11 @@ class StepFunction:
 
 @dataclass(frozen=True, eq=False)
 class PiecewiseLinear:
-    """A continuous function, linear between its critical points; a layer of a landscape.
+    """A continuous function that is linear between its critical points, such as a layer of a
+    landscape.
 
-    It is 0 before the first and behind the last. Call it with a number or an array, without NaN.
+    It is 0 before the first critical point and after the last. Call it with a number or an array,
+    without NaN.
 
     Attributes
     ----------
@@ -109,14 +111,14 @@ class PiecewiseLinear:
 
 
 def _places(name: str, t: Any) -> NDArray[np.float64]:
-    """Where a function is asked for; NaN is nowhere."""
+    """The points at which a function is evaluated, without NaN."""
     numbers = _arrays.as_float64(_arrays.as_array(t, name), name)
     refuse_nan(name, numbers)
     return numbers
 
 
 def refuse_nan(name: str, numbers: NDArray[np.float64]) -> None:
-    """Says where the first one is."""
+    """Names the first one."""
     wrong = np.isnan(numbers)
     if wrong.any():
         place = "" if not numbers.ndim else _arrays.place_of(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The methods of `Barcode` that give vectors and curves."""
+"""The methods of `Barcode` that return vectors and curves."""
 from __future__ import annotations
 
 import math
@@ -19,7 +19,7 @@ from ._steps import PiecewiseLinear, StepFunction, refuse_nan
 
 
 class Summaries:
-    """What a `Barcode` says in numbers: see there for `dgm`."""
+    """The methods of `Barcode` that summarise it in numbers; `Barcode` defines `dgm`."""
 
     __slots__ = ()
 
@@ -35,16 +35,16 @@ class Summaries:
     def statistics(self, dim: int, *, infinity: float | str = "error") -> dict[str, float]:
         """38 numbers that describe a dimension; the first thing to try [Ali et al. 2023].
 
-        Of births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
-        range, range, and the 10th, 25th, 75th and 90th percentile. Then how many bars there are,
-        and their entropy, in nats. Bars of length 0 do not count. All are 0 without bars.
+        For births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
+        range, range, and the 10th, 25th, 75th and 90th percentiles. Then the number of bars and
+        their entropy in nats. Bars of length 0 do not count. Without bars, all numbers are 0.
 
         Parameters
         ----------
         dim : int
             The dimension of the bars.
         infinity : {"error", "drop"} or float
-            What a bar that never dies is: an error, left out, or one that dies at this value.
+            How to treat a bar that never dies: as an error, left out, or dying at this value.
 
         Returns
         -------
@@ -60,16 +60,17 @@ class Summaries:
         return dict(zip(statistics_names(), numbers.tolist()))
 
     def entropy(self, dim: int, *, unit: str = "nats", normalised: str | None = None) -> float:
-        """The persistent entropy of a dimension [Chintakunta et al. 2015], of bars that die.
+        """The persistent entropy of a dimension [Chintakunta et al. 2015]; bars that never die are
+        ignored.
 
-        It is the entropy of the shares that they have in the sum of their lengths.
+        It is the entropy of the shares of the bars in the sum of their lengths.
 
         Parameters
         ----------
         dim : int
             The dimension of the bars.
         unit : {"nats", "bits"}
-            Of natural logarithms; or of those to the base 2, as in giotto-tda.
+            Natural logarithms, or logarithms to the base 2, as in giotto-tda.
         normalised : {None, "count", "total"}
             "count": divided by the logarithm of the number of bars, its largest value, as persim
             can. "total": divided by the logarithm of the sum of their lengths, as giotto-tda can;
@@ -91,11 +92,11 @@ class Summaries:
     # ---- curves
 
     def betti(self, t: float) -> NDArray[np.int64]:
-        """The Betti numbers at a value: how many bars of each dimension live."""
+        """The Betti numbers at a value: the number of bars of each dimension that are alive."""
         return self.betti_curve([_options.real("t", t)])[:, 0]
 
     def betti_curve(self, grid: ArrayLike) -> NDArray[np.int64]:
-        """The Betti numbers at each value of a grid, a row for each dimension.
+        """The Betti numbers at each value of a grid, one row per dimension.
 
         >>> ph.rips([[0], [1], [3]]).betti_curve([0, 1, 2])
         array([[3, 2, 1],
@@ -106,7 +107,7 @@ class Summaries:
         curves = np.empty((self._top_dim + 1, len(values)), dtype=np.int64)
         for dim in range(self._top_dim + 1):
             curves[dim] = self.betti_function(dim)(values)
-        # Nothing lives at infinity, where the step functions have their last value.
+        # No bar is alive at infinity, where step functions have their last value.
         return np.where(values < math.inf, curves, 0)
 
     def betti_function(self, dim: int) -> StepFunction:
@@ -121,8 +122,9 @@ class Summaries:
     def euler_curve(self) -> StepFunction:
         """The Euler characteristic at any value: the alternating sum of the Betti numbers.
 
-        It is that of the complex if the barcode has all dimensions of it, and neither `threshold`
-        nor `min_persistence` cut bars off. `libph.euler_curve` computes that of an image at once.
+        It equals the curve of the complex if the barcode has all dimensions and neither `threshold`
+        nor `min_persistence` removed bars. `libph.euler_curve` computes the curve of an image
+        directly.
 
         >>> curve = ph.cubical([[1, 1, 1, 1, 1], [1, 5, 1, 7, 1], [1, 1, 1, 1, 1]]).euler_curve()
         >>> curve.at, curve.value
@@ -135,26 +137,26 @@ class Summaries:
     def life_entropy(self, dim: int, *, resolution: int = 100, range: Any = None,
                      infinity: float | str = "error", unit: str = "nats", normalised: bool = False
                      ) -> NDArray[np.float64]:
-        """The entropy of the bars that live, at the values of a grid [Atienza et al. 2020].
+        """The entropy of the bars that are alive at the values of a grid [Atienza et al. 2020].
 
-        It is the sum of -p log p over the bars with birth <= t < death. p is the share of a bar in
-        the lengths of all.
+        It is the sum of -p log p over the bars with birth <= t < death, where p is the share of a
+        bar in the sum of all lengths.
 
         Parameters
         ----------
         dim : int
             The dimension of the bars.
         resolution : int
-            How many values the grid has, both ends of the range among them.
+            Number of values of the grid, including both ends of the range.
         range : pair of float, optional
-            From where to where. Default: from the least finite value of these bars to the largest.
-            Give it where curves are to be compared.
+            The ends of the grid. Default: the least and the largest finite value of these bars. Set
+            the range if curves are to be compared.
         infinity : {"error", "drop"} or float
-            What a bar that never dies is: an error, left out, or one that dies at this value.
+            How to treat a bar that never dies: as an error, left out, or dying at this value.
         unit : {"nats", "bits"}
-            Of natural logarithms, or of those to the base 2.
+            Natural logarithms, or logarithms to the base 2.
         normalised : bool
-            Whether the values are divided by their sum, as in GUDHI.
+            If True, the values are divided by their sum, as in GUDHI.
 
         Returns
         -------
@@ -182,17 +184,17 @@ class Summaries:
         dim : int
             The dimension of the bars.
         power : float
-            Of the lengths; 0: all bars weigh the same, as in GUDHI.
+            Exponent of the lengths; 0: all bars weigh the same, as in GUDHI.
         resolution : int
-            How many values the grid has, both ends of the range among them.
+            Number of values of the grid, including both ends of the range.
         range : pair of float, optional
-            From where to where. Default: from the least finite value of these bars to the largest.
-            Give it where curves are to be compared.
+            The ends of the grid. Default: the least and the largest finite value of these bars. Set
+            the range if curves are to be compared.
         infinity : {"error", "drop"} or float
-            What a bar that never dies is: an error, left out, or one that dies at this value.
+            How to treat a bar that never dies: as an error, left out, or dying at this value.
         height : {"tent", "euclidean"}
-            A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
-            distance of (birth, death) from the diagonal, as in GUDHI.
+            The height of a bar: half its length, as the height of its tent; or √2 times as much,
+            the Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
 
         Returns
         -------
@@ -222,16 +224,16 @@ class Summaries:
         layers : int
             How many.
         resolution : int
-            How many values the grid has, both ends of the range among them.
+            Number of values of the grid, including both ends of the range.
         range : pair of float, optional
-            From where to where. Default: from the least finite value of these bars to the largest.
-            Give it where landscapes are to be compared.
+            The ends of the grid. Default: the least and the largest finite value of these bars. Set
+            the range if landscapes are to be compared.
         infinity : {"keep", "error", "drop"} or float
-            What a bar that never dies is: one that grows for ever, an error, left out, or one that
-            dies at this value.
+            How to treat a bar that never dies: growing for ever, as an error, left out, or dying at
+            this value.
         height : {"tent", "euclidean"}
-            A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
-            distance of (birth, death) from the diagonal, as in GUDHI.
+            The height of a bar: half its length, as the height of its tent; or √2 times as much,
+            the Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
 
         Returns
         -------
@@ -260,11 +262,11 @@ class Summaries:
         dim : int
             The dimension of the bars.
         layers : int
-            How many at most: layers that are 0 everywhere are left out.
+            The largest number of layers; layers that are 0 everywhere are left out.
         infinity : {"error", "drop"} or float
-            What a bar that never dies is: an error, left out, or one that dies at this value.
+            How to treat a bar that never dies: as an error, left out, or dying at this value.
         height : {"tent", "euclidean"}
-            As of `landscape`.
+            As in `landscape`.
 
         Returns
         -------
@@ -293,8 +295,9 @@ class Summaries:
               orientation: str = "ascending") -> NDArray[np.float64]:
         """The persistence image of a dimension [Adams et al. 2017].
 
-        Each bar is a normal distribution around the point (birth, persistence), times a weight. A
-        pixel has the integral over it, to the last digits. Bars of length 0 do not count.
+        Each bar is a normal distribution around the point (birth, persistence), times a weight. The
+        value of a pixel is the integral over the pixel, exact to the last digits. Bars of length 0
+        do not count.
 
         Parameters
         ----------
@@ -304,24 +307,24 @@ class Summaries:
             The standard deviation, in the unit of the values. Default: a twentieth of the longer
             range.
         resolution : int or pair of int
-            How many pixels along births, and along persistence.
+            Number of pixels along births, and along persistence.
         birth_range, persistence_range : pair of float, optional
-            What the image shows. Default: from the least birth to the largest, and from 0 to the
-            largest persistence, of these bars. Give both where images are to be compared.
+            The ranges that the image covers. Default: from the least birth to the largest, and from
+            0 to the largest persistence, of these bars. Set both if images are to be compared.
         weight_power : float
-            The weight is the persistence to this power; 0: all bars weigh 1.
+            The weight is the persistence to this power; 0: all weights are 1.
         infinity : {"error", "drop"} or float
-            What a bar that never dies is: an error, left out, or one that dies at this value.
+            How to treat a bar that never dies: as an error, left out, or dying at this value.
         pixel : {"integral", "density"}
-            What a pixel has: the integral over it, or the density at its centre, as in GUDHI.
+            The value of a pixel: the integral over it, or the density at its centre, as in GUDHI.
         orientation : {"ascending", "descending", "births"}
-            What rows are: intervals of persistence, the shortest first, or the longest first, as in
-            giotto-tda; or intervals of births, as in persim.
+            The meaning of rows: intervals of persistence, ascending or, as in giotto-tda,
+            descending; or intervals of births, as in persim.
 
         Returns
         -------
         ndarray
-            A row for each interval of persistence, a column for each of births, unless
+            One row per interval of persistence and one column per interval of births, unless
             `orientation` says otherwise.
 
         Examples
@@ -344,20 +347,20 @@ class Summaries:
             _options.positive("bandwidth", bandwidth)
         return image(dgm, width, pixels, births, lengths, power, pixel, orientation)
 
-    # ---- what they have in common
+    # ---- shared helpers
 
     def _on_grid(self, dim: int, range: Any, resolution: Any, infinity: Any, may_keep: bool
                  ) -> tuple[Diagram, Range, int]:
-        """The bars, the ends of the grid, and how many values it has."""
+        """The bars, the ends of the grid, and its number of values."""
         count = _options.whole("resolution", resolution, 1, 2**30)
         dgm = self._settled(dim, infinity, may_keep)
         ends = range_of_values([dgm]) if range is None else checked_range("range", range)
         return dgm, ends, count
 
     def _settled(self, dim: int, infinity: Any, may_keep: bool) -> Diagram:
-        """The bars of a dimension, finite if they are to be."""
+        """The bars of a dimension, without infinite ends if required."""
         rule = checked_infinity(infinity, may_keep)
         rows = self.dgm(dim)
-        if rule == "drop":  # those that are born at -inf, too
+        if rule == "drop":  # including bars born at -inf
             rows = rows[np.isfinite(rows).all(axis=1)]
         return settled(as_diagram(rows, "bars"), rule, "bars")

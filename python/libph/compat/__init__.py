@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Drop-ins: the interfaces of other packages over libph.
+"""Drop-ins: the interfaces of other packages on top of libph.
 
-Each is a module here, as `libph.compat.ripser`. `install` gives them the names of the packages that
-they replace, so that other people's code runs unchanged. docs/how-to/coming-from.md says how, and
-where libph answers otherwise on purpose.
+Each drop-in is a module here, such as `libph.compat.ripser`. `install` gives it the name of the
+package that it replaces, so that existing code runs unchanged. docs/how-to/coming-from.md shows
+how, and lists where libph deliberately answers differently.
 """
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .._errors import UsageError
 
 __all__ = ["install"]
 
-# What each brings along, and in which of our modules it is, if no file of ours has the name.
+# The modules of each package, with the module of ours that holds each one if the names differ.
 _MODULES: dict[str, dict[str, str]] = {
     "ripser": {"ripser.ripser": "ripser"},
     "gph": {"gph.modules": "", "gph.modules.gph_collapser": "", "gph.modules.gph_ripser": "",
@@ -39,18 +39,18 @@ _DROP_INS = sorted([*_MODULES, "tcripser"])
 
 
 def install(*names: str) -> None:
-    """Has `import ripser` and the like import libph's drop-in, in this process.
+    """Makes `import ripser` and the like import libph's drop-in, in this process.
 
     Parameters
     ----------
     *names : str
-        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim"; with the names of modules
-        in them, as ripser.ripser and gudhi.rips_complex.
+        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim". Their modules, such as
+        ripser.ripser and gudhi.rips_complex, come with them.
 
     Raises
     ------
     UsageError
-        If one of them is imported already: whoever did so keeps what it got.
+        If one of them is already imported, because its importers would keep the original.
 
     Examples
     --------
@@ -74,8 +74,8 @@ def install(*names: str) -> None:
     for name, module in ours.items():
         there = sys.modules.get(name)
         if there not in (None, module):
-            raise UsageError(f"install: {name} is imported already, from "
-                             f"{getattr(there, '__file__', 'elsewhere')}; install it before that")
+            raise UsageError(f"install: {name} is already imported, from "
+                             f"{getattr(there, '__file__', 'elsewhere')}; call install before that")
     sys.modules.update(ours)
     for name, module in ours.items():
         package, _, own = name.rpartition(".")
@@ -83,10 +83,10 @@ def install(*names: str) -> None:
             setattr(ours[package], own, module)
 
 
-if not TYPE_CHECKING:  # for a type checker a name that is missing is an error
+if not TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 
     def __getattr__(name):
-        """The drop-ins, loaded when they are looked at."""
+        """Loads a drop-in on first use."""
         if name in _DROP_INS:
             return importlib.import_module(f"{__name__}.{name}")
         raise AttributeError(f"libph.compat has no {name!r}; there are {', '.join(_DROP_INS)}")

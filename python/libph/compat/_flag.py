@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What the drop-ins for Vietoris-Rips filtrations share.
+"""Shared code of the drop-ins for Vietoris-Rips filtrations.
 
-A flag filtration is given by distances and by the births of its vertices, which stand on the
-diagonal of a matrix. Of a matrix the entries above the diagonal count.
+A flag filtration is given by distances and by the births of its vertices, which are on the diagonal
+of a matrix. Only the entries above the diagonal of a matrix count.
 
-The programs that are replaced compute with single precision: they round distances first. Here bars
-are computed of the distances as they are, and rounded then. Rounding is monotone, so it maps the
-one filtration to the other, and the barcode with it.
+The replaced programs compute in single precision: they round distances first. Here bars are
+computed from the exact distances and rounded afterwards. The result is the same, because rounding
+is monotone: it maps one filtration, and its barcode, to the other.
 """
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from .._compute import rips
 from .._errors import DataError, UsageError
 from .._sources import Source, diagonal_of, unique_pairs
 
-_STRIP = 512  # rows of a matrix that are looked at together
-_ROUNDING = 1e-6  # of the largest distance: so far the two entries of a pair may differ
+_STRIP = 512  # rows of a matrix that are processed together
+_ROUNDING = 1e-6  # the entries of a pair may differ by this share of the largest distance
 
 
 class Flag(NamedTuple):
-    """A flag filtration, up to a limit beyond which nothing but components counts."""
+    """A flag filtration, up to a limit beyond which only components count."""
 
     size: int
     births: NDArray[np.float64]
-    matrix: NDArray[Any] | None  # above the diagonal distances; no number is below 0
+    matrix: NDArray[Any] | None  # distances above the diagonal; all numbers are at least 0
     pairs: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]] | None  # i < j, value
     limit: float
     edges: int  # what ripser.py calls num_edges
 
     def values(self, u: NDArray[np.int64], v: NDArray[np.int64]) -> NDArray[np.float64]:
-        """The distances of pairs u < v; of pairs that are not joined -inf."""
+        """The distances of pairs u < v; -inf for pairs that are not joined."""
         if self.matrix is not None:
             return np.asarray(self.matrix[u, v], dtype=np.float64)
         assert self.pairs is not None
@@ -50,14 +50,14 @@ class Flag(NamedTuple):
 
 
 class Bars(NamedTuple):
-    """The bars of each dimension as other programs order them."""
+    """The bars of each dimension, in the order of other programs."""
 
     barcode: Barcode
-    dgms: list[NDArray[np.float64]]  # rounded, and none of length zero
+    dgms: list[NDArray[np.float64]]  # rounded, without bars of length zero
     places: list[NDArray[np.int64]]  # in `barcode`
 
     def places_in_dim(self, dim: int) -> NDArray[np.int64]:
-        """The places among the bars of a dimension."""
+        """Indices among the bars of a dimension."""
         return self.places[dim] - np.searchsorted(self.barcode.dims, dim)
 
 
@@ -81,7 +81,7 @@ def threshold(value: Any) -> float:
 
 
 def dimension(value: Any) -> int:
-    """The highest dimension of homology; what is below 0 is 0."""
+    """The highest dimension of homology; a negative number counts as 0."""
     return max(0, _options.whole("maxdim", value, -2**63))
 
 
@@ -101,7 +101,7 @@ def last_rounded_to(limit: float, dtype: np.dtype[Any]) -> float:
 
 
 def rounded(numbers: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[np.float64]:
-    """Doubles that the type holds."""
+    """Doubles that this type can represent."""
     if dtype == np.float64:
         return numbers
     with np.errstate(over="ignore"):
@@ -134,9 +134,9 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     limit : float
         The largest distance at which points are joined.
     is_symmetric : bool
-        Whether the entries below the diagonal have to be the same.
+        True if the entries below the diagonal must be the same.
     births : ndarray, optional
-        Default: what is on the diagonal.
+        Births of the vertices. Default: the diagonal.
     """
     array = _arrays.as_distances(matrix, "X")
     if array.ndim != 2:
@@ -148,7 +148,7 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     latest = float(births.max(initial=0.0))
     edges = _count(array, limit) if limit < np.inf or births.any() else None
     if limit == np.inf:
-        # Beyond it all is joined to one point, and there is one component.
+        # Beyond it, all points are joined to one of them, and there is one component.
         limit = max(radius, latest) if latest < np.inf else np.inf
         limit = last_rounded_to(limit, dtype)
     n = len(array)
@@ -163,9 +163,9 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
 
 def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
               births: NDArray[np.float64] | None = None) -> Flag:
-    """The filtration of a sparse matrix: what is stored is joined, zeros among it.
+    """The filtration of a sparse matrix: stored pairs are joined, including stored zeros.
 
-    Both triangles are read. Of two entries of a pair the upper one counts; with `upper_wins` they
+    Both triangles are read. If a pair has two entries, the upper one counts; with `upper_wins` they
     may differ.
     """
     row, column, values = _arrays.sparse_entries(matrix)
@@ -184,7 +184,7 @@ def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
 def of_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
              limit: float, births: NDArray[np.float64], upper_wins: bool) -> Flag:
     """The filtration of some pairs."""
-    # `unique_pairs` prefers what is below the diagonal: of the transpose.
+    # `unique_pairs` prefers entries below the diagonal, hence the transpose.
     i, j, values = unique_pairs(column, row, values, _rounding_of(values),
                                 "lower" if upper_wins else None, "")
     keep = values <= limit
@@ -204,9 +204,9 @@ def _refuse_nan(numbers: NDArray[Any], name: str) -> None:
 
 
 def _strips(array: NDArray[Any]) -> Any:
-    """The part above the diagonal, some rows at a time: where they begin and end, the square on
-    the diagonal with the upper triangle in both halves and zeros between them, what is right of
-    it."""
+    """The part above the diagonal, some rows at a time: the first and last row, the square on the
+    diagonal with the upper triangle mirrored and zeros on the diagonal, and the block to its
+    right."""
     for begin in range(0, len(array), _STRIP):
         end = min(begin + _STRIP, len(array))
         corner = np.triu(array[begin:end, begin:end], 1)
@@ -249,7 +249,7 @@ class _Unequal(NamedTuple):
 
 
 def _unequal(upper: NDArray[Any], lower: NDArray[Any], row: int, column: int) -> _Unequal:
-    """Where the entries of pairs differ most; the diagonal does not count."""
+    """The pair whose entries differ most; the diagonal does not count."""
     differ = upper != lower
     if row == column:
         np.fill_diagonal(differ, False)
@@ -264,7 +264,7 @@ def _unequal(upper: NDArray[Any], lower: NDArray[Any], row: int, column: int) ->
 
 
 def _count(array: NDArray[Any], limit: float) -> int:
-    """Pairs of at most that value."""
+    """The number of pairs with at most this value."""
     return sum((int(np.count_nonzero(corner <= limit)) - (end - begin) * (limit >= 0)) // 2
                + int(np.count_nonzero(right <= limit))
                for begin, end, corner, right in _strips(array))
@@ -285,19 +285,19 @@ def _joined(array: NDArray[Any], limit: float) -> Any:
 
 def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool,
             **options: Any) -> Bars:
-    """The bars of a filtration, those of length zero left out."""
+    """The bars of a filtration, without bars of length zero."""
     levels = None
     births, limit = flag.births, flag.limit
     if flag.matrix is not None:
-        # The transpose of the array: what is below its diagonal is read.
+        # The transpose of the array, because the part below its diagonal is read.
         space = _core.MetricSpace.of_distances(flag.matrix.T, _core.Symmetrise.lower,
                                                _core.NanPolicy.error, False)
     else:
         assert flag.pairs is not None
         i, j, values = flag.pairs
         if min(values.min(initial=0.0), births.min(initial=0.0)) < 0 or np.isinf(births).any():
-            # libph has no distances below 0, and no births at inf. Bars depend on the order of
-            # values alone.
+            # libph has no negative distances and no births at inf. Bars depend only on the order of
+            # values, so their ranks serve as values.
             levels, ranks = np.unique(np.concatenate([births, values]), return_inverse=True)
             births, values = np.split(ranks.astype(np.float64), [len(births)])
         limit = np.inf
@@ -309,7 +309,7 @@ def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool
 
 def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last: bool = False,
             levels: NDArray[np.float64] | None = None) -> Bars:
-    """A barcode, rounded and in the order of `ordered`; of ranks of `levels` the levels."""
+    """A barcode, rounded and in the order of `ordered`; ranks are mapped back to `levels`."""
     dgms, places = [], []
     for dim in range(max_dim + 1):
         dgm = barcode.dgm(dim)
@@ -325,10 +325,11 @@ def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last
 
 
 def youngest_edges(values_of: Any, simplices: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Of each simplex the edge of the largest value, its larger vertex first; among equals the one
-    with the smallest larger, then smallest smaller vertex. Vertices stay as they are.
+    """For each simplex the edge of the largest value, its larger vertex first. Among equal edges,
+    it is the one with the smallest larger vertex, then with the smallest smaller vertex. Vertices
+    stay as they are.
 
-    `values_of` tells the values of pairs u < v.
+    `values_of` returns the values of pairs u < v.
     """
     count, vertices = simplices.shape
     if vertices == 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the drop-ins for images share: the voxels whose values cells have."""
+"""Shared code of the drop-ins for images: the voxels that determine the values of cells."""
 from __future__ import annotations
 
 import itertools
@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 def deciding_voxels(cells: NDArray[np.int64], image: NDArray[Any], is_vertices: bool,
                     periodic: Sequence[bool] = ()) -> NDArray[np.int64]:
-    """Of each cell, in doubled grid coordinates, the voxel whose value it has.
+    """For each cell, in doubled grid coordinates, the voxel that determines its value.
 
-    The largest among its vertices, or the smallest among the cubes around it; the first among
-    equals. `periodic`: whether each axis closes up; default: none does.
+    This is the largest of its vertices, or the smallest of the cubes around it; the first among
+    equals. `periodic` tells for each axis whether it is periodic. Default: none is.
     """
     if not len(cells):
         return np.empty((0, image.ndim), dtype=np.int64)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The class of ripser.py. It is apart because its base class loads scikit-learn."""
+"""The class of ripser.py, in a module of its own because its base class loads scikit-learn."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -20,19 +20,19 @@ else:
 
 
 class Rips(TransformerMixin):
-    """`ripser` as a class, which keeps what it has computed.
+    """`ripser` as a class that keeps its results.
 
     Parameters
     ----------
     maxdim, thresh, coeff, do_cocycles, n_perm
-        As of `ripser`.
+        As in `ripser`.
     verbose : bool
-        Whether it prints its parameters when it is made.
+        If True, the constructor prints the parameters.
 
     Attributes
     ----------
     dgms_, cocycles_, dperm2all_, num_edges_, idx_perm_, r_cover_
-        What `ripser` gave last.
+        The results of the last call.
     """
 
     def __init__(self, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
@@ -57,7 +57,7 @@ class Rips(TransformerMixin):
 
     def transform(self, X: Any, distance_matrix: bool = False, metric: Any = "euclidean"
                   ) -> list[NDArray[np.float64]]:
-        """The diagrams of X, as of `ripser`."""
+        """The diagrams of X, as `ripser` returns them."""
         found = ripser(X, self.maxdim, self.thresh, self.coeff, distance_matrix, self.do_cocycles,
                        metric, self.n_perm)
         for name in ("dgms", "cocycles", "num_edges", "dperm2all", "idx_perm", "r_cover"):
@@ -71,5 +71,5 @@ class Rips(TransformerMixin):
         return self.transform(X, distance_matrix, metric)
 
     def plot(self, diagrams: Any = None, *args: Any, **kwargs: Any) -> None:
-        """Draws diagrams, by default the last ones; arguments as of `plot_diagrams`."""
+        """Draws diagrams, by default the last ones; the arguments are those of `plot_diagrams`."""
         plot_diagrams(self.dgms_ if diagrams is None else diagrams, *args, **kwargs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Weighted Rips filtrations: points that enter late, and distances at which balls meet then.
+"""Weighted Rips filtrations: points that enter late, and the distances at which their balls meet.
 
 Anai et al., DTM-based filtrations, 2020.
 """
@@ -24,10 +24,10 @@ def weighted(distances: Any, weights: ArrayLike | str, params: Mapping[str, Any]
     Parameters
     ----------
     distances : ndarray or sparse matrix
-        Of an array what is above the diagonal is read.
+        Only the part above the diagonal of an array is read.
     weights : array_like or "DTM"
     params : dict
-        "p", "r", "n_neighbors", as of `ripser_parallel`.
+        "p", "r", "n_neighbors", as in `ripser_parallel`.
     """
     if isinstance(weights, str) and weights != "DTM":
         raise UsageError(f"'{weights}' passed for `weights` but the only allowed string is 'DTM'")
@@ -59,7 +59,7 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
     row, column, values = _arrays.sparse_entries(matrix)
     _refuse_negative(values)
     row, column, values = (a[row != column] for a in (row, column, values))
-    # Each pair once, the upper entry where there are two.
+    # Each pair once; if a pair has two entries, the upper one.
     i, j = np.minimum(row, column), np.maximum(row, column)
     order = np.lexsort((row > column, j, i))
     i, j, values = i[order], j[order], values[order]
@@ -93,7 +93,7 @@ def _given(weights: ArrayLike, n: int) -> NDArray[np.float64]:
 
 def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
                          has_itself: bool = True) -> NDArray[np.float64]:
-    """Twice the mean, of exponent r, of the distances to the nearest points and to itself."""
+    """Twice the mean with exponent r of the distances to the nearest points and to itself."""
     neighbours = _options.whole("weight_params: n_neighbors", params.get("n_neighbors", 3), 1)
     r = _options.positive("weight_params: r", params.get("r", 2))
     births = np.empty(n)
@@ -103,7 +103,7 @@ def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
             distances = np.delete(distances, k)
         if len(distances) < neighbours:
             raise UsageError(f"weight_params: n_neighbors: found {neighbours}, expected at most "
-                             f"{len(distances)}, for so many neighbours are known of point {k}")
+                             f"{len(distances)}, the number of neighbours known for point {k}")
         nearest = np.partition(distances, neighbours - 1)[:neighbours]
         births[k] = 2 * ((nearest**r).sum() / (neighbours + 1))**(1 / r)
     return births
@@ -111,8 +111,8 @@ def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
 
 def meeting(d: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64], p: float
              ) -> NDArray[np.float64]:
-    """When balls meet that are born at a and b: the t with
-    2 d = (t**p - a**p)**(1/p) + (t**p - b**p)**(1/p), or the later birth if they meet before it."""
+    """The value t at which balls born at a and b meet: the solution of 2 d = (t**p - a**p)**(1/p) +
+    (t**p - b**p)**(1/p), or the later birth if they meet before it."""
     later = np.maximum(a, b)
     if p == np.inf:
         return np.maximum(d, later)

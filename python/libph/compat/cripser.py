@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""CubicalRipser's interface over libph: the package cripser.
+"""The interface of CubicalRipser's package cripser, on top of libph.
 
 >>> from libph.compat import cripser
 >>> ring = np.array([[9, 9, 9, 9, 9], [9, 1, 1, 1, 9], [9, 1, 7, 1, 9], [9, 1, 1, 1, 9],
@@ -7,7 +7,7 @@
 >>> cripser.computePH(ring)[1]
 array([1., 1., 7., 3., 2., 0., 2., 2., 0.])
 
-Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
+docs/how-to/coming-from.md lists where libph deliberately answers differently.
 """
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["__version__", "computePH", "computePH_T", "compute_ph", "dual_embedding",
            "group_by_dim", "to_gudhi_diagrams", "to_gudhi_persistence"]
 
-_NEVER = np.finfo(np.float64).max  # the death of a bar that does not die
+_NEVER = np.finfo(np.float64).max  # the death of a bar that never dies
 
 
 def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: bool = False,
@@ -41,14 +41,14 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
     Parameters
     ----------
     arr : array_like
-        Numbers of voxels, of one to four axes.
+        Values of voxels, with one to four axes.
     maxdim : int
         The highest dimension of homology.
     top_dim : bool
-        Whether the highest dimension alone is reported: the number of axes less one.
+        If True, only the highest dimension is reported: the number of axes minus one.
     embedded : bool
-        Whether the image is negated and surrounded by a layer of -inf, but not along a third or
-        fourth axis of extent 1. Its barcode is dual to that of the other construction.
+        If True, the image is negated and surrounded by a layer of -inf, except along a third or
+        fourth axis of extent 1. The barcode is dual to that of the other construction.
     location : str
         Has no effect, as in cripser: both locations are always reported.
     **run
@@ -57,11 +57,12 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
     Returns
     -------
     ndarray
-        A row for each bar: dimension, birth, death, then the three coordinates of the voxel that
-        has the value of the birth, then those of the death; of images of four axes four each. A bar
-        that never dies has the largest double for its death, and zeros for its coordinates. A birth
-        at -inf is minus that number. Voxels of the layer of `embedded` have coordinates -1, or the
-        extent of the image. H0 by death, others by descending birth.
+        One row per bar: dimension, birth, death, the three coordinates of the voxel that has the
+        birth value, and those of the voxel that has the death value (four coordinates each for
+        images with four axes). A bar that never dies has the largest double as its death, and zeros
+        as coordinates. A birth at -inf is minus that number. Voxels of the layer of `embedded` have
+        coordinates -1, or the extent of the image. H0 is sorted by death, other dimensions by
+        descending birth.
     """
     return _rows("computePH", arr, "vertices", maxdim, top_dim, embedded, run)
 
@@ -70,7 +71,7 @@ def computePH_T(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded
                 location: str = "yes", **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """The barcode of an image whose voxels are cubes of the highest dimension.
 
-    Parameters and result are those of `computePH`.
+    Parameters and result are the same as in `computePH`.
     """
     return _rows("computePH", arr, "cells", maxdim, top_dim, embedded, run)
 
@@ -80,12 +81,12 @@ def compute_ph(arr: ArrayLike, *, filtration: str = "V", maxdim: int = 3, top_di
                **run: Unpack[RunOptions]) -> NDArray[np.float64]:
     """`computePH` for the filtration "V", `computePH_T` for "T".
 
-    Other parameters and the result are those of `computePH`.
+    Other parameters and the result are the same as in `computePH`.
 
     Parameters
     ----------
     inf_cutoff : bool
-        Whether a bar that never dies has inf for its death, not the largest double.
+        If True, a bar that never dies has the death inf instead of the largest double.
     """
     name = _options.choice("filtration", str(filtration).upper(), ["V", "T"])
     construction = {"V": "vertices", "T": "cells"}[name]
@@ -96,14 +97,14 @@ def compute_ph(arr: ArrayLike, *, filtration: str = "V", maxdim: int = 3, top_di
 
 
 def dual_embedding(arr: ArrayLike) -> NDArray[np.float64]:
-    """The image of the corners of voxels: each has the least value of the voxels around it.
+    """The image of the corners of voxels: a corner has the least value of the voxels around it.
 
-    The result has one number more along each axis.
+    The result is larger by one along each axis.
 
     Parameters
     ----------
     arr : array_like
-        Numbers of voxels, of one to four axes.
+        Values of voxels, with one to four axes.
     """
     corners = _arrays.as_float64(_image(arr), "arr")
     for axis in range(corners.ndim):
@@ -132,7 +133,7 @@ def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim
         highest = lowest
     margin = np.zeros(axes, dtype=int)
     if _options.flag("embedded", embedded):
-        # A third or fourth axis of extent 1 is none.
+        # A third or fourth axis of extent 1 does not count.
         margin[[axis < 2 or n > 1 for axis, n in enumerate(image.shape)]] = 1
         image = np.pad(-_arrays.as_float64(image, "arr"), np.column_stack([margin, margin]),
                        constant_values=-np.inf)
@@ -161,7 +162,7 @@ def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool,
     return rows
 
 
-# ---- the rows for other programs
+# ---- conversion for other programs
 
 
 def _bars_of(ph: ArrayLike, columns: int) -> NDArray[np.float64]:
@@ -186,7 +187,7 @@ def to_gudhi_diagrams(ph: ArrayLike, *, maxdim: int | None = None, include_empty
     maxdim : int, optional
         The highest dimension. Default: the highest there is.
     include_empty : bool
-        Whether dimensions without bars have a diagram, too.
+        If True, dimensions without bars have a diagram as well.
     """
     rows = _bars_of(ph, 3)
     if maxdim is None:

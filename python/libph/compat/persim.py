@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""persim's `plot_diagrams`, `bottleneck` and `wasserstein` over libph."""
+"""persim's `plot_diagrams`, `bottleneck` and `wasserstein` on top of libph."""
 from __future__ import annotations
 
 import warnings
@@ -24,15 +24,15 @@ def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
     Parameters
     ----------
     dgm1, dgm2 : array_like
-        Rows birth, death; further columns are not looked at.
+        Rows birth, death; further columns are ignored.
     matching : bool
-        Whether the matching is returned, too.
+        If True, the matching is returned as well.
 
     Returns
     -------
     float or (float, ndarray)
-        Rows of the matching: place in `dgm1`, place in `dgm2`, cost; -1 is the diagonal. Places
-        count bars that die.
+        The matching has rows of an index in `dgm1`, an index in `dgm2`, and a cost; -1 is the
+        diagonal. Indices count only bars that die.
     """
     a, b = _finite(dgm1, "dgm1"), _finite(dgm2, "dgm2")
     if not _options.flag("matching", matching):
@@ -47,15 +47,15 @@ def wasserstein(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any
     Parameters
     ----------
     dgm1, dgm2 : array_like
-        Rows birth, death; further columns are not looked at.
+        Rows birth, death; further columns are ignored.
     matching : bool
-        Whether the matching is returned, too.
+        If True, the matching is returned as well.
 
     Returns
     -------
     float or (float, ndarray)
-        Rows of the matching: place in `dgm1`, place in `dgm2`, cost; -1 is the diagonal. Places
-        count bars that die.
+        The matching has rows of an index in `dgm1`, an index in `dgm2`, and a cost; -1 is the
+        diagonal. Indices count only bars that die.
     """
     a, b = _finite(dgm1, "dgm1"), _finite(dgm2, "dgm2")
     if not _options.flag("matching", matching):
@@ -103,29 +103,29 @@ def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None
     Parameters
     ----------
     diagrams : ndarray or list of ndarray
-        Rows birth, death; further columns are not looked at.
+        Rows birth, death; further columns are ignored.
     plot_only : list of int, optional
-        Which of them.
+        Indices of the diagrams to draw.
     title : str, optional
     xy_range : list of float, optional
         The ends of the axes: left, right, bottom, top.
     labels : str or list of str, optional
-        For the legend.
+        Labels for the legend.
     colormap : str
         A style of matplotlib, for this picture; "default": the current settings.
     size : float
-        Of the markers.
+        Size of the markers.
     ax_color : color
-        Of the lines.
+        Colour of the lines.
     diagonal : bool
-        Whether the diagonal is drawn.
+        If True, the diagonal is drawn.
     lifetime : bool
-        Whether death - birth is drawn in the place of death.
+        If True, death - birth is drawn instead of death.
     legend : bool
     show : bool
-        Whether `matplotlib.pyplot.show` is called.
+        If True, `matplotlib.pyplot.show` is called.
     ax : Axes, optional
-        Where to draw. Default: the current one.
+        The axes to draw on. Default: the current ones.
 
     Returns
     -------

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""ripser.py's interface over libph.
+"""ripser.py's interface on top of libph.
 
 >>> from libph.compat.ripser import ripser
 >>> ripser(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.        , 1.41421354]])
 
 The numbers are those of ripser.py: rounded to single precision, in its order. ``dtype=np.float64``
-gives exact ones. Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
+gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
 """
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = ["Rips", "__version__", "correlation_to_distance", "get_greedy_perm", 
 
 
 def __getattr__(name: str) -> Any:
-    if name == "Rips":  # whose base class is scikit-learn's
+    if name == "Rips":  # its base class comes from scikit-learn
         from ._ripser_class import Rips
         return Rips
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -44,13 +44,13 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
            distance_matrix: bool = False, do_cocycles: bool = False, metric: Any = "euclidean",
            n_perm: int | None = None, *, dtype: DTypeLike = np.float32,
            **run: Unpack[RunOptions]) -> dict[str, Any]:
-    """Diagrams of the Vietoris-Rips filtration, and what ripser.py tells beside them.
+    """Diagrams of the Vietoris-Rips filtration, and the further results of ripser.py.
 
     Parameters
     ----------
     X : array_like or sparse matrix
-        Points, one a row; or distances, of which those above the diagonal are taken and numbers on
-        the diagonal are births.
+        Points, one per row; or distances: entries above the diagonal are used, and entries on the
+        diagonal are births.
     maxdim : int
         The highest dimension of homology; below 0: 0.
     thresh : float
@@ -58,13 +58,13 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     coeff : int
         A prime.
     distance_matrix : bool
-        Whether X are distances.
+        If True, X holds distances.
     do_cocycles : bool
-        Whether a cocycle comes with each bar of dimension 1 and above.
+        If True, each bar of dimension 1 and above has a cocycle.
     metric : str or callable
-        As of scikit-learn's `pairwise_distances`.
+        As in scikit-learn's `pairwise_distances`.
     n_perm : int, optional
-        So many points are taken, each the farthest from those before.
+        Number of points to take, each the farthest from those before it.
     dtype : {float32, float64}
         The precision of the filtration.
     **run
@@ -143,7 +143,7 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
     try:
         from sklearn.metrics import pairwise_distances
     except ImportError:
-        raise NotBuiltIn("ripser: distances of points are those of scikit-learn, which is not "
+        raise NotBuiltIn("ripser: distances of points come from scikit-learn, which is not "
                          "installed; distance_matrix=True takes distances, ph.rips points"
                          ) from None
     return np.asarray(pairwise_distances(X, *others, metric=metric))
@@ -152,19 +152,20 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
 def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = False,
                     metric: Any = "euclidean"
                     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[Any]]:
-    """Points of which each is the farthest from those before; the first is point 0.
+    """Selects points, each the farthest from those before it; the first is point 0.
 
     Parameters
     ----------
     X, distance_matrix, metric
-        As of `ripser`; no sparse matrix.
+        As in `ripser`, but without sparse matrices.
     n_perm : int, optional
-        How many. Default: all.
+        Number of points. Default: all.
 
     Returns
     -------
     tuple of ndarray
-        The points; of each the radius in which it and those before cover all; its distances to all.
+        The points; for each point, the radius within which it and those before it cover all points;
+        its distances to all points.
     """
     if distance_matrix or not hasattr(X, "shape"):
         X = _arrays.as_array(X, "X")
@@ -189,7 +190,7 @@ def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = F
 
 
 def _cocycle(bars: _flag.Bars, place: Any, p: int, points: NDArray[np.int64]) -> NDArray[np.int64]:
-    """A row for each simplex: its vertices, descending, and the coefficient from 0 to p - 1."""
+    """One row per simplex: its vertices, descending, and the coefficient from 0 to p - 1."""
     chain = bars.barcode.representative(int(place))
     return np.column_stack([points[chain.cells[:, ::-1]], chain.coefficients % p])
 
@@ -201,7 +202,7 @@ def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpa
     Parameters
     ----------
     img : array_like
-        Numbers, of two axes.
+        An array of numbers with two axes.
     dtype : {float32, float64}
         The precision of the filtration.
     **run
@@ -210,7 +211,7 @@ def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpa
     Returns
     -------
     ndarray
-        Rows birth, death, by death.
+        Rows birth, death, sorted by death.
     """
     _run.check_names("lower_star_img", run, lower_star_img)
     kind = _flag.precision(dtype)
@@ -222,26 +223,27 @@ def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpa
 
 
 def correlation_to_distance(C: ArrayLike, check_input: bool = True) -> NDArray[np.float64]:
-    """Distances of correlations: the root of 2 (1 - c), from 0 to 2, and 0 on the diagonal.
+    """Converts correlations c to distances: the square root of 2 (1 - c), from 0 to 2, with 0 on
+    the diagonal.
 
     Parameters
     ----------
     C : array_like
-        A symmetric matrix of correlations. What is beyond [-1, 1] is taken for its end.
+        A symmetric matrix of correlations. Values outside [-1, 1] are clipped.
     check_input : bool
-        Whether C is looked at first.
+        If True, C is checked first.
 
     Raises
     ------
     UsageError
-        If C is no square matrix.
+        If C is not a square matrix.
     DataError
-        If it is not symmetric, or has an entry below -1.05 or above 1.05, or NaN.
+        If C is not symmetric, or has an entry below -1.05 or above 1.05, or NaN.
 
     Warns
     -----
     RuntimeWarning
-        If an entry is beyond [-1, 1], or one on the diagonal is not 1.
+        If an entry is outside [-1, 1], or an entry on the diagonal is not 1.
     """
     correlations = _arrays.as_float64(_arrays.as_array(C, "C"), "C")
     if check_input:
@@ -272,7 +274,7 @@ def _look_at_correlations(C: NDArray[np.float64]) -> None:
                         f"found {largest} in absolute value; a covariance matrix, or data?")
     if largest > 1:
         warnings.warn("Some values are slightly outside the valid correlation bounds [-1,1], "
-                      f"{largest} in absolute value. They are taken for the bounds.",
+                      f"{largest} in absolute value. They are replaced by the bounds.",
                       RuntimeWarning, stacklevel=3)
     if not np.allclose(np.diagonal(C), 1, atol=1e-3):
         warnings.warn("The matrix diagonal elements deviate from 1.0. Are these correlations?",

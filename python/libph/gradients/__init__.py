@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: MIT
 """Births and deaths as functions of points, distances and pixels, and their derivatives.
 
-A birth or a death is the value of a cell, and that is the value of one thing in the input: the
-longest edge of a simplex, one pixel of a cube. Near X it stays the value of that thing, so its
-derivative is the derivative of a distance, or 1 at a pixel. This holds where all values differ.
+A birth or a death is the value of a cell, and one element of the input determines this value: the
+longest edge of a simplex, or one pixel of a cube. In a neighbourhood of X the same element
+determines it. Its derivative is therefore the derivative of a distance, or 1 at a pixel. This holds
+if all values differ.
 
-At ties births and deaths are not differentiable. What is given there is the derivative of one of
-the things that decide:
+At ties, births and deaths are not differentiable. There, the derivative of one of the tied elements
+is returned:
 
-* of cells that are born at the same value the cell that the barcode names;
-* of equally long edges of a simplex the first one, in the order of its vertices; of equal pixels
-  the first one, in C order;
-* of a distance 0 the derivative 0; of equal differences of coordinates, for
-  ``metric="chebyshev"``, the first one; of equally near points, for ``weights="dtm"``, those of
-  the smallest numbers.
+* among cells that are born at the same value, the cell that the barcode names;
+* among equally long edges of a simplex, the first one in the order of its vertices; among equal
+  pixels, the first one in C order;
+* for a distance of 0, the derivative 0; among equal differences of coordinates, for
+  ``metric="chebyshev"``, the first one; among equally near points, for ``weights="dtm"``, those
+  with the smallest numbers.
 
-`libph.torch` has the same as functions of torch.
+`libph.torch` offers the same as functions of torch.
 """
 from __future__ import annotations
 
@@ -43,33 +44,35 @@ def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
     Parameters
     ----------
     bars : Barcode
-        Of `rips`, `cubical`, `lower_star` or `boundary`, with cells; or some of its bars.
+        A barcode of `rips`, `cubical`, `lower_star` or `boundary`, with cells; or some of its bars.
     X : array_like or sparse matrix
-        What they were computed of: points, distances, an image, values of vertices or of cells.
+        The data from which they were computed: points, distances, an image, values of vertices or
+        of cells.
     d_births, d_deaths : array_like, optional
-        Of each bar the derivative of the function with respect to its birth, and to its death.
-        Default: 0. With respect to the death of a bar that never dies it has to be 0.
+        For each bar, the derivative of the function with respect to its birth, and to its death.
+        Default: 0. For a bar that never dies, the derivative with respect to its death must be 0.
     weights : array_like, optional
-        What `rips` got as `weights`, if an array. They are constants.
+        The `weights` that `rips` received, if they were an array. They are treated as constants.
 
     Returns
     -------
     ndarray or sparse matrix
-        Of the shape of X. Of a matrix of distances each of the two entries of a pair has half of
-        the derivative; of a sparse one, with the entries of X, all of it where one is stored.
+        An array in the shape of X. For a matrix of distances, each of the two entries of a pair has
+        half of the derivative. For a sparse matrix, the result has the entries of X; if only one
+        entry of a pair is stored, it has all of the derivative.
 
     Raises
     ------
     UsageError
-        If births and deaths are no differentiable functions: ``metric="hamming"``, a function as
-        the metric, an approximation. Or if it is not known how: complexes of `filtered`, barcodes
-        of files.
+        If births and deaths are not differentiable functions: ``metric="hamming"``, a function as
+        the metric, an approximation. Also if the derivative is unknown: complexes of `filtered`,
+        barcodes from files.
     DataError
-        If X is not what the bars were computed of.
+        If the bars were not computed from X.
 
     Examples
     --------
-    A loop is born at the longest of its edges, and dies at the diagonal:
+    A loop is born at its longest edge and dies at the diagonal:
 
     >>> rectangle = [[0, 0], [3, 0], [3, 4], [0, 4]]
     >>> bars = ph.rips(rectangle).filter(dim=1)
@@ -99,20 +102,21 @@ def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
 
 def deciders(bars: Barcode, X: Any, *, weights: ArrayLike | None = None
              ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """What decides on each birth and each death.
+    """The elements of the input that determine each birth and each death.
 
-    With these numbers any program that differentiates can compute births and deaths itself.
+    With these numbers, any program with automatic differentiation can compute births and deaths
+    itself.
 
     Parameters
     ----------
     bars, X, weights
-        As of `pullback`.
+        As in `pullback`.
 
     Returns
     -------
     births, deaths : ndarray
-        A row for each bar. Of points and distances the ends of an edge, the same number twice where
-        it is the birth of a point; of images a pixel; otherwise one vertex or cell. -1: it never
+        One row per bar. For points and distances, the ends of an edge, or the same number twice for
+        the birth of a point; for images, a pixel; otherwise one vertex or cell. -1 if the bar never
         dies.
 
     Examples
@@ -134,7 +138,7 @@ def deciders(bars: Barcode, X: Any, *, weights: ArrayLike | None = None
 
 
 def _cells_of(bars: Barcode, is_death: bool) -> Any:
-    """By dimension of the cells: the places of the bars, their cells."""
+    """For each dimension of cells: the indices of the bars, and their cells."""
     for dim in np.unique(bars.dims).tolist():
         places = np.arange(len(bars))[bars._range(dim)]
         cells = bars.death_cells(dim) if is_death else bars.birth_cells(dim)

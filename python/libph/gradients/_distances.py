@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances of points and of matrices, and what becomes of their derivatives."""
+"""Distances of points and matrices, and the propagation of their derivatives."""
 from __future__ import annotations
 
 import math
@@ -13,7 +13,7 @@ from ._values import Integers, Numbers
 
 
 class Distances:
-    """Distances, and a gradient that is summed up."""
+    """Distances with a gradient accumulator."""
 
     size: int
 
@@ -22,7 +22,7 @@ class Distances:
         raise NotImplementedError
 
     def rows(self, i: Integers) -> Numbers:
-        """The distances of some points to all."""
+        """The distances of some points to all points."""
         raise NotImplementedError
 
     def add(self, i: Integers, j: Integers, factors: Numbers) -> None:
@@ -30,16 +30,17 @@ class Distances:
         raise NotImplementedError
 
     def diagonal(self) -> Numbers | None:
-        """What stands on the diagonal of a matrix."""
+        """The diagonal of a matrix."""
         return None
 
     def gradient(self, on_diagonal: Numbers | None) -> Any:
-        """What was added, and on the diagonal something more."""
+        """The sum of all added gradients, plus the contribution of the diagonal."""
         raise NotImplementedError
 
 
 class PointDistances(Distances):
-    """Of points. The exponent `p` is that of Minkowski; 0: one minus the cosine of the angle."""
+    """Distances of points. `p` is the Minkowski exponent; 0 stands for one minus the cosine of the
+    angle."""
 
     def __init__(self, X: Any, p: float) -> None:
         self._X = _arrays.as_points(X)
@@ -55,7 +56,7 @@ class PointDistances(Distances):
 
     def _lengths(self, x: Numbers, y: Numbers) -> Numbers:
         if self._p == 0:
-            # The same number as 1 - cos, and it keeps its digits for small angles.
+            # Equals 1 - cos, but keeps its digits for small angles.
             squares: Numbers = ((_unit(x)[0] - _unit(y)[0])**2).sum(axis=-1)
             return squares / 2
         return _norm(x - y, self._p)
@@ -88,7 +89,7 @@ def _norm(x: Numbers, p: float) -> Numbers:
     largest: Numbers = size.max(axis=-1, initial=0)
     if p == math.inf:
         return largest
-    # Powers of what is at most 1 do not overflow.
+    # Powers of numbers up to 1 do not overflow.
     share = size / np.where(largest > 0, largest, 1)[..., None]
     lengths: Numbers = (share**p).sum(axis=-1)**(1 / p)
     return largest * lengths
@@ -107,7 +108,7 @@ def _gradient_of_norm(x: Numbers, p: float) -> Numbers:
 
 
 class MatrixDistances(Distances):
-    """Of a square matrix, or the condensed form of one."""
+    """Distances of a square or condensed matrix."""
 
     def __init__(self, X: Any) -> None:
         self._X = _arrays.as_distances(X)
@@ -117,7 +118,7 @@ class MatrixDistances(Distances):
         self._gradient = np.zeros(self._X.shape)
 
     def _place(self, i: Integers, j: Integers) -> Integers:
-        """In the condensed form."""
+        """Index in the condensed form."""
         low, high = np.minimum(i, j), np.maximum(i, j)
         place: Integers = low * (2 * self.size - low - 1) // 2 + high - low - 1
         return place
@@ -156,7 +157,7 @@ class MatrixDistances(Distances):
 
 
 class SparseDistances(Distances):
-    """Of a sparse matrix: each entry that is stored is a variable."""
+    """Distances of a sparse matrix: each stored entry is a variable."""
 
     def __init__(self, X: Any) -> None:
         coo = X.tocoo(copy=True)
@@ -178,8 +179,8 @@ class SparseDistances(Distances):
         at, is_stored = self._find(i, j)
         if not is_stored.all():
             k = int(np.argmin(is_stored))
-            raise DataError(f"X: row {i[k]}, column {j[k]}: found no entry, expected one; X has to be "
-                            "what the barcode was computed of")
+            raise DataError(f"X: row {i[k]}, column {j[k]}: found no entry, expected one; X must be "
+                            "the data from which the barcode was computed")
         return self._values[at]
 
     def rows(self, i: Integers) -> Numbers:

@@ -16,7 +16,7 @@ from .._sources import METRICS
 from ._distances import Distances, MatrixDistances, PointDistances, SparseDistances
 from ._values import CellValues, Integers, Numbers
 
-_BLOCK = 2**24  # distances that are looked at together
+_BLOCK = 2**24  # distances that are processed together
 
 
 class _Edge(NamedTuple):
@@ -24,24 +24,24 @@ class _Edge(NamedTuple):
 
     values: Numbers
     of_distance: Numbers
-    of_births: tuple[Numbers, Numbers]  # of the two ends
+    of_births: tuple[Numbers, Numbers]  # births of the two ends
 
 
 class RipsValues(CellValues):
-    """A simplex enters with the last of its edges, an edge at a function of its length and of the
-    births of its ends."""
+    """A simplex enters with its last edge; the value of an edge is a function of its length and of
+    the births of its ends."""
 
     width = 2
 
     def __init__(self, X: Any, meta: Mapping[str, Any], weights: Any) -> None:
         if meta.get("approximation") is not None:
-            raise UsageError("bars: found an approximation, whose births and deaths are no functions "
+            raise UsageError("bars: found an approximation, whose births and deaths are not functions "
                              "of single distances")
         self._distances = _distances_of(X, meta)
         self._count = self._distances.size
         if self._count != meta["points"]:
-            raise DataError(f"X: found {self._count} points, expected {meta['points']}; X has to be "
-                            "what the barcode was computed of")
+            raise DataError(f"X: found {self._count} points, expected {meta['points']}; X must be "
+                            "the data from which the barcode was computed")
         self._exponent = meta.get("weight_exponent", math.inf)
         self._neighbours: int | None = None
         self._births: Numbers | None = None
@@ -59,7 +59,7 @@ class RipsValues(CellValues):
             return _arrays.as_values(weights, "weights", self._count, "point"), False
         diagonal = self._distances.diagonal()
         if diagonal is None:
-            raise UsageError("weights: found none, expected those that the barcode was computed with")
+            raise UsageError("weights: found none, expected the weights with which the barcode was computed")
         return diagonal, True
 
     # ---- births of points
@@ -111,7 +111,7 @@ class RipsValues(CellValues):
                      (np.where(is_met, of_a, is_a), np.where(is_met, of_b, ~is_a)))
 
     def _longest(self, cells: Integers) -> Integers:
-        """The last edge of each simplex; of a vertex the vertex twice."""
+        """The last edge of each simplex; for a vertex, the vertex twice."""
         if cells.shape[1] == 1:
             return np.repeat(cells, 2, axis=1)
         best = np.empty((len(cells), 2), dtype=np.int64)
@@ -123,7 +123,7 @@ class RipsValues(CellValues):
             best[is_later] = cells[is_later][:, [u, v]]
         return best
 
-    # ---- what all cells have
+    # ---- the interface of CellValues
 
     def values(self, dim: int, cells: Integers) -> Numbers:
         i, j = self._longest(cells).T
@@ -154,11 +154,12 @@ class RipsValues(CellValues):
 
 
 def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, ...]:
-    """Where balls meet whose radii are half the roots of t² - a² and t² - b²; and its derivatives.
+    """The t at which balls with radii of half the roots of t² - a² and t² - b² meet, and its
+    derivatives.
 
-    Where one ball swallows the other they meet when that is born.
+    If one ball contains the other, they meet when the latter is born.
     """
-    # In a unit of about their size no square overflows. Powers of 2 round nothing.
+    # In a unit of about their size, no square overflows. Powers of 2 cause no rounding.
     largest = np.maximum(lengths, np.maximum(a, b))
     unit = np.ldexp(1.0, np.frexp(np.where(largest > 0, largest, 1))[1] - 1)
     lengths, a, b = lengths / unit, a / unit, b / unit

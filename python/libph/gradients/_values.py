@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Values of cells as functions of what was given: pixels, values of vertices."""
+"""Values of cells as functions of the input: pixels, values of vertices."""
 from __future__ import annotations
 
 import itertools
@@ -16,20 +16,21 @@ from .._requests import PointImage
 Integers = NDArray[np.int64]
 Numbers = NDArray[np.float64]
 
-_ROUNDING = 1e-6  # of the largest value; farther apart are values of other data
+_ROUNDING = 1e-6  # relative to the largest value; a larger difference means other data
 
 
 class CellValues:
-    """Of cells, a row each, what decides on their value; and a gradient that is summed up."""
+    """The elements that determine the values of cells, one row per cell, with a gradient
+    accumulator."""
 
-    width: int  # of a row of `deciders`
+    width: int  # length of a row of `deciders`
 
     def values(self, dim: int, cells: Integers) -> Numbers:
         """The value of each cell."""
         raise NotImplementedError
 
     def deciders(self, dim: int, cells: Integers) -> Integers:
-        """What decides on the value of each cell."""
+        """The elements that determine the value of each cell."""
         raise NotImplementedError
 
     def add(self, dim: int, cells: Integers, factors: Numbers) -> None:
@@ -37,23 +38,23 @@ class CellValues:
         raise NotImplementedError
 
     def gradient(self) -> Any:
-        """What was added."""
+        """The sum of all added gradients."""
         raise NotImplementedError
 
     def compare(self, dim: int, cells: Integers, stated: Numbers, what: str) -> None:
-        """Refuses data that the barcode was not computed of."""
+        """Refuses data from which the barcode was not computed."""
         found = self.values(dim, cells)
         largest = max(1e-300, float(np.abs(stated[np.isfinite(stated)]).max(initial=0)))
         wrong = ~((np.abs(found - stated) <= _ROUNDING * largest) | (found == stated))
         if wrong.any():
             i = int(np.argmax(wrong))
             raise DataError(f"X: found the value {found[i]} of the cell {cells[i].tolist()}, "
-                            f"expected {stated[i]}, the {what} of its bar; X, and weights, have "
-                            "to be what the barcode was computed of")
+                            f"expected {stated[i]}, the {what} of its bar; X and weights must "
+                            "be the data from which the barcode was computed")
 
 
 class StarValues(CellValues):
-    """The value of a simplex is that of its last vertex; the value of a cell is its own."""
+    """A simplex has the value of its last vertex; a cell has its own value."""
 
     width = 1
 
@@ -68,7 +69,7 @@ class StarValues(CellValues):
     def deciders(self, dim: int, cells: Integers) -> Integers:
         if cells.max() >= len(self._values):
             raise DataError(f"X: found {len(self._values)} values, expected one for cell "
-                            f"{cells.max()}; X has to be what the barcode was computed of")
+                            f"{cells.max()}; X must be the data from which the barcode was computed")
         last = np.argmax(self._values[cells], axis=1)
         return np.take_along_axis(cells, last[:, None], axis=1)
 
@@ -80,7 +81,7 @@ class StarValues(CellValues):
 
 
 class VoxelValues(CellValues):
-    """The value of a cube is that of one of the pixels that it touches."""
+    """A cube has the value of one of the pixels that it touches."""
 
     def __init__(self, X: Any, meta: Mapping[str, Any]) -> None:
         image = _arrays.as_array(X.image if isinstance(X, PointImage) else X, "X")
@@ -96,7 +97,7 @@ class VoxelValues(CellValues):
         self._gradient = np.zeros(self._shape)
 
     def _levels(self, at: tuple[Integers, ...]) -> Numbers:
-        """What pixels are worth: NaN never enters."""
+        """The values of pixels; NaN never enters."""
         levels = self._sign * self._image[at].astype(np.float64)
         return np.where(np.isnan(levels), np.inf, levels)
 
@@ -104,8 +105,9 @@ class VoxelValues(CellValues):
         return self._levels(tuple(self.deciders(dim, cells).T))
 
     def deciders(self, dim: int, cells: Integers) -> Integers:
-        """Of the V-construction the largest corner, of the T-construction the least pixel around."""
-        ends = []  # of each axis the two pixels that the cube may touch; -1: there is none
+        """In the V-construction, the largest corner; in the T-construction, the least pixel around
+        the cube."""
+        ends = []  # for each axis, the two pixels that the cube may touch; -1 for none
         for axis, count in enumerate(self._shape):
             place = cells[:, axis]
             if self._are_vertices:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Persistent homology in pipelines of scikit-learn.
 
-Of lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersistence`,
-`CubicalPersistence`. Of lists of diagrams: `Statistics`, `PersistenceImage`, `Landscape`,
+For lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersistence`,
+`CubicalPersistence`. For lists of diagrams: `Statistics`, `PersistenceImage`, `Landscape`,
 `Silhouette`, `BettiCurve`, `LifeEntropy`, `Entropy`, `Lengths`, `Atol`, `DiagramDistances`,
-`DiagramKernels`. Of lists of images, without their bars: `EulerCurve`. Of one cloud, a row a sample:
-`PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
+`DiagramKernels`. For lists of images, without their bars: `EulerCurve`. For one cloud, whose rows
+are samples: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 
 >>> import libph.sklearn
 >>> from sklearn.pipeline import make_pipeline
@@ -33,7 +33,7 @@ __all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "Diag
            "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
            "Silhouette", "Statistics"]
 
-if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
+if not _typing.TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 
     def __getattr__(name):
         from .. import _hints

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Diagrams by centres that are learned of a batch."""
+"""Vectors of diagrams from centres that are learned from a batch."""
 from __future__ import annotations
 
 from typing import Any
@@ -12,30 +12,30 @@ from ._vectoriser import Vectoriser
 
 
 class Atol(Vectoriser):
-    """How much of a diagram is near each of some centres, which are learned [Royer et al. 2021].
+    """Measures how much of a diagram is near each of some learned centres [Royer et al. 2021].
 
-    The bars of all samples that are fitted are points (birth, death). k-means finds centres of them,
-    and half the distance of a centre to the nearest other one is its width. A feature is the sum
-    over the bars of a diagram of what `contrast` says. The result does not depend on the order of
+    The bars of all fitted samples are points (birth, death). k-means finds their centres; the width
+    of a centre is half its distance to the nearest other one. A feature is the sum of the
+    `contrast` function over the bars of a diagram. The result depends neither on the order of
     samples and bars, nor on threads or the machine.
 
     Parameters
     ----------
     centres : int
-        How many, for each diagram of a sample. Bars at so many places are needed.
+        Number of centres for each diagram of a sample. Bars at this many places are needed.
     contrast : {"laplace", "gauss"}
         exp(-distance / width), or exp(-distance² / width²), the default of GUDHI.
     seed : int
-        Of the first centres.
+        Seed for the initial centres.
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
 
     Attributes
     ----------
     centres_ : list of ndarray
-        Of each diagram of a sample rows birth, death, ascending.
+        For each diagram of a sample, the centres as rows birth, death, ascending.
     widths_ : list of ndarray
-        How far each reaches.
+        The width of each centre.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What scikit-learn 1.2 and later ones want said in different words."""
+"""Differences between scikit-learn 1.2 and later versions."""
 from __future__ import annotations
 
 from typing import Any
@@ -20,7 +20,7 @@ except ImportError:
 
 
 def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float64]:
-    """The rows of one cloud; `reset`: it is the one that the estimator is fitted to."""
+    """The rows of one cloud; `reset` is True for the cloud to which the estimator is fitted."""
     table: NDArray[np.float64] = _validate_data(estimator, X, dtype=np.float64, reset=reset)
     return table
 
@@ -28,8 +28,8 @@ def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float6
 class MakesTables:
     """`set_output` for transformers of lists.
 
-    That of scikit-learn 1.2 fails for lists: it takes their method `index` for row names. And
-    pandas would take diagrams apart.
+    The version of scikit-learn 1.2 fails for lists, because it takes their method `index` for row
+    names. Besides, pandas would take diagrams apart.
     """
 
     def __init_subclass__(cls, **how: Any) -> None:
@@ -40,13 +40,13 @@ class MakesTables:
         raise NotImplementedError
 
     def set_output(self, *, transform: str | None = None) -> Any:
-        """What kind of table `transform` returns.
+        """Sets the kind of table that `transform` returns.
 
         Parameters
         ----------
         transform : {"default", "pandas"}, optional
-            "pandas": a DataFrame with the columns of `get_feature_names_out`, of diagrams and
-            barcodes one whose cells are such.
+            "pandas": a DataFrame with the columns of `get_feature_names_out`; for diagrams and
+            barcodes, its cells hold them.
 
         Returns
         -------
@@ -80,7 +80,8 @@ def _as_cells(rows: Any) -> Any:
 
 
 class TakesLists(BaseEstimator):
-    """An estimator of lists of clouds, images or diagrams: no table, and nothing to fit to it."""
+    """An estimator for lists of clouds, images or diagrams, to which the checks for tables do not
+    apply."""
 
     def _more_tags(self) -> dict[str, Any]:
         return {"X_types": ["3darray"], "stateless": True, "requires_fit": False}

@@ -24,41 +24,42 @@ from ._neighbours import METRICS, Neighbours
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
-_STANDS_OUT = 1.5  # times as long as the next bar: the longest of those of noise seldom is
+_STANDS_OUT = 1.5  # ratio to the next bar that bars of noise seldom reach
 
 
 class PersistenceClustering(ClusterMixin, BaseEstimator):
-    """Clusters are the peaks of a density that are high above the passes to higher ones.
+    """Clusters are the peaks of a density that rise high above the passes to higher peaks.
 
-    The algorithm is ToMATo [Chazal, Guibas, Oudot & Skraba 2013]. Points are joined to their k
-    nearest points. Each point goes with the densest of those that it is joined to, and so up to a
-    peak. The sublevel sets of f = -log(density) have one bar for each peak: it is born at the peak
-    and dies at the pass to a denser peak. Its length is the logarithm of how many times denser the
-    peak is. Clusters whose bars are short become one with the denser one.
+    The algorithm is ToMATo [Chazal, Guibas, Oudot & Skraba 2013]. Each point is joined to its k
+    nearest points, and follows the densest of the points that it is joined to, up to a peak. The
+    sublevel sets of f = -log(density) have one bar for each peak: it is born at the peak and dies
+    at the pass to a denser peak. Its length is the logarithm of the ratio of the densities of peak
+    and pass. Clusters with short bars are merged into the denser cluster.
 
     Parameters
     ----------
     k : int
-        To how many points each is joined, itself among them.
+        Number of points to which each point is joined, including itself.
     n_clusters : int, optional
-        How many clusters: those of the longest bars.
+        Number of clusters; those with the longest bars are chosen.
     min_persistence : float, optional
-        Peaks with bars longer than this are clusters. ``log(2)``: a peak is twice as dense as the
-        pass.
+        Peaks with bars longer than this are clusters. With ``log(2)``, a peak must be more than
+        twice as dense as the pass.
     density : "dtm" or callable
-        "dtm": one over the distance to the measure of the k nearest points. The distance 0, of
-        points with k - 1 copies, counts as the least distance above 0. A function takes X and gives
-        a positive density of each row.
+        "dtm": the inverse of the distance to the measure of the k nearest points. A distance of 0,
+        which points with k - 1 copies have, counts as the least distance above 0. A function takes
+        X and returns a positive density for each row.
     metric : str
         "euclidean", "manhattan", "chebyshev", "cosine", or "precomputed": X is a square matrix of
         distances.
     n_jobs : int, optional
-        Threads of the search for neighbours. Default: one.
+        Number of threads for the search for neighbours. Default: one.
 
     Attributes
     ----------
     labels_ : ndarray
-        The cluster of each point; cluster 0 has the densest peak, and so on.
+        The cluster the hill of each point; clusters are numbered by the density of their peaks, the
+        densest being 0.
     n_clusters_ : int
     peaks_ : ndarray
         The densest point of each cluster.
@@ -71,12 +72,12 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     Notes
     -----
     Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars that never
-    die are clusters. Those that die are ordered by their lengths, with 0 at the end. If the bar
-    before the largest gap is half as long again as the one after it, it is a cluster, and so are
-    longer ones. Look at ``barcode_.plot()`` before you trust it.
+    die are clusters. The other bars are sorted by length, with 0 at the end. If the bar before the
+    largest gap is at least one and a half times as long as the bar after it, this bar and all
+    longer ones are clusters. Look at ``barcode_.plot()`` before you trust the guess.
 
-    Where the graph falls apart, each part has a cluster at least. If `n_clusters` is smaller than
-    that, parts are joined whose densest points are near each other, with a `ConvergenceWarning`.
+    If the graph has several components, each has at least one cluster. If `n_clusters` is smaller,
+    components whose densest points are near each other are joined, with a `ConvergenceWarning`.
 
     Examples
     --------
@@ -101,9 +102,9 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         Parameters
         ----------
         X : array_like
-            Points, one a row, or distances.
+            Points, one per row, or distances.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -149,7 +150,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         return np.asarray(np.log(to_measure))
 
     def _joins(self, points: _Numbers, hills: _Hills) -> _Integers:
-        """Pairs of hills that become one."""
+        """Pairs of hills to be merged."""
         lengths = hills.lengths
         parts = len(hills.peaks) - len(lengths)
         order = np.argsort(-lengths, kind="stable")
@@ -161,7 +162,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
             warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
-                          "peaks: each is a cluster", ConvergenceWarning, stacklevel=3)
+                          "peaks, and each is a cluster", ConvergenceWarning, stacklevel=3)
         if wanted >= parts:
             return np.asarray(hills.passes[order[wanted - parts:]])
         warnings.warn(f"n_clusters: found {wanted}, but the graph of neighbours has {parts} parts: "
@@ -170,7 +171,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         return np.concatenate([hills.passes, self._joined_parts(points, hills, wanted)])
 
     def _joined_parts(self, points: _Numbers, hills: _Hills, wanted: int) -> _Integers:
-        """Of each part its densest peak; of these single linkage."""
+        """The densest peak of each component; then single linkage of these peaks."""
         is_highest = np.ones(len(hills.peaks), dtype=bool)
         is_highest[hills.lower] = False
         highest = np.flatnonzero(is_highest)
@@ -191,16 +192,16 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
 class _Hills(NamedTuple):
     """The peaks of a density, and the passes between the hills below them."""
 
-    peaks: _Integers    # points, the densest first
-    hill_of: _Integers  # of each point
-    passes: _Integers   # (passes, 2): hills that meet where two parts become one
-    lower: _Integers    # of each pass the hill of the lower peak of the two parts
-    heights: _Numbers   # of each pass the value of the function
-    lengths: _Numbers   # of the bar that dies there
+    peaks: _Integers    # indices of the points, densest first
+    hill_of: _Integers  # the hill of each point
+    passes: _Integers   # (passes, 2): the hills that meet where two components merge
+    lower: _Integers    # for each pass, the hill of the lower peak of the two components
+    heights: _Numbers   # for each pass, the value of the function
+    lengths: _Numbers   # length of the bar that dies there
 
 
 def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
-    """Everything is done on the ranks of the points, so that ties are broken by their numbers."""
+    """All steps use the ranks of the points, so that their numbers break ties."""
     n = len(function)
     order = np.argsort(function, kind="stable")
     rank = np.empty(n, dtype=np.int64)
@@ -208,7 +209,7 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
     ends = np.repeat(rank, neighbours.shape[1]), rank[neighbours.ravel()]
     low, high = np.minimum(*ends), np.maximum(*ends)
 
-    up = np.arange(n)  # to the densest point that it is joined to
+    up = np.arange(n)  # the densest point that each is joined to
     np.minimum.at(up, high, low)
     while True:
         farther = up[up]
@@ -217,7 +218,7 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
         up = farther
     tops, hill_of_rank = np.unique(up, return_inverse=True)
 
-    # Of each two hills that meet the first edge between them.
+    # The first edge between each two hills that meet.
     one, other = hill_of_rank[low], hill_of_rank[high]
     meet = one != other
     one, other, high = one[meet], other[meet], high[meet]
@@ -237,7 +238,8 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
 
 
 def _before_gap(lengths: _Numbers) -> int:
-    """How many of the lengths, which descend, come before the largest gap; 0: it is not large."""
+    """The number of lengths, in descending order, before the largest gap; 0 if the gap is not
+    large."""
     if not len(lengths):
         return 0
     below = np.append(lengths[1:], 0.0)
@@ -250,7 +252,7 @@ def _clusters_of(hills: _Hills, joins: _Integers) -> tuple[_Integers, _Integers]
     count = len(hills.peaks)
     graph = coo_matrix((np.ones(len(joins)), (joins[:, 0], joins[:, 1])), shape=(count, count))
     cluster_of_hill = connected_components(graph, directed=False)[1]
-    # Hills are numbered from the densest on: the first of a cluster is its densest.
+    # Hills are numbered by descending density: the first hill of a cluster is its densest.
     _, first, numbered = np.unique(cluster_of_hill, return_index=True, return_inverse=True)
     highest, label = np.unique(first[numbered], return_inverse=True)
     return label[hills.hill_of], hills.peaks[highest]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Diagrams as functions at the values of a grid."""
+"""Functions of diagrams at the values of a grid."""
 from __future__ import annotations
 
 from typing import Any
@@ -17,7 +17,7 @@ from ._vectoriser import Vectoriser, ranges_of
 class _OnGrid(Vectoriser):
     """Functions of the filtration value, at the values of a grid."""
 
-    _ending: str  # of the names, before a number
+    _ending: str  # prefix of the names, before a number
     resolution: Any
     range: Any
 
@@ -41,22 +41,23 @@ class Landscape(_OnGrid):
     layers : int
         How many.
     resolution : int
-        How many values the grid has, both ends of the range among them.
+        Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional
-        From where to where: for all diagrams of a sample, or for each of them. Default: from the
-        least finite value in the samples that are fitted to the largest. What lies outside is not
-        seen.
+        The ends of the grid: one range for all diagrams of a sample, or one for each of them.
+        Default: the least and the largest finite value in the fitted samples. Values outside the
+        range are ignored.
     infinity : {"keep", "error", "drop"} or float
-        What a bar that never dies is: one that grows for ever, an error, left out, or one that dies
-        at this value.
+        How to treat a bar that never dies: growing for ever, as an error, left out, or dying at
+        this value.
     height : {"tent", "euclidean"}
-        A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
-        distance of (birth, death) from the diagonal, as in GUDHI.
+        The height of a bar: half its length, as the height of its tent; or √2 times as much, the
+        Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
 
     Attributes
     ----------
     ranges_ : list of pair of float
-        Of each diagram of a sample. ``range=ranges_`` of another transformer is the same grid.
+        The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
+        grid.
     grids_ : list of ndarray
         The values.
 
@@ -94,28 +95,29 @@ class Landscape(_OnGrid):
 class Silhouette(_OnGrid):
     """Silhouettes [Chazal et al. 2014]: one curve for all bars, exact at the values of a grid.
 
-    At t it is the mean of max(0, min(t - birth, death - t)) over the bars, weighted by lengths to a
-    power.
+    At t, it is the mean of max(0, min(t - birth, death - t)) over the bars, weighted by lengths to
+    a power.
 
     Parameters
     ----------
     power : float
-        Of the lengths; 0: all bars weigh the same, as in GUDHI.
+        Exponent of the lengths; 0: all bars weigh the same, as in GUDHI.
     resolution : int
-        How many values the grid has, both ends of the range among them.
+        Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional
-        From where to where: for all diagrams of a sample, or for each of them. Default: from the
-        least finite value in the samples that are fitted to the largest.
+        The ends of the grid: one range for all diagrams of a sample, or one for each of them.
+        Default: the least and the largest finite value in the fitted samples.
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
     height : {"tent", "euclidean"}
-        A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
-        distance of (birth, death) from the diagonal, as in GUDHI.
+        The height of a bar: half its length, as the height of its tent; or √2 times as much, the
+        Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
 
     Attributes
     ----------
     ranges_ : list of pair of float
-        Of each diagram of a sample. ``range=ranges_`` of another transformer is the same grid.
+        The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
+        grid.
     grids_ : list of ndarray
         The values.
 
@@ -148,23 +150,24 @@ class Silhouette(_OnGrid):
 
 
 class BettiCurve(_OnGrid):
-    """How many bars live at each value of a grid.
+    """The number of bars alive at each value of a grid.
 
     Parameters
     ----------
     resolution : int
-        How many values the grid has, both ends of the range among them.
+        Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional
-        From where to where: for all diagrams of a sample, or for each of them. Default: from the
-        least finite value in the samples that are fitted to the largest.
+        The ends of the grid: one range for all diagrams of a sample, or one for each of them.
+        Default: the least and the largest finite value in the fitted samples.
     infinity : {"keep", "error", "drop"} or float
-        What a bar that never dies is: one that lives for ever, an error, left out, or one that dies
-        at this value.
+        How to treat a bar that never dies: living for ever, as an error, left out, or dying at this
+        value.
 
     Attributes
     ----------
     ranges_ : list of pair of float
-        Of each diagram of a sample. ``range=ranges_`` of another transformer is the same grid.
+        The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
+        grid.
     grids_ : list of ndarray
         The values.
 
@@ -189,29 +192,30 @@ class BettiCurve(_OnGrid):
 
 
 class LifeEntropy(_OnGrid):
-    """The entropy of the bars that live at each value of a grid [Atienza et al. 2020].
+    """The entropy of the bars that are alive at each value of a grid [Atienza et al. 2020].
 
-    It is the sum of -p log p over the bars with birth <= t < death. p is the share of a bar in the
-    lengths of all bars of the diagram.
+    It is the sum of -p log p over the bars with birth <= t < death, where p is the share of a bar
+    in the sum of the lengths of all bars of the diagram.
 
     Parameters
     ----------
     resolution : int
-        How many values the grid has, both ends of the range among them.
+        Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional
-        From where to where: for all diagrams of a sample, or for each of them. Default: from the
-        least finite value in the samples that are fitted to the largest.
+        The ends of the grid: one range for all diagrams of a sample, or one for each of them.
+        Default: the least and the largest finite value in the fitted samples.
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
     unit : {"nats", "bits"}
-        Of natural logarithms, or of those to the base 2.
+        Natural logarithms, or logarithms to the base 2.
     normalised : bool
-        Whether the values are divided by their sum, as in GUDHI.
+        If True, the values are divided by their sum, as in GUDHI.
 
     Attributes
     ----------
     ranges_ : list of pair of float
-        Of each diagram of a sample. ``range=ranges_`` of another transformer is the same grid.
+        The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
+        grid.
     grids_ : list of ndarray
         The values.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Lists of diagrams in the layouts that they come in."""
+"""Reads lists of diagrams in all their layouts."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
@@ -17,14 +17,14 @@ _EXPECTED = ("expected a list with an entry for each sample: a diagram, a list o
 
 
 class Samples(NamedTuple):
-    """Diagrams, as many for each sample."""
+    """Diagrams, the same number for each sample."""
 
     rows: list[list[Diagram]]
-    names: list[str]  # of the diagrams of a sample
+    names: list[str]  # names of the diagrams of a sample
 
 
 def samples_of(X: Any) -> Samples:
-    """Diagrams of what `RipsPersistence` gives for any `output`, of a table of diagrams, and of
+    """Reads diagrams from any `output` of `RipsPersistence`, from a table of diagrams, and from
     lists of arrays."""
     if hasattr(X, "columns") and hasattr(X, "iloc"):
         found = _rows_of([list(row) for row in X.itertuples(index=False)])
@@ -39,19 +39,19 @@ def samples_of(X: Any) -> Samples:
 
 
 def samples_like(fitted: Sequence[str], X: Any) -> Samples:
-    """Samples with the diagrams of those that were fitted, whose names are given.
+    """Samples with the same diagrams as the fitted samples, whose names are given.
 
-    Lists of arrays have no names of their own: there the numbers of diagrams have to be the same.
+    Lists of arrays have no names, but must have the same number of diagrams.
     """
     samples = samples_of(X)
     if not samples.rows:
         return samples
     if len(samples.names) != len(fitted):
         raise UsageError(f"X: found {len(samples.names)} diagrams for each sample, expected "
-                         f"{len(fitted)} as in the samples that were fitted")
+                         f"{len(fitted)} as in the fitted samples")
     if list(fitted) != samples.names and "dgm0" not in (fitted[0], samples.names[0]):
         raise UsageError(f"X: found diagrams {', '.join(samples.names)}, expected "
-                         f"{', '.join(fitted)}, in the order of the samples that were fitted")
+                         f"{', '.join(fitted)}, in the order of the fitted samples")
     return samples
 
 
@@ -67,7 +67,7 @@ def _rows_of(samples: Sequence[Any]) -> Samples:
     split = [_parts_of(sample) for sample in samples]
     are_diagrams = any(parts is None for parts in split)
     for i, (sample, parts) in enumerate(zip(samples, split)):
-        if parts is None or (are_diagrams and not parts):  # beside diagrams [] is an empty one
+        if parts is None or (are_diagrams and not parts):  # beside diagrams, [] is an empty diagram
             rows.append([as_diagram(sample, f"sample {i}")])
         else:
             rows.append([as_diagram(part, f"sample {i}, diagram {j}")
@@ -82,7 +82,7 @@ def _rows_of(samples: Sequence[Any]) -> Samples:
 
 
 def _parts_of(sample: Any) -> Sequence[Any] | None:
-    """The diagrams of a sample; None: it is one diagram."""
+    """The diagrams of a sample; None if the sample is itself a diagram."""
     if isinstance(sample, Barcode):
         raise UsageError("X: found barcodes and arrays, expected one of the two")
     if isinstance(sample, np.ndarray):
@@ -96,7 +96,7 @@ def _parts_of(sample: Any) -> Sequence[Any] | None:
 def _is_pair(part: Any) -> bool:
     try:
         return not isinstance(part, np.ndarray) and np.ndim(part) == 1 and len(part) == 2
-    except ValueError:  # of lists of different lengths; who reads them says what is wrong
+    except ValueError:  # lists of different lengths; the reader will report the problem
         return False
 
 
@@ -111,7 +111,7 @@ def _of_giotto(X: Any) -> Samples:
                          "each dimension; one of length 0 stands for none")
     if not (dims == np.floor(dims)).all() or (dims < 0).any():
         raise UsageError(f"X: found dimensions {dims}, expected whole numbers from 0 on")
-    # Bars of length 0 are there to fill up.
+    # Bars of length 0 are padding.
     is_bar = numbers[:, :, 0] != numbers[:, :, 1]
     rows = [[as_diagram(row[(row[:, 2] == dim) & kept][:, :2], f"sample {i}, H{int(dim)}")
              for dim in dims] for i, (row, kept) in enumerate(zip(numbers, is_bar))]

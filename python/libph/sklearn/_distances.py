@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances and kernels of lists of diagrams. What is computed stands in `libph`."""
+"""Distances and kernels of lists of diagrams; `libph` computes them."""
 from __future__ import annotations
 
 import math
@@ -15,30 +15,30 @@ from ._pairs import BesideFitted
 
 
 class DiagramDistances(BesideFitted):
-    """The distances of diagrams from those that it was fitted to.
+    """The distances of diagrams from the fitted diagrams.
 
-    Where a sample has several diagrams, a norm makes one number of their distances.
+    If a sample has several diagrams, a norm combines their distances into one number.
 
     Parameters
     ----------
     distance : {"wasserstein", "bottleneck", "sliced_wasserstein"}
         Which distance; see `libph.wasserstein`, `libph.bottleneck`, `libph.sliced_wasserstein`.
     order, ground : float
-        Of "wasserstein".
+        For "wasserstein".
     relative_error : float
-        Of "wasserstein" and "bottleneck": how much too large a distance may be.
+        For "wasserstein" and "bottleneck": the allowed relative error; results are never too small.
     directions : int
-        Of "sliced_wasserstein".
+        For "sliced_wasserstein": number of lines.
     norm : float
-        Of several diagrams of a sample: 1 adds their distances, 2 takes the root of the sum of
-        squares, inf the largest.
+        For samples with several diagrams: 1 adds their distances, 2 takes the root of the sum of
+        squares, inf takes the largest.
     n_jobs : int, optional
-        Threads, as scikit-learn counts them. Default: one.
+        Number of threads, in the convention of scikit-learn. Default: one.
 
     Attributes
     ----------
     n_features_in_ : int
-        How many diagrams a sample has.
+        Number of diagrams per sample.
 
     Examples
     --------
@@ -72,27 +72,27 @@ class DiagramDistances(BesideFitted):
 
 
 class DiagramKernels(BesideFitted):
-    """A positive definite kernel of diagrams and of those that it was fitted to.
+    """A positive definite kernel between diagrams and the fitted diagrams.
 
-    Where a sample has several diagrams, their kernels are added. ``SVC(kernel="precomputed")``
-    takes what comes out.
+    If a sample has several diagrams, their kernels are added. ``SVC(kernel="precomputed")`` accepts
+    the result.
 
     Parameters
     ----------
     kernel : {"scale_space", "weighted_gaussian"}
         Which kernel; see `libph.diagram_kernels`.
     sigma : float
-        How wide it is: of "scale_space" in the unit of the values, squared; of "weighted_gaussian"
-        in the unit of the values.
+        Width of the kernel: for "scale_space" in the squared unit of the values, for
+        "weighted_gaussian" in the unit of the values.
     slope, power : float
-        Of "weighted_gaussian": a bar weighs arctan(slope · length^power).
+        For "weighted_gaussian": the weight of a bar is arctan(slope · length^power).
     n_jobs : int, optional
-        Threads, as scikit-learn counts them. Default: one.
+        Number of threads, in the convention of scikit-learn. Default: one.
 
     Attributes
     ----------
     n_features_in_ : int
-        How many diagrams a sample has.
+        Number of diagrams per sample.
 
     Examples
     --------
@@ -125,6 +125,6 @@ def _joined(distances: NDArray[np.float64], norm: float) -> NDArray[np.float64]:
     """The norm along the first axis, without a power that overflows or vanishes."""
     largest = distances.max(axis=0)
     largest[(largest == 0) | (largest == math.inf)] = 1
-    unit = np.ldexp(1.0, np.frexp(largest)[1] - 1)  # powers of 2: nothing is rounded
+    unit = np.ldexp(1.0, np.frexp(largest)[1] - 1)  # powers of 2 cause no rounding
     result: NDArray[np.float64] = np.linalg.norm(distances / unit, norm, axis=0) * unit
     return result

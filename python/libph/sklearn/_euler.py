@@ -21,27 +21,27 @@ from ._persistence import list_of
 
 
 class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
-    """The Euler characteristic of images at the values of a grid, without their bars.
+    """The Euler characteristic of images at the values of a grid, computed without bars.
 
-    It costs some nanoseconds a voxel: for many or huge images. Samples are images, which may have
-    different extents.
+    It takes some nanoseconds per voxel, which suits many or huge images. Samples are images, which
+    may have different extents.
 
     Parameters
     ----------
     resolution : int
-        How many values the grid has, both ends of the range among them.
+        Number of values of the grid, including both ends of the range.
     range : pair of float, optional
-        From where to where. Default: from the least finite value of the images that are fitted to
-        the largest, as they enter: with `superlevel` those of the negated images.
+        The ends of the grid. Default: the least and the largest finite value at which voxels of the
+        fitted images enter; with `superlevel`, values of the negated images.
     construction, superlevel, periodic, threshold, nan
-        As of `libph.euler_curve`.
+        As in `libph.euler_curve`.
     n_jobs : int, optional
-        Threads, as scikit-learn counts them. Default: one.
+        Number of threads, in the convention of scikit-learn. Default: one.
 
     Attributes
     ----------
     range_ : pair of float
-        ``range=range_`` of another transformer is the same grid.
+        ``range=range_`` gives another transformer the same grid.
     grid_ : ndarray
         The values.
 
@@ -72,7 +72,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         X : list
             Images.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -88,7 +88,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         return self
 
     def transform(self, X: Any) -> Any:
-        """A curve of each image.
+        """The curve of each image.
 
         Parameters
         ----------
@@ -98,7 +98,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         Returns
         -------
         ndarray or DataFrame
-            A row for each image.
+            One row per image.
         """
         check_is_fitted(self, "range_")
         images = list_of(X, "images", 1)
@@ -130,7 +130,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         return np.array([f"euler{i}" for i in range(self._count)], dtype=object)
 
     def _range_of(self, images: Any) -> Range:
-        """Of the finite values that enter."""
+        """The range of the finite values that enter."""
         low, high = math.inf, -math.inf
         sign = -1 if _options.flag("superlevel", self.superlevel) else 1
         for image in images:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Diagrams as pictures."""
+"""Persistence images of diagrams."""
 from __future__ import annotations
 
 from typing import Any
@@ -14,37 +14,38 @@ from ._vectoriser import Vectoriser, ranges_of
 class PersistenceImage(Vectoriser):
     """Persistence images [Adams et al. 2017]: diagrams as pictures, smoothed and weighted.
 
-    Each bar is a normal distribution around the point (birth, persistence), times a weight. A pixel
-    has the integral over it, to the last digits. Bars of length 0 do not count.
+    Each bar is a normal distribution around the point (birth, persistence), times a weight. The
+    value of a pixel is the integral over the pixel, exact to the last digits. Bars of length 0 do
+    not count.
 
     Parameters
     ----------
     bandwidth : float, optional
         The standard deviation, in the unit of the values. Default: a twentieth of the longer range.
     resolution : int or pair of int
-        How many pixels along births, and along persistence.
+        Number of pixels along births, and along persistence.
     birth_range, persistence_range : pair of float or list of pairs, optional
-        What the image shows: for all diagrams of a sample, or for each of them. Default: of the
-        samples that are fitted, from the least birth to the largest, and from 0 to the largest
-        persistence. What lies outside is not seen.
+        The ranges that the image covers: one for all diagrams of a sample, or one for each of them.
+        Default: from the least birth to the largest, and from 0 to the largest persistence, of the
+        fitted samples. Values outside the range are ignored.
     weight_power : float
-        The weight is the persistence to this power; 0: all bars weigh 1.
+        The weight is the persistence to this power; 0: all weights are 1.
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
     pixel : {"integral", "density"}
-        What a pixel has: the integral over it, or the density at its centre, as in GUDHI.
+        The value of a pixel: the integral over it, or the density at its centre, as in GUDHI.
     orientation : {"ascending", "descending", "births"}
-        What the rows of an image are: intervals of persistence, the shortest first, or the longest
-        first, as in giotto-tda; or intervals of births, as in persim.
+        The meaning of the rows of an image: intervals of persistence, ascending or, as in
+        giotto-tda, descending; or intervals of births, as in persim.
 
     Attributes
     ----------
     birth_ranges_ : list of pair of float
-        Of each diagram of a sample.
+        The range of births of each diagram of a sample.
     persistence_ranges_ : list of pair of float
-        The same of lengths.
+        The same for persistence.
     bandwidths_ : list of float
-        The same of bandwidths.
+        The bandwidth of each diagram of a sample.
 
     Examples
     --------

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Distances between the rows of two tables, to the last digits at any offset and scale.
+"""Distances between the rows of two tables, exact to the last digits at any offset and scale.
 
-The fast ones of scikit-learn are of dot products, which lose digits where rows are near each other
-and far from 0, or neither. Here they are of differences of coordinates, in a unit in which no square
-of one overflows.
+scikit-learn's fast distances use dot products, which lose digits if rows are near each other and
+far from 0. Here they use differences of coordinates, in a unit in which no square overflows.
 """
 from __future__ import annotations
 
@@ -16,28 +15,28 @@ from sklearn.neighbors import NearestNeighbors
 from .. import _sources
 from .._errors import DataError
 
-# What libph and scikit-learn both know by these names, with the same numbers.
+# The metrics that libph and scikit-learn both know by these names, with the same values.
 METRICS = ["euclidean", "l2", "manhattan", "l1", "cityblock", "chebyshev", "cosine"]
 
 _Numbers = NDArray[np.float64]
-_MOST_FOR_A_TREE = 15  # coordinates: with more, a tree looks at nearly all points, and is slower
-_ENTRIES = 2**21  # of a table of distances that a thread has at once
+_MOST_FOR_A_TREE = 15  # with more coordinates, a tree visits nearly all points and is slower
+_ENTRIES = 2**21  # size of the table of distances that a thread holds
 _ROOM = 400  # rows may be 2**400 times as far from 0 as points: the square of that is a double
 
 
 class Neighbours:
-    """The nearest of some points.
+    """Finds the nearest of some points.
 
     Parameters
     ----------
     points : ndarray
-        A point a row.
+        Points, one per row.
     k : int
-        How many of them are sought.
+        Number of neighbours to find.
     metric : str
         One of METRICS.
     n_jobs : int, optional
-        Threads, as scikit-learn counts them.
+        Number of threads, in the convention of scikit-learn.
     """
 
     def __init__(self, points: _Numbers, k: int, metric: str, n_jobs: int | None) -> None:
@@ -49,13 +48,13 @@ class Neighbours:
         self._search = self._search_in(self._exponent) if is_for_a_tree else None
 
     def _search_in(self, exponent: int) -> NearestNeighbors:
-        # This tree takes differences, which "brute" and hence "auto" do not.
+        # This tree uses differences of coordinates; "brute", and hence "auto", do not.
         search = NearestNeighbors(n_neighbors=self._k, metric=_of_differences(self._name),
                                   algorithm="kd_tree", n_jobs=self._n_jobs)
         return search.fit(np.ldexp(self._points, -exponent))
 
     def of(self, rows: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
-        """Of each row the distances of its k nearest points, ascending, and which they are."""
+        """For each row, the distances of its k nearest points, ascending, and their indices."""
         rows = _comparable(rows, self._name)[0]
         exponent = max(self._exponent, _exponent_of(rows) - _ROOM)
         scaled = np.ldexp(rows, -exponent)
@@ -67,7 +66,7 @@ class Neighbours:
         return _in_metric(np.ldexp(distances, exponent), self._name), places
 
     def _by_all(self, rows: _Numbers, points: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
-        """By all distances, some rows at a time."""
+        """Computes all distances, some rows at a time."""
         many = max(1, _ENTRIES // len(points))
         strips = [rows[start:start + many] for start in range(0, len(rows), many)]
         found = Parallel(n_jobs=self._n_jobs, prefer="threads")(
@@ -85,7 +84,7 @@ def _nearest(rows: _Numbers, points: _Numbers, k: int,
 
 
 def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers:
-    """The distance of each row to each point: a row and a column for each."""
+    """The distance of each row to each point, as a matrix."""
     (rows, name), (points, _) = _comparable(rows, metric), _comparable(points, metric)
     exponent = max(_exponent_of(rows), _exponent_of(points))
     distances = cdist(np.ldexp(rows, -exponent), np.ldexp(points, -exponent), _of_differences(name))
@@ -93,7 +92,7 @@ def distances_between(rows: _Numbers, points: _Numbers, metric: str) -> _Numbers
 
 
 def _comparable(rows: _Numbers, metric: str) -> tuple[_Numbers, str]:
-    """The rows, and the first name of the metric; of cosine distances their directions."""
+    """The rows (for cosine distances, their directions) and the first name of the metric."""
     name = _sources.METRICS[metric]
     if name != "cosine":
         return rows, name
@@ -110,10 +109,10 @@ def _of_differences(name: str) -> str:
 
 
 def _in_metric(distances: _Numbers, name: str) -> _Numbers:
-    """Of directions x and y the number 1 - cos is |x - y|² / 2, which keeps its digits."""
+    """For directions x and y, 1 - cos equals |x - y|² / 2, which keeps its digits."""
     return distances**2 / 2 if name == "cosine" else distances
 
 
 def _exponent_of(rows: _Numbers) -> int:
-    """That of the largest coordinate, as a power of 2."""
+    """The scale of the largest coordinate, as a power of 2."""
     return int(np.frexp(np.abs(rows).max(initial=0.0))[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Diagrams as a few numbers that can be read."""
+"""Diagrams as a few readable numbers."""
 from __future__ import annotations
 
 from typing import Any
@@ -14,15 +14,16 @@ from ._vectoriser import Vectoriser
 class Statistics(Vectoriser):
     """38 numbers that describe each diagram; the first thing to try [Ali et al. 2023].
 
-    Of births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile range,
-    range, and the 10th, 25th, 75th and 90th percentile. Then how many bars there are, and their
-    entropy, in nats. Bars of length 0 do not count. All are 0 without bars. They have different
-    units: scale them, as ``StandardScaler`` does, before what measures distances.
+    For births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
+    range, range, and the 10th, 25th, 75th and 90th percentiles. Then the number of bars and their
+    entropy in nats. Bars of length 0 do not count. Without bars, all numbers are 0. The numbers
+    have different units: scale them, for example with ``StandardScaler``, before you measure
+    distances.
 
     Parameters
     ----------
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
 
     Examples
     --------
@@ -45,14 +46,14 @@ class Statistics(Vectoriser):
 class Entropy(Vectoriser):
     """The persistent entropy of each diagram [Chintakunta et al. 2015].
 
-    The entropy of the shares that bars have in the sum of their lengths; 0 without bars.
+    The entropy of the shares of the bars in the sum of their lengths; 0 without bars.
 
     Parameters
     ----------
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
     unit : {"nats", "bits"}
-        Of natural logarithms; or of those to the base 2, as in giotto-tda.
+        Natural logarithms, or logarithms to the base 2, as in giotto-tda.
     normalised : {None, "count", "total"}
         "count": divided by the logarithm of the number of bars, its largest value, as persim can.
         "total": divided by the logarithm of the sum of their lengths, as giotto-tda can; this
@@ -82,14 +83,14 @@ class Entropy(Vectoriser):
 
 
 class Lengths(Vectoriser):
-    """The largest lengths of bars, descending; 0 where there are no more bars.
+    """The largest lengths of bars, descending, padded with 0.
 
     Parameters
     ----------
     count : int
-        How many of each diagram.
+        Number of lengths for each diagram.
     infinity : {"error", "drop"} or float
-        What a bar that never dies is: an error, left out, or one that dies at this value.
+        How to treat a bar that never dies: as an error, left out, or dying at this value.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Numbers of pairs of diagrams: of those that are given, and those that were fitted."""
+"""Numbers for pairs of a given diagram and a fitted diagram."""
 from __future__ import annotations
 
 from typing import Any
@@ -15,7 +15,7 @@ from ._diagrams import Samples, samples_like, samples_of
 
 
 class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
-    """A column for each of the samples that were fitted."""
+    """A transformer with one column for each fitted sample."""
 
     def fit(self, X: Any, y: Any = None) -> Any:
         """Keeps the diagrams.
@@ -23,9 +23,9 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         Parameters
         ----------
         X : list
-            As of `transform`.
+            As in `transform`.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -39,7 +39,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         return self
 
     def transform(self, X: Any) -> Any:
-        """The numbers of each sample and each of those that were fitted.
+        """The number for each pair of a sample and a fitted sample.
 
         Parameters
         ----------
@@ -49,21 +49,21 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         Returns
         -------
         ndarray or DataFrame
-            A row for each sample, a column for each of those that were fitted.
+            One row per sample, one column per fitted sample.
         """
         check_is_fitted(self, "n_features_in_")
         samples = samples_like(self._fitted.names, X)
         return self._in_table(X, self._all(samples, self._fitted))
 
     def fit_transform(self, X: Any, y: Any = None, **fit_params: Any) -> Any:
-        """The numbers of all pairs; each is computed once.
+        """The numbers for all pairs of fitted samples, each computed once.
 
         Parameters
         ----------
         X : list
-            As of `transform`.
+            As in `transform`.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------

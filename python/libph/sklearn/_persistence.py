@@ -24,7 +24,7 @@ _OUTPUTS = ["list", "giotto", "barcode"]
 
 
 class _Persistence(MakesTables, TransformerMixin, TakesLists):
-    """What the barcodes of lists have in common."""
+    """The common base of the barcode transformers."""
 
     homology_dimensions: Any
     output: Any
@@ -39,9 +39,9 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         Parameters
         ----------
         X : list
-            As of `transform`.
+            As in `transform`.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -57,12 +57,13 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         Parameters
         ----------
         X : list
-            As described above.
+            Samples, as described above.
 
         Returns
         -------
         list of list of ndarray, ndarray or list of Barcode
-            As `output` says; a table if `set_output` asked for one, but for ``output="giotto"``.
+            The type that `output` selects; a table if `set_output` requested one, except for
+            ``output="giotto"``.
         """
         dims = self._checked()
         samples = self._samples(X)
@@ -93,7 +94,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         return np.array(names, dtype=object)
 
     def _checked(self) -> list[int]:
-        """The dimensions; all parameters are as they should be."""
+        """Checks all parameters and returns the dimensions."""
         given = self.homology_dimensions
         dims = [_options.whole("homology_dimensions", dim, 0)
                 for dim in (given if _are_several(given) else [given])]
@@ -114,7 +115,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         raise NotImplementedError
 
     def _options(self) -> dict[str, Any]:
-        """Keywords of the function, but for the dimensions."""
+        """Keywords of the function, except the dimensions."""
         raise NotImplementedError
 
     def _diagram(self, bars: Barcode, dim: int) -> NDArray[np.float64]:
@@ -126,7 +127,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
 
 
 def _are_several(dims: Any) -> bool:
-    """Whether it is a list of dimensions, or the like."""
+    """True for a list of dimensions, or the like."""
     return (isinstance(dims, Iterable) and not isinstance(dims, (str, bytes))
             and getattr(dims, "ndim", 1) > 0)
 
@@ -136,7 +137,7 @@ def _own(transformer: Any, names: list[str]) -> dict[str, Any]:
 
 
 def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[np.float64]:
-    """Rows birth, death, dim, as many for each sample: bars of length 0 fill up."""
+    """Rows birth, death, dim, the same number for each sample, padded with bars of length 0."""
     parts = []
     for dim, dgms in sorted(zip(dims, zip(*rows)), key=lambda pair: pair[0]):
         births = np.concatenate([dgm[:, 0] for dgm in dgms])
@@ -149,7 +150,7 @@ def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[n
 
 
 def list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
-    """The samples. An array of so many axes is one sample, not a list."""
+    """The samples. An array with this many axes is one sample, not a list."""
     if _arrays.is_sparse(X) or isinstance(X, (str, bytes)) or (
             isinstance(X, np.ndarray) and X.dtype != object and X.ndim <= axes):
         found = f"an array of shape {X.shape}" if hasattr(X, "shape") else type(X).__name__
@@ -160,33 +161,34 @@ def list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
 
 
 class RipsPersistence(_Persistence):
-    """The barcodes of point clouds or of distances, as of `libph.rips`.
+    """The barcodes of point clouds or distances, computed with `libph.rips`.
 
     Samples are point clouds, which may have different numbers of points; with
-    ``metric="precomputed"`` matrices of distances, dense, condensed or sparse.
+    ``metric="precomputed"``, they are matrices of distances, dense, condensed or sparse.
 
     Parameters
     ----------
     homology_dimensions : int or tuple of int
-        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+        The dimensions. With a single number, each sample becomes one diagram; otherwise a list of
+        diagrams.
     metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
-        As of `libph.rips`.
+        As in `libph.rips`.
     subsample : int, optional
-        So many points of each cloud are kept, each the farthest from those before.
+        Number of points to keep of each cloud, each the farthest from those before it.
     min_persistence : float
-        Bars with death - birth <= this are left out.
+        Bars with death - birth <= this value are left out.
     output : {"list", "giotto", "barcode"}
         "list": arrays (k, 2) of rows birth, death. "giotto": one array (samples, bars, 3) of rows
-        birth, death, dimension, filled up with bars of length 0 at the least birth of their
-        dimension, at least one of each. "barcode": a `libph.Barcode` for each sample.
+        birth, death, dimension, padded with bars of length 0 at the least birth of their dimension,
+        with at least one bar per dimension. "barcode": a `libph.Barcode` for each sample.
     infinity : None, "drop", "error" or float
-        What bars that never die become: they stay, are left out, are an error, or die at this
-        value.
+        How to treat bars that never die: None keeps them; otherwise they are left out, raise an
+        error, or die at this value.
     reduced : bool
-        Whether the component that never dies is left out: of several the eldest.
+        If True, the component that never dies is left out; if there are several, the eldest.
     n_jobs : int, optional
-        Samples that are computed at a time, in threads. Processors that are left over go to the
-        samples. Default: one.
+        Number of samples computed at a time, in threads. Spare processors are given to the samples.
+        Default: one.
 
     Examples
     --------
@@ -228,20 +230,22 @@ class RipsPersistence(_Persistence):
 
 
 class AlphaPersistence(_Persistence):
-    """The barcodes of point clouds of the plane or of space, as of `libph.alpha`.
+    """The barcodes of point clouds in the plane or in space, computed with `libph.alpha`.
 
-    Samples are point clouds, which may have different numbers of points. Values are radii of balls.
+    Samples are point clouds, which may have different numbers of points. Filtration values are
+    radii of balls.
 
     Parameters
     ----------
     homology_dimensions : int or tuple of int
-        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+        The dimensions. With a single number, each sample becomes one diagram; otherwise a list of
+        diagrams.
     values, squared, threshold, field
-        As of `libph.alpha`.
+        As in `libph.alpha`.
     min_persistence : float
-        Bars with death - birth <= this are left out.
+        Bars with death - birth <= this value are left out.
     output, infinity, reduced, n_jobs
-        As of `RipsPersistence`.
+        As in `RipsPersistence`.
 
     Examples
     --------
@@ -275,21 +279,22 @@ class AlphaPersistence(_Persistence):
 
 
 class CubicalPersistence(_Persistence):
-    """The barcodes of images, as of `libph.cubical`.
+    """The barcodes of images, computed with `libph.cubical`.
 
-    Samples are images, which may have different extents. A dimension has to be below the number of
+    Samples are images, which may have different extents. A dimension must be below the number of
     their axes.
 
     Parameters
     ----------
     homology_dimensions : int or tuple of int
-        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+        The dimensions. With a single number, each sample becomes one diagram; otherwise a list of
+        diagrams.
     construction, superlevel, periodic, threshold, field, nan
-        As of `libph.cubical`.
+        As in `libph.cubical`.
     min_persistence : float
-        Bars with death - birth <= this are left out.
+        Bars with death - birth <= this value are left out.
     output, infinity, reduced, n_jobs
-        As of `RipsPersistence`.
+        As in `RipsPersistence`.
 
     Examples
     --------

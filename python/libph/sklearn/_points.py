@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Of one point cloud, a row a sample: distances to a measure and to landmarks."""
+"""Transformers for one point cloud, whose rows are samples: distances to a measure and to
+landmarks."""
 from __future__ import annotations
 
 from typing import Any
@@ -16,19 +17,19 @@ from ._neighbours import METRICS, Neighbours, distances_between
 
 
 class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
-    """The distance to the measure of the points that were fitted: large at outliers.
+    """The distance to the measure of the fitted points, which is large at outliers.
 
-    The root of the mean square of the distances to the k nearest of these points
-    [Chazal, Cohen-Steiner & Mérigot 2011]. A point that was fitted is one of them itself.
+    It is the root mean square of the distances to the k nearest fitted points [Chazal,
+    Cohen-Steiner & Mérigot 2011]. A fitted point counts as one of its own neighbours.
 
     Parameters
     ----------
     k : int
-        How many neighbours.
+        Number of neighbours.
     metric : str
         "euclidean", "manhattan", "chebyshev" or "cosine".
     n_jobs : int, optional
-        Threads of the search. Default: one.
+        Number of threads of the search. Default: one.
 
     See Also
     --------
@@ -52,9 +53,9 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         Parameters
         ----------
         X : array_like
-            Points, one a row.
+            Points, one per row.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -74,7 +75,7 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         Parameters
         ----------
         X : array_like
-            Points, one a row.
+            Points, one per row.
 
         Returns
         -------
@@ -87,16 +88,17 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
 
 
 class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
-    """Landmarks that are spread over all points, by farthest-point sampling [Gonzalez 1985].
+    """Landmarks spread over all points by farthest-point sampling [Gonzalez 1985].
 
-    The first is row 0, each further one the point farthest from those before. A transformer of
-    scikit-learn keeps all rows, so `transform` gives the distances to the landmarks; the selected
-    rows are `points_`. Inside a pipeline of clouds, ``RipsPersistence(subsample=n)`` selects.
+    The first landmark is row 0; each further one is the point farthest from those before it. A
+    transformer of scikit-learn keeps all rows; therefore `transform` returns the distances to the
+    landmarks, and `points_` holds the selected rows. Inside a pipeline of clouds,
+    ``RipsPersistence(subsample=n)`` selects points.
 
     Parameters
     ----------
     n : int
-        How many landmarks. Of fewer points, or fewer different ones, all are landmarks.
+        Number of landmarks. If there are fewer distinct points, all of them are landmarks.
     metric : str
         "euclidean", "manhattan", "chebyshev" or "cosine".
 
@@ -105,11 +107,11 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
     points_ : ndarray
         The landmarks, in their order.
     indices_ : ndarray
-        Their rows.
+        The rows of the landmarks.
     radii_ : ndarray
-        Of each its distance to the nearest of those before; inf for the first.
+        The distance of each landmark to the nearest of those before it; inf for the first.
     covering_radius_ : float
-        Each point is at most so far from a landmark.
+        Each point is at most this far from a landmark.
 
     Examples
     --------
@@ -131,9 +133,9 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
         Parameters
         ----------
         X : array_like
-            Points, one a row.
+            Points, one per row.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -154,12 +156,12 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
         Parameters
         ----------
         X : array_like
-            Points, one a row.
+            Points, one per row.
 
         Returns
         -------
         ndarray
-            A row for each point, a column for each landmark.
+            One row per point, one column per landmark.
         """
         check_is_fitted(self)
         metric = _options.choice("metric", self.metric, METRICS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What vectors of lists of diagrams have in common. What is computed stands in `libph._vectors`."""
+"""The common base of the vectors of lists of diagrams; `libph._vectors` computes them."""
 from __future__ import annotations
 
 from typing import Any
@@ -17,7 +17,7 @@ from ._diagrams import Samples, samples_like, samples_of
 
 
 class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
-    """What the vectors of diagrams have in common."""
+    """The common base of transformers from diagrams to vectors."""
 
     _may_keep = False
     infinity: Any
@@ -28,9 +28,9 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         Parameters
         ----------
         X : list
-            As of `transform`.
+            As in `transform`.
         y : None
-            Not used; pipelines pass it.
+            Not used; present because pipelines pass it.
 
         Returns
         -------
@@ -47,20 +47,20 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         return self
 
     def transform(self, X: Any) -> Any:
-        """A vector of each sample.
+        """The vector of each sample.
 
         Parameters
         ----------
         X : list
             An entry for each sample: a diagram, which is an array of rows birth, death; a list of
-            diagrams, one for each dimension; or a `libph.Barcode`. Or an array (samples, bars, 3)
-            of rows birth, death, dimension, in which bars of length 0 are ignored; or a table of
-            pandas whose cells are diagrams.
+            diagrams, one for each dimension; or a `libph.Barcode`. Alternatively an array (samples,
+            bars, 3) of rows birth, death, dimension, in which bars of length 0 are ignored; or a
+            pandas DataFrame whose cells are diagrams.
 
         Returns
         -------
         ndarray or DataFrame
-            A row for each sample: what is said of its first diagram, of its second, and so on.
+            One row per sample: the features of its first diagram, then of its second, and so on.
         """
         check_is_fitted(self, "n_features_in_")
         self._check()
@@ -76,8 +76,8 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         Parameters
         ----------
         input_features : sequence of str, optional
-            Names of the diagrams of a sample. Default: H0, H1, ... of barcodes and arrays with
-            dimensions, the columns of a table, dgm0, dgm1, ... of others.
+            Names of the diagrams of a sample. Default: H0, H1, ... for barcodes and arrays with
+            dimensions, the columns of a table, and dgm0, dgm1, ... otherwise.
 
         Returns
         -------
@@ -96,7 +96,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         return self.n_features_in_ * len(self._endings())
 
     def _settled(self, samples: Samples) -> list[list[Diagram]]:
-        """With what `infinity` makes of bars that never die."""
+        """The diagrams, with bars that never die treated as `infinity` says."""
         rule = checked_infinity(self.infinity, self._may_keep)
         return [[settled(dgm, rule, f"sample {i}, {name}")
                  for dgm, name in zip(row, samples.names)] for i, row in enumerate(samples.rows)]
@@ -105,18 +105,19 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         """Refuses parameters that `transform` reads, which may have changed since `fit`."""
 
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
-        """Of each place in a sample the diagrams that are there."""
+        """For each place in a sample, the diagrams at this place."""
 
     def _vector(self, dgm: Diagram, place: int) -> Any:
         raise NotImplementedError
 
     def _endings(self) -> list[str]:
-        """Of the names of the features of one diagram."""
+        """The names of the features of one diagram."""
         raise NotImplementedError
 
 
 def ranges_of(name: str, given: Any, count: int) -> list[Range | None]:
-    """A range for each place: None, one for all, or a list with one or None for each."""
+    """A range for each place, from None, one range for all, or a list with one range or None per
+    place."""
     if given is None:
         return [None] * count
     items = list(given) if isinstance(given, (list, tuple, np.ndarray)) else [given]

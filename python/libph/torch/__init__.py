@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes as functions of tensors of torch, which know their gradients.
+"""Barcodes as differentiable functions of torch tensors.
 
 A step towards points with a larger loop::
 
@@ -8,8 +8,8 @@ A step towards points with a larger loop::
     (h1[:, 1] - h1[:, 0]).max().backward()
     X.data += 0.1 * X.grad
 
-The gradients are those of `libph.gradients`, at ties as well. They are exact where the tensor is of
-type float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
+The gradients are those of `libph.gradients`, at ties as well. They are exact for tensors of type
+float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
 There are no second derivatives.
 """
 from __future__ import annotations
@@ -48,7 +48,7 @@ class _Values(torch.autograd.Function):
 
 
 def _array(X: Any) -> Any:
-    """The same numbers for NumPy, which does not know bfloat16."""
+    """The same numbers in a type that NumPy knows; it lacks bfloat16."""
     tensor = X.detach().cpu()
     return (tensor.double() if tensor.dtype == torch.bfloat16 else tensor).numpy()
 
@@ -60,11 +60,11 @@ def _floating(X: Any) -> Any:
 def _diagrams(X: Any, function: Any, arguments: tuple[Any, ...], options: dict[str, Any]
               ) -> list[Any]:
     if not isinstance(X, torch.Tensor):
-        raise UsageError(f"X: found {type(X).__name__}, expected a tensor of torch")
+        raise UsageError(f"X: found {type(X).__name__}, expected a torch tensor")
     if X.layout != torch.strided:
         raise UsageError(f"X: found a tensor of the layout {X.layout}, expected a dense one")
     if options.get("cells") is False:
-        raise UsageError("cells: found False, but gradients come through cells")
+        raise UsageError("cells: found False, but gradients need cells")
     weights = options.get("weights")
     if isinstance(weights, torch.Tensor):
         if weights.requires_grad:
@@ -81,14 +81,15 @@ def rips(X: Any, **options: Any) -> list[Any]:
     Parameters
     ----------
     X : torch.Tensor
-        Points, one a row; with ``metric="precomputed"`` a square or condensed matrix of distances.
+        Points, one per row; with ``metric="precomputed"``, a square or condensed matrix of
+        distances.
     **options
-        As of `libph.rips`.
+        As in `libph.rips`.
 
     Returns
     -------
     list of torch.Tensor
-        Of each dimension rows birth, death.
+        For each dimension, rows birth, death.
     """
     return _diagrams(X, _compute.rips, (), options)
 
@@ -99,14 +100,14 @@ def cubical(image: Any, **options: Any) -> list[Any]:
     Parameters
     ----------
     image : torch.Tensor
-        Numbers of pixels or voxels.
+        Values of pixels or voxels.
     **options
-        As of `libph.cubical`.
+        As in `libph.cubical`.
 
     Returns
     -------
     list of torch.Tensor
-        Of each dimension rows birth, death.
+        For each dimension, rows birth, death.
     """
     return _diagrams(image, _compute.cubical, (), options)
 
@@ -119,13 +120,13 @@ def lower_star(values: Any, simplices: Any, **options: Any) -> list[Any]:
     values : torch.Tensor
         A value for each vertex.
     simplices
-        As of `libph.lower_star`.
+        As in `libph.lower_star`.
     **options
-        As of `libph.lower_star`.
+        As in `libph.lower_star`.
 
     Returns
     -------
     list of torch.Tensor
-        Of each dimension rows birth, death.
+        For each dimension, rows birth, death.
     """
     return _diagrams(values, _compute.lower_star, (simplices,), options)

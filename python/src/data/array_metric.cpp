@@ -15,14 +15,14 @@ namespace ph::python {
 namespace {
 
 constexpr double kRounding = 1e-6;
-constexpr Index kTile = 64;  // rows and columns that are looked at together, and those across
+constexpr Index kTile = 64;  // rows and columns that are processed together, and columns across
 
 struct Place {
   Index i = 0, j = 0;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
-/// The number that is the farthest from what it should be, the first one of such.
+/// The number with the largest deviation from its required value, the first among equals.
 struct Doubt {
   double size = 0;
   Place place;
@@ -33,8 +33,8 @@ struct Doubt {
   }
 };
 
-/// What is seen on the way. Whether it is a fault depends on the largest distance, and which fault
-/// is told must not depend on threads.
+/// The findings of the check. Whether a deviation is an error depends on the largest distance, and
+/// the choice of the reported error must not depend on threads.
 struct Findings {
   double largest = 0;
   Doubt nan, negative, asymmetric, diagonal;
@@ -87,7 +87,7 @@ class Check {
                       metric_.entry(place.j, place.i), mark(Setting::symmetrise, "max|min|lower")));
     if (const auto& [size, place] = all_.diagonal; size > rounding)
       fail(name_of(array_, place), metric_.entry(place.i, place.j),
-           fmt::format("0 on the diagonal; {} takes it for the birth of the point, {} for 0",
+           fmt::format("0 on the diagonal; {} treats it as the birth of the point, {} as 0",
                        mark(Setting::diagonal, "births"), mark(Setting::diagonal, "any")));
   }
 
@@ -130,7 +130,7 @@ class Check {
       std::isnan(value) ? found.nan.take(1, place) : found.negative.take(-value, place);
     }
   }
-  /// Of two numbers that are not equal.
+  /// The difference of two numbers that are not equal.
   static double difference(double a, double b) {
     if (std::isnan(a) && std::isnan(b)) return 0;
     const double d = std::abs(a - b);

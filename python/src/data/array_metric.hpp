@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Distances that lie in an array of Python's: a metric that reads them there.
+// A metric that reads its distances from a Python array, in place.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,19 +13,19 @@
 
 namespace ph::python {
 
-/// Where the distances lie, and what they may be.
+/// The layout of the distances, and the values that they may have.
 struct DistanceArray {
   const char* data = nullptr;
   Index points = 0;
-  std::ptrdiff_t row_stride = 0, column_stride = 0;  ///< bytes; of the only axis: column_stride
-  /// The upper triangle row by row, as SciPy's pdist gives it; else all of a square matrix.
+  std::ptrdiff_t row_stride = 0, column_stride = 0;  ///< bytes; with a single axis: column_stride
+  /// The upper triangle row by row, as SciPy's pdist returns it; otherwise the whole square matrix.
   bool is_condensed = false;
-  Symmetrise symmetrise = Symmetrise::none;  ///< of a square matrix
+  Symmetrise symmetrise = Symmetrise::none;  ///< for a square matrix
   NanPolicy nan = NanPolicy::error;          ///< drop: such a pair is never joined
-  bool has_zero_diagonal = true;             ///< else what stands there is not looked at
-  bool has_nan_option = true;                ///< false: messages do not advise it
+  bool has_zero_diagonal = true;             ///< else its value is ignored
+  bool has_nan_option = true;                ///< false: messages do not suggest it
 
-  /// Where the pair i < j stands in the condensed form.
+  /// The index of the pair i < j in the condensed form.
   Index condensed_place(Index i, Index j) const { return i * (2 * points - i - 1) / 2 + j - i - 1; }
 };
 
@@ -64,7 +64,7 @@ class ArrayMetric {
   double at(std::ptrdiff_t byte) const {
     return static_cast<double>(*reinterpret_cast<const Number*>(array_.data + byte));
   }
-  /// NaN is never joined; what is negative is so for rounding.
+  /// NaN is never joined; a negative number is a rounding error.
   static double distance(double number) {
     if (std::isnan(number)) return std::numeric_limits<double>::infinity();
     return number > 0 ? number : 0;
@@ -73,9 +73,10 @@ class ArrayMetric {
   DistanceArray array_;
 };
 
-/// Looks at all numbers once. As the readers of ph::io, it takes for rounding what is below 1e-6 of
-/// the largest distance: a negative one, a difference of the two numbers of a pair, a diagonal.
-/// @throws Error (bad_data) that names row and column, Error (cancelled).
+/// Checks all numbers once. Like the readers of ph::io, it treats deviations below 1e-6 of the
+/// largest distance as rounding: a negative number, a difference between the two numbers of a pair,
+/// a diagonal.
+/// @throws Error (bad_data) that names row and column; Error (cancelled).
 template <class Number>
 void check_distances(const DistanceArray& array, const RunContext& context);
 

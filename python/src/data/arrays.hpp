@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Arrays that go in and out, by the buffer protocol alone: the module does not care which NumPy
-// there is.
+// Arrays that go in and out, through the buffer protocol alone: the module works with any NumPy.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -23,14 +22,14 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// The letter of a number in the buffer protocol; of int64 that of NumPy's own int64.
+/// The letter of a number type in the buffer protocol; for int64, the letter of NumPy's own int64.
 template <class T>
 std::string letter_of() {
   if (std::is_same_v<T, std::int64_t> && sizeof(long) == sizeof(T)) return "l";
   return py::format_descriptor<T>::format();
 }
 
-/// An array that Python gets. Who holds it holds its numbers.
+/// An array for Python. The array keeps its numbers alive.
 class Block {
  public:
   /// @param shape its product is the number of numbers.
@@ -52,10 +51,10 @@ class Block {
   /// No copy.
   static Block of(Points&& points);
   /// No copy: numbers that stay in a file cannot be written.
-  /// @param context that the image was made in, if it may count in the budget of it.
+  /// @param context in which the image was made, if the image may count in its budget.
   static Block of(const Image& image, std::shared_ptr<const RunContext> context = nullptr);
 
-  /// As Python's buffer protocol wants it.
+  /// The buffer in the form that Python's protocol requires.
   py::buffer_info info() const;
 
  private:
@@ -74,7 +73,7 @@ class Block {
   bool is_read_only_;
 };
 
-/// Whether the numbers of an array are of a type.
+/// True if the numbers of an array have this type.
 template <class T>
 bool holds(const py::buffer_info& array) {
   if (array.itemsize != sizeof(T) || array.format.size() != 1) return false;
@@ -85,8 +84,8 @@ bool holds(const py::buffer_info& array) {
   return letters.find(letter) != std::string_view::npos;
 }
 
-/// The numbers of an array of one axis whose neighbours lie side by side.
-/// @throws Error (internal) on another array: Python has made it so.
+/// The numbers of a contiguous array with one axis.
+/// @throws Error (internal) on another array, because Python prepares it.
 template <class T>
 std::span<const T> numbers_of(const py::buffer_info& array) {
   if (!holds<T>(array) || array.ndim != 1 || (array.size > 1 && array.strides[0] != array.itemsize))
@@ -100,10 +99,11 @@ std::vector<T> vector_of(const py::buffer& array) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The type of the numbers of an image. @throws Error (internal) on one that images do not have.
+/// The type of the numbers of an image. @throws Error (internal) on a type that images do not have.
 VoxelType voxel_type_of(const py::buffer_info& array);
 
-/// Points of a float64 array with a point a row, of any strides that are whole numbers.
+/// The points of a float64 array with one point per row; strides may be any multiples of the item
+/// size.
 PointsView points_of(const py::buffer_info& array);
 
 }  // namespace ph::python

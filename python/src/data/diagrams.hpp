@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Diagrams that come in: float64 arrays of rows birth, death.
+// Diagrams from Python: float64 arrays of rows birth, death.
 #include <pybind11/pybind11.h>
 
 #include <span>
@@ -15,7 +15,7 @@ namespace py = pybind11;
 /// The rows, as bars of dimension 0.
 std::vector<Bar> bars_of(const py::buffer& array);
 
-/// Diagrams of arrays, and what the library takes.
+/// Diagrams from arrays, in the form that the library expects.
 struct Diagrams {
   explicit Diagrams(const std::vector<py::buffer>& arrays) {
     for (const py::buffer& array : arrays) all.push_back(bars_of(array));

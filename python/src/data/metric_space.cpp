@@ -15,7 +15,7 @@
 namespace ph::python {
 namespace {
 
-/// How many points have so many pairs. @throws Error (bad_data) if none have.
+/// The number of points that have this many pairs. @throws Error (bad_data) if there is none.
 Index points_of_pairs(Index pairs) {
   const auto n =
       static_cast<Index>(std::llround((1 + std::sqrt(1 + 8 * static_cast<double>(pairs))) / 2));

@@ -20,7 +20,7 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// Points and how far they are apart.
+/// Points and their metric.
 struct PointSet {
   PointsView points;
   PointDistance distance = PointDistance::euclidean;
@@ -38,28 +38,28 @@ inline std::vector<double> distance_to_measure(const PointSet& set, Index neighb
   return ph::distance_to_measure(set.points, neighbours, set.distance, set.p, context);
 }
 
-/// A finite set with distances whose numbers are in arrays of Python's, which it keeps: points, all
-/// distances, or some of them. Nobody changes the arrays while a computation runs.
+/// A finite set with distances, whose numbers are in Python arrays that it keeps alive: points, all
+/// distances, or some of them. Nobody may change the arrays during a computation.
 class MetricSpace {
  public:
-  /// @param points float64, a point a row.
+  /// @param points float64, one point per row.
   MetricSpace(const py::buffer& points, PointDistance distance, double p);
   /// @param distances float32 or float64, a square matrix or, with one axis, its condensed form.
-  /// @param has_nan_option false: messages do not advise it.
+  /// @param has_nan_option false: messages do not suggest this option.
   MetricSpace(const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
               bool has_zero_diagonal, bool has_nan_option);
   /// Pairs i < j, each once, with their distances.
   MetricSpace(Index size, const py::buffer& i, const py::buffer& j, const py::buffer& distances);
 
   Index size() const { return size_; }
-  /// Whether each pair has a distance.
+  /// True if each pair has a distance.
   bool is_complete() const { return !std::holds_alternative<Pairs>(numbers_); }
 
-  /// The points, if it is some.
+  /// The points, if the space consists of points.
   const PointSet* point_set() const { return std::get_if<PointSet>(&numbers_); }
 
   /// Calls `use` with a PointSet, an ArrayMetric or SparseDistances.
-  /// @throws Error (bad_data) on what is no distance.
+  /// @throws Error (bad_data) on invalid distances.
   template <class Use>
   decltype(auto) visit(const RunContext& context, Use&& use) const {
     if (const auto* points = std::get_if<PointSet>(&numbers_)) return use(*points);
@@ -80,9 +80,9 @@ class MetricSpace {
   };
   SparseDistances sparse_distances(const Pairs& pairs) const;
 
-  std::vector<py::buffer_info> arrays_;  // keep the numbers
+  std::vector<py::buffer_info> arrays_;  // keeps the numbers alive
   Index size_ = 0;
-  bool is_single_ = false;  // distances are float32
+  bool is_single_ = false;  // true if distances are float32
   std::variant<PointSet, DistanceArray, Pairs> numbers_;
 };
 

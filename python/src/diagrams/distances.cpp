@@ -20,10 +20,10 @@ namespace {
 
 using Diagram = std::span<const Bar>;
 
-/// Which distance, and how much of it has to be known.
+/// The distance to compute, and the required accuracy.
 struct DiagramMetric {
   enum class Kind { bottleneck, wasserstein, sliced } kind = Kind::bottleneck;
-  WassersteinOptions options = {};  ///< of bottleneck the limits alone
+  WassersteinOptions options = {};  ///< for bottleneck, only the limits count
   int directions = 50;              ///< of sliced
 
   DistanceBounds bounds(Diagram a, Diagram b, const RunContext& context) const {
@@ -68,7 +68,7 @@ py::tuple distance(const py::buffer& a, const py::buffer& b, const DiagramMetric
   return py::make_tuple(bounds.value, bounds.lower);
 }
 
-/// Each bar is in one pair, of one of the diagonal if need be. -1 is the diagonal, and comes last.
+/// Each bar is in one pair, with the diagonal if necessary. -1 is the diagonal, and comes last.
 std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const BottleneckMatching& matching,
                                                                  std::size_t count_a,
                                                                  std::size_t count_b) {
@@ -106,7 +106,7 @@ py::tuple matching(const py::buffer& a, const py::buffer& b, const DiagramMetric
                         Block::of(std::move(flat), {rows, 2}));
 }
 
-/// A square matrix, or with `others` one of as many columns as these.
+/// A square matrix or, with `others`, a matrix with one column for each of them.
 Block distances(const std::vector<py::buffer>& diagrams,
                 const std::optional<std::vector<py::buffer>>& others, const DiagramMetric& metric,
                 const RunOptions& options) {
@@ -126,7 +126,7 @@ Block distances(const std::vector<py::buffer>& diagrams,
                          const DistanceMatrix all =
                              diagram_distances(rows.spans(), metric.function(), context);
                          const auto count = static_cast<std::size_t>(size * size);
-                         // The square, and half of it as it was found.
+                         // The square matrix, and the lower half of it from which it is filled.
                          const MemoryClaim claim(context.memory, 3 * count * sizeof(double) / 2);
                          std::vector<double> square;
                          square.reserve(count);
@@ -137,7 +137,7 @@ Block distances(const std::vector<py::buffer>& diagrams,
                    {size, size});
 }
 
-/// Rows birth, death; root of the mean square; rounds; whether it converged.
+/// Rows birth, death; root mean square; rounds; true if it converged.
 py::tuple barycentre_of(const std::vector<py::buffer>& diagrams, int most_rounds, double least_gain,
                         const RunOptions& options) {
   const Diagrams given(diagrams);

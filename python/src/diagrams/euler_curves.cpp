@@ -17,14 +17,15 @@
 namespace ph::python {
 namespace {
 
-/// Where it changes, and its values from there on.
+/// The values at which it changes, and the values from there on.
 using Steps = std::pair<Block, Block>;
 
 Steps steps_of(StepFunction&& curve) {
   return {Block::of(std::move(curve.at)), Block::of(std::move(curve.value))};
 }
 
-/// @param dims of the bars; none: they are of dimension 0, and the curve is that of Betti numbers.
+/// @param dims of the bars; none: all bars have dimension 0, and the curve is that of Betti
+///     numbers.
 Steps curve_of_bars(const py::buffer& rows, const std::optional<py::buffer>& dims,
                     const RunOptions& options) {
   std::vector<Bar> bars = bars_of(rows);

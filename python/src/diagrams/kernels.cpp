@@ -15,11 +15,11 @@
 namespace ph::python {
 namespace {
 
-/// Which kernel, and how wide.
+/// The kernel and its width.
 struct KernelChoice {
   bool is_scale_space = true;
   double sigma = 1;                ///< of the scale-space kernel
-  WeightedGaussian weighted = {};  ///< of the other one
+  WeightedGaussian weighted = {};  ///< of the other kernel
 
   DiagramKernel function() const {
     return [choice = *this](std::span<const Bar> a, std::span<const Bar> b,
@@ -34,7 +34,7 @@ KernelChoice choice_of(const std::string& kind, double sigma, double slope, doub
   return {kind == "scale_space", sigma, {sigma, slope, power}};
 }
 
-/// A square matrix, or with `others` one of as many columns as these.
+/// A square matrix or, with `others`, a matrix with one column for each of them.
 Block kernels(const std::vector<py::buffer>& diagrams,
               const std::optional<std::vector<py::buffer>>& others, const KernelChoice& choice,
               const RunOptions& options) {
@@ -47,7 +47,7 @@ Block kernels(const std::vector<py::buffer>& diagrams,
                          }),
                      {size, size});
   const Diagrams columns(*others);
-  // It shares the pairs between threads, whatever the function of two diagrams is.
+  // It shares the pairs among threads, whatever the function of two diagrams is.
   return Block::of(run(options, false,
                        [&](const RunContext& context) {
                          return diagram_distances(rows.spans(), columns.spans(), choice.function(),

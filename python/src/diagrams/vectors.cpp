@@ -19,7 +19,7 @@ namespace {
 using Ends = std::pair<double, double>;
 using Pixels = std::tuple<double, double, std::size_t>;
 
-/// An array to write to, which lives as long as this does.
+/// An array to write to, which this object keeps alive.
 class Out {
  public:
   explicit Out(const py::buffer& array) : info_(array.request(true)) {
@@ -35,7 +35,7 @@ class Out {
   std::span<double> numbers_;
 };
 
-/// Whether so many steps take milliseconds at most.
+/// True if this many steps take milliseconds at most.
 bool is_short(std::size_t steps) { return steps < 1'000'000; }
 
 void put_statistics(const py::buffer& rows, const py::buffer& to, const RunOptions& options) {
@@ -110,7 +110,7 @@ void put_landscape(const py::buffer& rows, const Ends& ends, std::size_t layers,
   });
 }
 
-/// Of each layer its critical points, and its values there.
+/// For each layer, its critical points and the values there.
 std::vector<std::pair<Block, Block>> exact_landscape_of(const py::buffer& rows, std::size_t layers,
                                                         const RunOptions& options) {
   const std::vector<Bar> bars = bars_of(rows);
@@ -153,7 +153,7 @@ std::pair<Block, Block> fitted_atol(const std::vector<py::buffer>& diagrams, std
                                     std::uint64_t seed, int most_rounds,
                                     const RunOptions& options) {
   const Diagrams given(diagrams);
-  // What it learns does not depend on the contrast.
+  // The fit does not depend on the contrast.
   const AtolOptions how{centres, Atol::Contrast::laplace, seed, most_rounds};
   Atol fitted = run(options, false, [&](const RunContext& context) {
     return fit_atol(given.spans(), how, context);

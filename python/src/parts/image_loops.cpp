@@ -11,7 +11,7 @@
 namespace ph::python {
 namespace {
 
-/// For as long as it lives, a context is stopped by what stops another one, and reports to it.
+/// While it lives, a context is stopped by the stop of another context, and reports to it.
 class Watched {
  public:
   Watched(RunContext& context, const RunContext& call) : context_(context) {
@@ -56,7 +56,7 @@ RunningLoops::RunningLoops(HeldPart& held, std::int64_t field, const RunOptions&
   });
 }
 
-/// What looks at the loops, without the GIL: who has the lock may need it.
+/// Calls that read the loops, without the GIL, because the owner of the lock may need it.
 template <class Use>
 auto RunningLoops::locked(Use&& use) {
   const py::gil_scoped_release no_gil;
@@ -64,7 +64,7 @@ auto RunningLoops::locked(Use&& use) {
   return use();
 }
 
-/// What changes the loops. Precondition: the lock is held.
+/// Calls that change the loops. Precondition: the lock is held.
 template <class Use>
 auto RunningLoops::changed(const RunContext& call, Use&& use) {
   const Watched watched(context_, call);
@@ -75,14 +75,14 @@ auto RunningLoops::changed(const RunContext& call, Use&& use) {
 }
 
 void RunningLoops::require_sound() const {
-  if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+  if (is_broken_) refuse("found that a call has failed, expected a new start with a new part");
 }
 
 void RunningLoops::begin(std::span<const std::byte> told, const RunOptions& options) {
   run(options, false, [&](const RunContext& call) {
     const std::lock_guard lock(mutex_);
     require_sound();
-    if (has_begun_) refuse("found that they have begun, expected to begin once");
+    if (has_begun_) refuse("found that they have begun already, expected to begin only once");
     return changed(call, [&] {
       loops_->begin(told);
       has_begun_ = true;
@@ -122,9 +122,11 @@ Bars RunningLoops::bars(const RunOptions& options) {
   return run(options, false, [&](const RunContext&) {
     const std::lock_guard lock(mutex_);
     require_sound();
-    if (!has_begun_) refuse("found that they have not begun, expected bars when all is done");
-    if (!loops_->is_idle()) refuse("found work to do, expected bars when all is done");
-    if (has_news_) refuse("found messages that were not taken, expected bars when all is done");
+    if (!has_begun_)
+      refuse("found that they have not begun, expected a call when all work is done");
+    if (!loops_->is_idle()) refuse("found work to do, expected a call when all work is done");
+    if (has_news_)
+      refuse("found messages that were not taken, expected a call when all work is done");
     Bars bars{loops_->barcode()};
     bars.facts = facts_;
     bars.field = field_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Loops of a part of a volume, which live from call to call.
+// Loops of a part of a volume, which live across several calls.
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
@@ -16,24 +16,24 @@
 
 namespace ph::python {
 
-/// What is known of the bars of a part before they are there.
+/// The facts about the bars of a part before they are computed.
 Facts facts_of(const ImagePart& part);
 
-/// A part of a volume with the voxels of its array, until its loops take them.
+/// A part of a volume with the voxels of its array, until ImageLoops takes them.
 struct HeldPart {
   HeldPart(SharedContext of, ImagePart its_part)
       : context(std::move(of)), part(std::move(its_part)) {}
 
-  py::object recipe;  ///< keeps the array
+  py::object recipe;  ///< keeps the array alive
   SharedContext context;
   ImagePart part;
 };
 
-/// ImageLoops with a budget of their own, which each call may stop. Calls from several threads come
-/// one after another. Once a call has failed the state is lost, and what needs it fails.
+/// ImageLoops with its own budget; each call may stop it. Calls from several threads run one after
+/// another. After a call failed, the state is lost, and calls that need it fail.
 class RunningLoops {
  public:
-  /// Takes the voxels. With the GIL, as the destructor.
+  /// Takes the voxels. Needs the GIL, as does the destructor.
   RunningLoops(HeldPart& held, std::int64_t field, const RunOptions& options);
 
   int part() const { return loops_->part(); }
@@ -59,9 +59,9 @@ class RunningLoops {
   RunContext context_;
   std::optional<ImageLoops> loops_;
 
-  std::mutex mutex_;  // for all that follows, and the loops
+  std::mutex mutex_;  // guards the members below and the loops
   bool has_begun_ = false, is_broken_ = false;
-  bool has_news_ = false;  // there may be messages that nobody took
+  bool has_news_ = false;  // true if there may be messages that nobody took
 };
 
 }  // namespace ph::python

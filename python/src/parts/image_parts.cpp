@@ -19,7 +19,8 @@
 namespace ph::python {
 namespace {
 
-/// @param recipe a CubicalRecipe. @return the bytes; the part itself if it has loops, or None.
+/// @param recipe a CubicalRecipe. @return the bytes, and the part itself if it has loops, else
+///     None.
 py::tuple image_part(const py::object& recipe, int part, int parts, int min_dim,
                      std::optional<int> max_dim, bool cells, bool loops,
                      const RunOptions& options) {
@@ -55,7 +56,7 @@ ImagePart whole_of(std::span<const std::byte> bytes, const RunContext& context) 
   return part;
 }
 
-/// @param loops the bars of all parts that the joined ones do not have.
+/// @param loops the bars of all parts that the joined parts lack.
 Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loops,
                      std::int64_t field, const RunOptions& options) {
   const auto view = view_of(bytes);
@@ -70,7 +71,7 @@ Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loo
   });
 }
 
-/// What is told to the loops of each part.
+/// The messages for the loops of each part.
 py::list told_to_loops(const py::bytes& bytes, const RunOptions& options) {
   const auto view = view_of(bytes);
   const auto all = run(options, false, [&](const RunContext& context) {

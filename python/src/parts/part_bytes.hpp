@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Parts as bytes: what travels between processes and what lies in a file.
+// Parts as bytes: the form that travels between processes and is stored in files.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace py = pybind11;
 inline py::bytes to_python(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
-/// As long as Python holds them.
+/// Valid as long as Python holds the bytes.
 inline std::span<const std::byte> view_of(const py::bytes& bytes) {
   const std::string_view text = bytes;
   return std::as_bytes(std::span(text));

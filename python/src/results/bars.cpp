@@ -25,8 +25,8 @@ std::size_t place_in(const Bars& bars, std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The cells of one dimension of bars, a cell a row; -1 where there is none.
-/// @param cell_of what cell the bar at a place has: its numbers.
+/// The cells of one dimension of bars, one per row; -1 where there is none.
+/// @param cell_of returns the numbers of the cell of the bar at an index.
 template <class CellOf>
 Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_of) {
   const auto [first, count] = bars.range_of(dim);
@@ -40,7 +40,7 @@ Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_
                    {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(width)});
 }
 
-/// How many numbers name a cell of a dimension.
+/// The count of numbers that name a cell of a dimension.
 std::size_t width_of(const Bars& bars, int dim) {
   const Barcode& all = bars.barcode;
   if (all.cell_kind() == CellKind::vertices) return static_cast<std::size_t>(dim + 1);
@@ -73,7 +73,7 @@ py::tuple chain(const Bars& bars, std::int64_t i) {
                         Block::of(std::move(coefficients)));
 }
 
-/// The loops of a bar: vertices, coefficient, length; and how tight they are.
+/// The loops of a bar: vertices, coefficient, length, and how tight they are.
 py::tuple loops_of(const Bars& bars, std::int64_t i) {
   const std::size_t place = place_in(bars, i);
   BarLoops own;

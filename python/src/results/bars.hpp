@@ -10,26 +10,26 @@
 
 namespace ph::python {
 
-/// What was found out on the way to a barcode.
+/// The facts found during the computation of a barcode.
 struct Facts {
   std::string engine;
   int max_dim = 0;
-  bool collapses = false;           ///< whether edges were collapsed
-  std::optional<double> threshold;  ///< that the values obey
-  std::optional<Index> vertices;    ///< of a Rips complex
+  bool collapses = false;           ///< true if edges were collapsed
+  std::optional<double> threshold;  ///< threshold of the values
+  std::optional<Index> vertices;    ///< for a Rips complex
   std::optional<std::size_t> edges;
   std::optional<double> covering_radius;  ///< of a subsample
-  std::vector<Index> hidden = {};         ///< points that have no part in an alpha complex
+  std::vector<Index> hidden = {};         ///< points that are not part of an alpha complex
 };
 
-/// A barcode with what belongs to it.
+/// A barcode with the data of its bars.
 struct Bars {
   Barcode barcode;
-  std::vector<BarLoops> loops = {};  ///< by bar; empty: they were not asked for
+  std::vector<BarLoops> loops = {};  ///< for each bar; empty: not requested
   Facts facts = {};
   std::int64_t field = 2;
 
-  /// The bars of a dimension: from place `first` on, `count` of them.
+  /// The bars of a dimension: `count` bars from index `first` on.
   struct Range {
     std::size_t first, count;
   };

@@ -57,7 +57,7 @@ class Lists {
   std::vector<std::int64_t> numbers_, ends_;
 };
 
-/// What a bar has beside its values.
+/// The data of a bar beside its values.
 struct Parts {
   std::span<const Index> birth_cell, death_cell;
   std::span<const Index> chain;  // the numbers of its cells, one after another
@@ -66,7 +66,7 @@ struct Parts {
   std::span<const Index> birth_voxel, death_voxel;
 };
 
-/// @param voxels all that the barcode keeps.
+/// @param voxels all sets that the barcode keeps alive.
 Parts parts_of(const Barcode& bars, std::size_t i, std::span<const std::uint32_t> voxels) {
   Parts parts;
   parts.birth_cell = bars.birth_cell(i).numbers;
@@ -95,7 +95,7 @@ void append(Barcode& bars, const Bar& bar, const Parts& parts, Representatives k
     bars.set_voxels(parts.voxels, parts.birth_voxel, parts.death_voxel);
 }
 
-/// The array that the sets of voxels of all bars are parts of.
+/// The array that contains the sets of voxels of all bars.
 std::span<const std::uint32_t> all_voxels(const Barcode& bars) {
   const std::less<const std::uint32_t*> is_before;
   const std::uint32_t *begin = nullptr, *end = nullptr;
@@ -111,8 +111,8 @@ std::span<const std::uint32_t> all_voxels(const Barcode& bars) {
 /// Loops as lists of numbers.
 struct LoopLists {
   Lists vertices;                       // of a loop
-  Lists facts;                          // of a loop: of which bar, its coefficient
-  std::vector<double> lengths;          // NaN: not known
+  Lists facts;                          // for each loop: its bar, its coefficient
+  std::vector<double> lengths;          // NaN: unknown
   std::vector<std::int64_t> tightness;  // of a bar
 
   explicit LoopLists(const std::vector<BarLoops>& all) {
@@ -154,7 +154,7 @@ struct LoopLists {
   }
 };
 
-/// A member of a state that stands for one of so many things.
+/// A member of a state that names one of a number of choices.
 template <class Enum>
 Enum choice_of(const py::dict& state, const char* name, Enum last) {
   const auto value = state[name].cast<int>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Parts of a barcode, and barcodes of parts: for selections and for pickle.
+// Parts of a barcode, and barcodes from parts: for selections and for pickle.
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace ph::python {
 
-/// The bars at these places, in this order, with all that belongs to them.
-/// @param places ascending. @throws Error (usage) on one that is not there.
+/// The bars at these indices, in this order, with all their data.
+/// @param places ascending. @throws Error (usage) on an index out of range.
 Bars selected(const Bars& bars, const std::vector<std::int64_t>& places);
 
-/// All but the facts as a dictionary of arrays and plain values, and back.
-/// @throws Error (bad_data) on what cannot be such a state.
+/// Everything except the facts as a dictionary of arrays and plain values, and back.
+/// @throws Error (bad_data) on an invalid state.
 pybind11::dict state_of(const Bars& bars);
 Bars bars_of_state(const pybind11::dict& state);
 

@@ -15,11 +15,11 @@
 namespace ph::python {
 namespace {
 
-/// @param size points of the input, of which some may have been left out; 0 of an image.
+/// @param size number of points of the input, some of which may have been left out; 0 for an image.
 MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::size_t size) {
   Options components;
   components.max_dim = 0;
-  components.min_persistence = -1;  // equal points stay apart
+  components.min_persistence = -1;  // equal points stay separate
   return run(options, recipe.is_short(components), [&](const RunContext& context) {
     const Built built = recipe.build(context);
     MergeTree tree = std::visit([&](const auto& complex) { return merge_tree(complex, context); },
@@ -29,7 +29,7 @@ MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::si
   });
 }
 
-/// One member of all merges.
+/// One member of all merges, as an array.
 template <class Number, class Member>
 Block column(const MergeTree& tree, Member Merge::*member) {
   std::vector<Number> numbers;
@@ -38,7 +38,7 @@ Block column(const MergeTree& tree, Member Merge::*member) {
   return Block::of(std::move(numbers));
 }
 
-/// A tree of the arrays that it gave. @throws Error (bad_data) if they cannot be those of one.
+/// A tree from the arrays that it returned. @throws Error (bad_data) if no tree has such arrays.
 MergeTree restored(const py::buffer& births, const py::buffer& values, const py::buffer& ends,
                    const py::buffer& sizes) {
   MergeTree tree{vector_of<double>(births), {}};
@@ -64,7 +64,7 @@ MergeTree restored(const py::buffer& births, const py::buffer& values, const py:
   return tree;
 }
 
-/// As SciPy has it: two clusters, the value at which they join, how many vertices they have.
+/// SciPy's form: two clusters, the value at which they join, and their number of vertices.
 Block linkage_of(const MergeTree& tree) {
   const std::vector<LinkageRow> rows = linkage(tree);
   std::vector<double> numbers;

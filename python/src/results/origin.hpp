@@ -9,7 +9,7 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// What Python knows of a barcode, as far as files say it; and back.
+/// The origin of a barcode as Python knows it, as far as files can state it; and back.
 BarcodeInfo info_of(const py::dict& meta);
 py::dict meta_of(const BarcodeInfo& info);
 

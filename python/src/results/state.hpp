@@ -10,14 +10,15 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// What `take` makes of the members of a state that was pickled. They may be missing, or anything.
-/// @param thing whose state it is: "a barcode".
+/// The result of `take` for the members of a pickled state. Members may be missing or have any
+/// type.
+/// @param thing the kind of object: "a barcode".
 /// @throws Error (bad_data).
 template <class Take>
 auto of_state(const char* thing, const Take& take) {
   try {
     return take();
-  } catch (const py::builtin_exception&) {  // not of a type that was asked for
+  } catch (const py::builtin_exception&) {  // not of the requested type
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
   } catch (const Error& error) {

@@ -21,7 +21,7 @@
 namespace ph::python {
 namespace {
 
-/// An array of bytes with `channels` a pixel, in C order.
+/// An array of bytes with `channels` bytes per pixel, in C order.
 struct Colours {
   const std::uint8_t* data = nullptr;
   int channels = 0;
@@ -32,15 +32,15 @@ Colours colours_of(const py::buffer_info& array) {
   return {static_cast<const std::uint8_t*>(array.ptr), static_cast<int>(array.shape.back())};
 }
 
-/// The fields of a cloud of arrays are those that it has as a .npy file: numbers and, if there are
-/// colours, red, green and blue.
+/// The fields of a cloud from arrays are the fields of the same cloud in a .npy file: numbers and,
+/// if there are colours, red, green and blue.
 void add_field(Cloud& cloud, const char* name, FieldType type) {
   cloud.fields.push_back({name, type, 1, cloud.stride});
   cloud.stride += size_of(type);
 }
 
 /// @param xyz float64 in C order: a row of points, or rows and columns of them.
-/// @param colours of each point, bytes; none: it has none.
+/// @param colours of each point, bytes; none: the cloud has no colours.
 std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
                                             const std::optional<py::buffer>& colours,
                                             const RunOptions& options) {
@@ -81,7 +81,7 @@ Cloud cloud_of(const DepthImage& depth, const std::optional<Raster>& colour,
                                  scale, note_into(scene.notes));
 }
 
-/// @param image two axes, of a type of voxels, in C order.
+/// @param image two axes, with a voxel type, in C order.
 std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
                                            const std::optional<py::buffer>& colours,
                                            std::shared_ptr<NamedCamera> camera, double scale,
@@ -111,7 +111,7 @@ std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
   return scene;
 }
 
-/// @param colour_path empty: no colours. @param scale none: as the image suggests.
+/// @param colour_path empty: no colours. @param scale none: guessed from the image.
 std::shared_ptr<SceneCloud> read_depth(const std::string& path, const std::string& colour_path,
                                        std::shared_ptr<NamedCamera> camera,
                                        std::optional<double> scale, const RunOptions& options) {

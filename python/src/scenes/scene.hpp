@@ -11,26 +11,26 @@
 
 namespace ph::python {
 
-/// Keeps notes in the words of Python. @param notes outlives it.
+/// Collects notes in the terms of the Python interface. @param notes outlives it.
 inline segment::Note note_into(std::vector<std::string>& notes) {
   return [&notes](const Message& text) { notes.push_back(text.in_words(kWords)); };
 }
 
-/// A camera, and what to tell about it.
+/// A camera, and the notes about it.
 struct NamedCamera {
   Camera camera;
-  std::string calibration;  ///< its name or file; empty: it was given by numbers
+  std::string calibration;  ///< its name or file; empty: it was given as numbers
   std::vector<std::string> notes = {};
 };
 
-/// A cloud as it goes into a segmentation. Nobody changes it.
+/// The cloud that is segmented. Nobody changes it.
 struct SceneCloud {
   Cloud cloud;
-  std::shared_ptr<const NamedCamera> camera;  ///< of a depth image; null: it was none
+  std::shared_ptr<const NamedCamera> camera;  ///< for a depth image; null otherwise
   std::vector<std::string> notes = {};
 };
 
-/// What a segmentation gives, with what went in.
+/// The result of a segmentation, with its input.
 struct SegmentedScene {
   std::shared_ptr<const SceneCloud> input;  ///< null: a stored tree was read
   segment::Segmentation result = {};

@@ -40,7 +40,7 @@ py::dict state_of_cloud(const Cloud& cloud) {
   return state;
 }
 
-/// All but the data of the points.
+/// All members except the data of the points.
 Cloud cloud_of_state(const py::dict& state) {
   Cloud cloud;
   cloud.width = state["width"].cast<Index>();
@@ -55,7 +55,7 @@ Cloud cloud_of_state(const py::dict& state) {
   return cloud;
 }
 
-/// What a state holds. The arrays stay as long as it does.
+/// The content of a state. The arrays live as long as it does.
 struct Members {
   py::buffer_info tree_array, data_array;
   Bytes tree, data;  // of these
@@ -111,7 +111,7 @@ SegmentedScene scene_of_state(const py::dict& state, const RunOptions& options) 
     const Cloud* cloud = members.cloud ? &members.cloud->cloud : nullptr;
     if (cloud && (cloud->width != scene.result.width || cloud->height != scene.result.height))
       throw Error(ErrorKind::bad_data, fmt::format("state of {}: found a cloud of {} x {} points, "
-                                                   "expected {} x {} as of the tree",
+                                                   "expected {} x {} as in the tree",
                                                    kThing, cloud->height, cloud->width,
                                                    scene.result.height, scene.result.width));
     scene.input = members.cloud;

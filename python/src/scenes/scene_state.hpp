@@ -9,16 +9,16 @@
 
 namespace ph::python {
 
-/// The tree and its cut, as their file has them: equal for equal trees and cuts.
+/// The tree and its cut, as bytes of a file: equal for equal trees and cuts.
 Block tree_file(const SegmentedScene& scene);
 
-/// That, and the cloud. The segments are found again from the tree; how long stages took is not
+/// The same with the cloud. The segments are recomputed from the tree; the times of stages are not
 /// kept.
 pybind11::dict state_of(const SegmentedScene& scene);
-/// @throws Error (bad_data) on what cannot be such a state.
+/// @throws Error (bad_data) on an invalid state.
 SegmentedScene scene_of_state(const pybind11::dict& state, const RunOptions& options);
 
-/// What a stored tree says of a scene, and its first cut.
+/// The description of a scene in a stored tree, and its first cut.
 segment::Segmentation segmentation_of_tree(const Input& tree, const RunContext& context);
 
 }  // namespace ph::python

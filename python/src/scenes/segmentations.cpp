@@ -56,7 +56,7 @@ SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOpt
   return scene;
 }
 
-/// A cloud, or the tree that was stored of one.
+/// A cloud, or a stored tree of one.
 py::object read_scene(const std::string& path, const RunOptions& options) {
   std::shared_ptr<SceneCloud> cloud;
   std::optional<SegmentedScene> stored;
@@ -76,7 +76,7 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
   return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
 }
 
-/// Another cut; what is not given stays as it is.
+/// Another cut; values that are not given do not change.
 SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
                    std::optional<bool> objects, std::optional<double> min_seam,
@@ -95,7 +95,7 @@ SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
   return other;
 }
 
-// ---- what was found, as arrays and plain values
+// ---- results, as arrays and plain values
 
 std::vector<py::ssize_t> raster_of(const segment::SceneTree& scene) {
   if (scene.height > 1) return {scene.height, scene.width};
@@ -139,7 +139,7 @@ std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& sc
   return all;
 }
 
-/// The role and the plane, a x + b y + c z + d = 0, of each.
+/// The role of each surface and its plane, a x + b y + c z + d = 0.
 std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const SegmentedScene& scene) {
   std::vector<std::pair<std::string, std::array<double, 4>>> all;
   for (const segment::SceneSurface& s : scene.result.surfaces) {
@@ -244,7 +244,7 @@ std::string svg(const SegmentedScene& scene, const RunOptions& options) {
   });
 }
 
-// ---- over frames
+// ---- several frames
 
 using Tracked = std::tuple<std::uint32_t, std::string, std::array<std::uint32_t, 2>>;
 

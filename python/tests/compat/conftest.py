@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests of drop-ins share."""
+"""Fixtures shared by the tests of drop-ins."""
 import pytest
 
 from libph.compat import gudhi

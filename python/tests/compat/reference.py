@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Persistent homology by the book, slow and without libph: what the drop-ins are held against."""
+"""Textbook persistent homology, slow and without libph: the reference for the drop-ins."""
 import itertools
 
 import numpy as np
@@ -8,13 +8,13 @@ INF = np.inf
 
 
 def sign(vertices):
-    """Of the permutation that sorts them."""
+    """The sign of the permutation that sorts them."""
     pairs = itertools.combinations(vertices, 2)
     return -1 if sum(a > b for a, b in pairs) % 2 else 1
 
 
 class Flag:
-    """A flag filtration of a matrix of distances, inf: never joined; births of vertices."""
+    """A flag filtration from a matrix of distances (inf: never joined) and births of vertices."""
 
     def __init__(self, distances, births=None, limit=INF):
         self.n = len(distances)
@@ -62,7 +62,7 @@ class Flag:
 
     def check_cocycle(self, rows, p, birth, death):
         """Rows of vertices and a coefficient. It is zero before the birth, its coboundary is zero
-        before the death, and at the birth it is no coboundary."""
+        before the death, and at the birth it is not a coboundary."""
         dim = len(rows[0]) - 2
         cochain = {}
         for *vertices, coefficient in np.asarray(rows).tolist():
@@ -108,7 +108,7 @@ def sorted_rows(dgm):
 
 
 def same(dgms, others):
-    """Whether lists of diagrams have the same bars."""
+    """True if lists of diagrams have the same bars."""
     return len(dgms) == len(others) and all(
         np.array_equal(sorted_rows(a), sorted_rows(b)) for a, b in zip(dgms, others))
 
@@ -121,5 +121,5 @@ def random_distances(rng, n, ties):
 
 
 def single(numbers):
-    """What single precision makes of doubles."""
+    """Doubles rounded to single precision."""
     return np.asarray(numbers, dtype=np.float32).astype(float)

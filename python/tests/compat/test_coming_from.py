@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What docs/coming-from.md says of GUDHI's calls, compared with GUDHI."""
+"""Compares the statements of docs/coming-from.md about GUDHI's calls with GUDHI."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for CubicalRipser: what it promises, without CubicalRipser."""
+"""The promises of the drop-in for CubicalRipser, tested without CubicalRipser."""
 import numpy as np
 import pytest
 
@@ -66,7 +66,7 @@ def test_known_answers():
 
 @pytest.mark.parametrize("axes", [2, 3, 4])
 def test_embedded_images_are_dual(rng, axes):
-    """Alexander duality: H_k of one construction is H_(axes - 1 - k) of the other, embedded."""
+    """Alexander duality: H_k of one construction is H_(axes - 1 - k) of the other, embedded one."""
     image = rng.random((6,) * axes)
     for one, other in ((cripser.computePH, tcripser.computePH),
                        (tcripser.computePH, cripser.computePH)):

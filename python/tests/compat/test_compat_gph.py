@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for giotto-ph: what it promises, without giotto-ph."""
+"""The promises of the drop-in for giotto-ph, tested without giotto-ph."""
 import itertools
 
 import numpy as np
@@ -100,7 +100,7 @@ def test_of_a_sparse_matrix_both_triangles_are_read_and_the_upper_one_wins(rng):
                                (np.concatenate([j, i]), np.concatenate([i, j]))), shape=(8, 8))
     for stored in (up, up.T, up.tocsr(), wrong, wrong.tocsr()):
         assert same(of_matrix(stored)["dgms"], expected)
-    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # (1, 4): points that have no row
+    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # (1, 4): points without a row
     assert of_matrix(oblong)["dgms"][0].tolist() == [[0, 1], [0, INF], [0, INF], [0, INF]]
     empty = sparse.coo_matrix((0, 0))
     assert [d.shape for d in of_matrix(empty)["dgms"]] == [(0, 2), (0, 2)]
@@ -135,7 +135,7 @@ def test_points(rng):
 @pytest.mark.parametrize("p", [1, 2, INF])
 @pytest.mark.parametrize("is_sparse", [False, True])
 def test_weights(rng, p, is_sparse):
-    """Balls that are born late meet at the root t of an equation, or are there already."""
+    """Balls that are born late meet at the root t of an equation, or already touch."""
     distances, births = random_distances(rng, 7, False), 3 * rng.random(7)
     meet = np.zeros((7, 7))
     for i, j in itertools.combinations(range(7), 2):
@@ -172,7 +172,8 @@ def test_of_weighted_sparse_distances_the_upper_entry_wins(rng):
 
 @pytest.mark.parametrize("r", [1, 2, 3])
 def test_distance_to_measure(rng, r):
-    """Vertices are born at twice the mean of exponent r of the distances to neighbours and self."""
+    """Vertices are born at twice the mean with exponent r of the distances to the neighbours and to
+    themselves."""
     distances = random_distances(rng, 9, False)
     nearest = np.sort(distances, axis=1)[:, 1:5]
     births = 2 * ((nearest**r).sum(axis=1) / 5)**(1 / r)

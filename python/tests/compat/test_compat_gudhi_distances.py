@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for a part of GUDHI: distances, collapse of edges, classes for scikit-learn."""
+"""The drop-in for a part of GUDHI: distances, edge collapse, classes for scikit-learn."""
 import numpy as np
 import pytest
 import scipy.sparse as sparse
@@ -61,7 +61,7 @@ def test_wasserstein_of_gudhi(gudhi_itself, rng):
 
 
 def test_reduce_graph(rng):
-    distances = random_distances(rng, 9, True) - 2  # values below 0 among them
+    distances = random_distances(rng, 9, True) - 2  # including negative values
     i, j = np.tril_indices(9, -1)
     for dtype in (np.float64, np.float32):
         given = sparse.coo_matrix((distances[i, j].astype(dtype), (i, j)), shape=(9, 9))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the drop-ins are loaded, and the one for persim."""
+"""Tests how the drop-ins are loaded, and the drop-in for persim."""
 import itertools
 import subprocess
 import sys
@@ -14,7 +14,7 @@ INF = np.inf
 
 
 def run(code):
-    """In a process of its own."""
+    """In a separate process."""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -147,7 +147,7 @@ def test_install_refuses():
         print("gph" in sys.modules)
     """
     assert run(code).split("\n")[:-1] == [
-        "install: ripser is imported already", "install: found 'scipy'", "install: found 'flagser'",
+        "install: ripser is already imported", "install: found 'scipy'", "install: found 'flagser'",
         "False"]
 
 
@@ -155,7 +155,7 @@ def test_install_refuses():
 
 
 def by_hand(a, b):
-    """The bottleneck distance: the best of all pairings, of few bars."""
+    """The bottleneck distance of a few bars: the best of all pairings."""
     best = INF
     for size in range(min(len(a), len(b)) + 1):
         for some in itertools.combinations(range(len(a)), size):

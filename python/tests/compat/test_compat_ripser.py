@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for ripser.py: what it promises, without ripser.py."""
+"""The promises of the drop-in for ripser.py, tested without ripser.py."""
 import functools
 import pickle
 import shutil
@@ -20,7 +20,7 @@ SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 1.0]])
 of_matrix = functools.partial(ripser, distance_matrix=True)
 
 
-# ---- what comes back
+# ---- results
 
 
 def test_the_dictionary():
@@ -77,7 +77,7 @@ def test_order(rng):
     assert (np.diff(found[0][:, 1]) >= 0).all() and found[0][-1, 1] == INF
     for dgm in found[1:]:
         assert len(dgm) > 1 and (np.diff(dgm[:, 0]) <= 0).all()
-    cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]  # infinite ones among the others
+    cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]  # infinite bars among the others
     assert np.isinf(cut[:, 1]).any() and (np.diff(cut[:, 0]) <= 0).all()
     squares = [np.array([[0, 1, d, 1], [1, 0, 1, d], [d, 1, 0, 1], [1, d, 1, 0]])
                for d in (1.25, 1.75, 1.5)]
@@ -96,7 +96,7 @@ def test_num_edges():
     assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6  # no zero is stored
     births = squareform(pdist(line))
     np.fill_diagonal(births, 0.5)
-    assert of_matrix(births)["num_edges"] == 10  # of births ripser.py knows no such radius
+    assert of_matrix(births)["num_edges"] == 10  # with births, ripser.py has no such radius
     close = 1 + 2.0**-26
     nearly = np.array([[0, 1, 1], [1, 0, close], [1, close, 0]])
     assert of_matrix(nearly)["num_edges"] == 3 and of_matrix(nearly, dtype=float)["num_edges"] == 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for ripser.py, of matrices: births, negative values, sparse ones, large ones."""
+"""The drop-in for ripser.py with matrices: births, negative values, sparse and large ones."""
 import functools
 
 import numpy as np
@@ -97,7 +97,7 @@ def test_asymmetry_by_rounding_is_none_and_the_upper_entry_counts():
 def test_large_matrices_are_looked_at_in_strips(rng):
     """Beyond 512 rows."""
     points = rng.random((700, 2))
-    points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # the centre, and what is far from it
+    points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # the centre, and points far from it
     matrix = squareform(pdist(points))
     exact = ph.rips(matrix, metric="precomputed")
     assert same(of_matrix(matrix, dtype=float)["dgms"], exact.dgms())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arrays of all kinds are taken rightly, and never written to."""
+"""Arrays of all kinds are read correctly, and never modified."""
 import collections
 import decimal
 import fractions
@@ -19,7 +19,7 @@ IMAGE = RNG.integers(0, 200, size=(9, 8, 7))
 
 
 class HasArray:
-    """What other libraries' arrays look like."""
+    """Arrays in the form of other libraries."""
 
     def __init__(self, array):
         self.array = array
@@ -40,7 +40,7 @@ class HasDlpack:
 
 
 class Tensor(HasArray):
-    """As torch's: with a gradient it gives no array before it is detached."""
+    """Like torch's: with a gradient, it gives no array before it is detached."""
 
     def __init__(self, array, gradient):
         super().__init__(array)
@@ -64,7 +64,7 @@ def unaligned(array):
 
 
 def padded(array):
-    """A field of records: steps that are no whole numbers of items."""
+    """A field of records: steps that are not multiples of the item size."""
     records = np.zeros(array.shape, dtype=[("x", array.dtype), ("flag", "u1")])
     records["x"] = array
     return records["x"]
@@ -112,7 +112,7 @@ def copied(data):
 
 
 def of_type(array, name):
-    """Numbers that the type can hold, and the same in float64."""
+    """Numbers that the type can hold, and the same numbers in float64."""
     kept = array % 2 if name == "bool" else np.abs(array) % 100
     return kept.astype(name), kept.astype(float)
 
@@ -168,7 +168,7 @@ def test_memory_maps(tmp_path, mode):
 
 
 def test_a_memory_map_that_was_written_to(tmp_path):
-    """Pages of it are no pages of the file: they must not be dropped."""
+    """Its pages are not pages of the file: they must not be dropped."""
     image = mapped(np.zeros((64, 64, 64), dtype=np.uint8), tmp_path, "c")
     image[...] = np.random.default_rng(0).integers(0, 255, size=image.shape)
     expected = image.copy()

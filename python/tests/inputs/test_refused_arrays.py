@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What is no array of numbers is refused in words that say where, and never written to."""
+"""Inputs that are not arrays of numbers are refused with a message that names the place, and are
+never modified."""
 import re
 
 import numpy as np
@@ -28,7 +29,7 @@ def pairs(*entries, n=4):
 
 
 def point(i, k, value, dtype=None):
-    """Points of which one coordinate is something."""
+    """Points with one coordinate replaced."""
     made = np.zeros((5, 3)) if dtype is None else np.zeros((5, 3), dtype)
     made[i, k] = value
     return made
@@ -102,7 +103,7 @@ BAD = [
      "found str"),
     ("a frame with NA", ph.rips, (pandas.DataFrame({"x": [1, None]}, dtype="Int64"),), {},
      "point 1"),
-    # whole numbers that are no doubles
+    # whole numbers that are not doubles
     *[(f"{BIG} as {kind}", ph.rips, (point(2, 1, BIG, kind),), {}, f"row 2, column 1: found {BIG}")
       for kind in ("int64", "uint64", ">i8", "object")],
     ("a large negative one", ph.rips, (point(4, 0, -BIG, "int64"),), {}, f"found -{BIG}"),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Vectors as other packages define them, beside ours with the options and factors that
-docs/explanation/vectors.md names. The packages are not asked: their formulas stand here."""
+"""Compares vectors as other packages define them with ours, with the options and factors that
+docs/explanation/vectors.md names. The packages themselves are not called: their formulas are
+written here."""
 import math
 
 import numpy as np
@@ -57,8 +58,8 @@ def test_the_height_is_a_distance_from_the_diagonal():
 
 
 def test_betti_curves(dgm):
-    """GUDHI and giotto-tda: bars with birth <= t < death, at equal steps. giotto-tda has both ends;
-    so has GUDHI with `keep_endpoints=True`, or where the range is given."""
+    """GUDHI and giotto-tda: bars with birth <= t < death, at equal steps. giotto-tda includes both
+    ends; so does GUDHI with `keep_endpoints=True`, or if the range is given."""
     alive = (dgm[:, :1] <= GRID) & (GRID < dgm[:, 1:])
     assert np.array_equal(of(BettiCurve(31, (-1, 2)), dgm), alive.sum(axis=0))
 
@@ -101,7 +102,7 @@ def density(dgm, sigma, births, lengths):
 
 
 def test_images_of_gudhi(dgm):
-    """Densities at points, both ends of a range among them: centres of pixels of a range that is
+    """Densities at points, including both ends of a range: the centres of pixels of a range that is
     half a step longer at both ends."""
     sigma, (b, p), (low, high), longest = 0.2, (7, 5), (-1.0, 1.0), 2.0
     points = np.linspace(low, high, b), np.linspace(0, longest, p)
@@ -113,7 +114,7 @@ def test_images_of_gudhi(dgm):
 
 
 def test_an_integral_is_a_density_times_an_area(dgm):
-    """To second order of the width of a pixel: so GUDHI's pixels compare with ours."""
+    """GUDHI's pixels agree with ours to second order in the width of a pixel."""
     how = {"bandwidth": 0.2, "birth_range": (-1, 1), "persistence_range": (0, 2)}
     errors = []
     for pixels in (20, 40):
@@ -125,7 +126,7 @@ def test_an_integral_is_a_density_times_an_area(dgm):
 
 
 def test_images_of_persim(dgm):
-    """Integrals, the weight is the length, rows are births; its sigma is a variance."""
+    """Integrals; the weight is the length, rows are births, and sigma is a variance."""
     variance, edges_b, edges_p = 0.04, np.linspace(-1, 1, 11), np.linspace(0, 2, 11)
     phi = np.vectorize(lambda x: 0.5 * (1 + math.erf(x / math.sqrt(2 * variance))))
     lengths = dgm[:, 1] - dgm[:, 0]
@@ -147,8 +148,8 @@ def blurred(counts, sigma):
 
 
 def test_images_of_giotto(rng):
-    """Bars are counted at points, both ends of a range among them, and the counts are blurred; the
-    top row is the longest. Of bars at points that is the density, but for what lies beyond 4
+    """Bars are counted at points, including both ends of a range, and the counts are blurred; the
+    top row is the longest. For bars at these points, the result is the density, except beyond 4
     sigma."""
     n, sigma, low, step = 60, 0.15, -1.0, 0.05
     places = rng.integers(20, 40, (12, 2))  # far from the border
@@ -169,7 +170,7 @@ def test_images_of_giotto(rng):
 
 @pytest.mark.parametrize("ours, theirs", [("gauss", "gaussian"), ("laplace", "laplacian")])
 def test_atol_of_gudhi(dgm, ours, theirs):
-    """The same sums, of the same centres; its quantiser may find others."""
+    """The same sums for the same centres; its quantiser may find other centres."""
     fitted = Atol(centres=5, contrast=ours).fit([dgm])
     centres, = fitted.centres_
     between = np.array([[math.dist(c, d) for d in centres] for c in centres])
@@ -187,8 +188,8 @@ def gauss_sum(a, b, weights_a, weights_b, bandwidth):
 
 
 def test_scale_space_kernel_of_gudhi(dgm):
-    """Half of the sum; each diagram with its mirror image, which counts -1: sigma = bandwidth² / 4,
-    and a factor."""
+    """Half of the sum over each diagram and its mirror image, which counts -1: sigma = bandwidth² /
+    4, and a factor."""
     other = dgm[::2] + [0.03, 0.08]
     bandwidth = 0.7
     sides = [np.concatenate([bars, bars[:, ::-1]]) for bars in (dgm, other)]
@@ -201,7 +202,7 @@ def test_scale_space_kernel_of_gudhi(dgm):
 
 
 def test_heat_of_persim(dgm):
-    """The distance that the kernel of Reininghaus et al. makes."""
+    """The distance that the kernel of Reininghaus et al. induces."""
     def kernel(a, b):
         return sum(math.exp(-math.dist(p, q)**2 / 3.2) - math.exp(-math.dist(p, q[::-1])**2 / 3.2)
                    for p in a for q in b) / (3.2 * math.pi)

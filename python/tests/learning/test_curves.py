@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Betti and Euler curves as step functions, and exact landscapes, beside counts of cells and bars."""
+"""Compares Betti and Euler curves as step functions, and exact landscapes, with counts of cells and
+bars."""
 import itertools
 import pickle
 import threading
@@ -72,11 +73,11 @@ def test_functions_are_values(bars):
 
 
 def plain_euler(image, construction, t):
-    """Cells of a small image that are there at t, one by one."""
+    """Counts the cells of a small image that are present at t, one by one."""
     cells = {}
     for corner in np.ndindex(*(2 * n + 1 for n in image.shape)):  # odd: a unit interval
         if construction == "vertices":
-            # Voxels are the even places but the last: cells that lie between them.
+            # Voxels are at even places, except the last: cells between them.
             if any(c >= 2 * n - 1 for c, n in zip(corner, image.shape)):
                 continue
             around = [(c // 2, c // 2 + 1) if c % 2 else (c // 2,) for c in corner]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gradients of births and deaths beside finite differences of barcodes that are computed anew."""
+"""Compares gradients of births and deaths with finite differences of recomputed barcodes."""
 import functools
 
 import numpy as np
@@ -144,7 +144,7 @@ def test_condensed_distances(rng, distances):
 
 @pytest.mark.parametrize("dtm", [{}, {"weights": "dtm", "dtm_neighbors": 3}])
 def test_a_matrix(rng, distances, dtm):
-    """Both entries of a pair are changed together, and have half of the derivative each."""
+    """Both entries of a pair are changed together, and each has half of the derivative."""
     barcode = functools.partial(ph.rips, metric="precomputed", **dtm)
     bars = barcode(distances)
     d = rng.standard_normal(len(bars)) * np.isfinite(bars.deaths)
@@ -252,7 +252,7 @@ def test_vertices_of_a_mesh(rng):
 
 
 def test_cells_of_a_complex(rng):
-    """The value of a cell is its own: an edge that closes a loop, a triangle that fills it."""
+    """Each cell has its own value: an edge that closes a loop, a triangle that fills it."""
     edges = [(0, 1), (0, 2), (1, 2)]
     matrix = np.zeros((7, 7), dtype=int)
     for k, (u, v) in enumerate(edges):
@@ -292,7 +292,7 @@ def test_ties_of_pixels():
     assert pullback(bars, np.zeros((3, 3)), d_births=np.ones(len(bars))).sum() == len(bars)
 
 
-# ---- what decides
+# ---- deciders
 
 
 def test_deciders(rng):
@@ -319,7 +319,7 @@ def test_deciders(rng):
     births, deaths = deciders(bars, values)
     assert np.array_equal(values[births[:, 0]], bars.births)
 
-    weights = np.full(20, 5.0)  # all that decides is when points are born
+    weights = np.full(20, 5.0)  # only the births of points decide
     births, deaths = deciders(ph.rips(X, weights=weights), X, weights=weights)
     assert (births[:, 0] == births[:, 1]).all()
 

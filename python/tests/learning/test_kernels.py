@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Kernels of diagrams, beside their definitions pair by pair."""
+"""Compares kernels of diagrams with their definitions, pair by pair."""
 import math
 
 import numpy as np

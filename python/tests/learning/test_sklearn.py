@@ -35,7 +35,7 @@ OF_POINTS = [PersistenceClustering, DistanceToMeasure, FarthestPoints]
 ALL = OF_LISTS + OF_DIAGRAMS + OF_POINTS
 
 
-# ---- what scikit-learn asks for
+# ---- requirements of scikit-learn
 
 
 @pytest.mark.filterwarnings("ignore")

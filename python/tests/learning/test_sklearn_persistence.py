@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The estimators that compute persistence: lists of clouds and images in, of diagrams out."""
+"""The estimators that compute persistence, from lists of clouds and images to lists of diagrams."""
 import os
 import signal
 import threading
@@ -38,7 +38,7 @@ def test_rips(clouds):
 def test_options_of_rips(clouds, how):
     found = RipsPersistence(**how).fit_transform(clouds)
     assert same(found, [[ph.rips(c, **how).dgm(d) for d in (0, 1)] for c in clouds])
-    # Each of them does something: merging, a field or collapses leave the bars as they are.
+    # Each option has an effect, except merging, a field or collapses, which do not change the bars.
     if not {"field", "collapse"} & set(how):
         assert not same(found, RipsPersistence().fit_transform(clouds))
 
@@ -116,7 +116,7 @@ def test_bars_that_never_die(clouds):
     assert RipsPersistence(infinity=9.0).fit_transform(clouds)[0][0][-1].tolist() == [0, 9]
     with pytest.raises(ph.UsageError, match="H0: row 11: found a bar that never dies"):
         RipsPersistence(infinity="error").fit_transform(clouds)
-    # Of two components the eldest is left out.
+    # Of two components, the eldest is left out.
     image = [[0.0, np.inf, 1.0]]
     assert CubicalPersistence(homology_dimensions=0, reduced=True).fit_transform(image)[0].tolist() \
         == [[1, np.inf]]
@@ -167,7 +167,7 @@ def test_limits_reach_the_threads(clouds):
 
 @pytest.fixture
 def slow():
-    """H4 of it takes minutes, so a test that ends did stop it."""
+    """H4 would take minutes; a test that ends has therefore stopped it."""
     return np.random.default_rng(0).random((1000, 8))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of lists of diagrams, of all layouts, beside plain loops."""
+"""Compares vectors of lists of diagrams, in all layouts, with plain loops."""
 import numpy as np
 import pytest
 
@@ -53,7 +53,7 @@ SMALL = {PersistenceImage: PersistenceImage(resolution=(3, 2)),
 @pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
 def test_ranges_are_those_of_the_samples_that_were_fitted(kind, dgms):
     fitted = clone(SMALL[kind]).fit(dgms[:3])
-    found = fitted.transform(dgms)  # of one more than was fitted
+    found = fitted.transform(dgms)  # with one more than was fitted
     for i, row in enumerate(dgms):
         expected = np.concatenate([
             expected_columns(kind, dgm, [other[j] for other in dgms[:3]])
@@ -73,7 +73,7 @@ def test_layouts(kind, clouds, dgms):
     table = RipsPersistence(reduced=True).set_output(transform="pandas").fit_transform(clouds)
     for other in (list(objects), objects, giotto, table, [tuple(row) for row in dgms]):
         assert np.array_equal(clone(SMALL[kind]).fit_transform(other), expected)
-    if kind is PersistenceImage:  # in which bars of length 0 would count
+    if kind is PersistenceImage:  # where bars of length 0 would count
         flat = PersistenceImage(weight_power=0, resolution=2)
         assert np.array_equal(flat.fit_transform(giotto), flat.fit_transform(dgms))
     bars = RipsPersistence(output="barcode").fit_transform(clouds)
@@ -110,7 +110,7 @@ def test_names(clouds, dgms):
 
 @pytest.mark.parametrize("orientation", ["ascending", "descending", "births"])
 def test_a_name_is_that_of_its_number(orientation):
-    """The pixel of the highest persistence and the largest birth is the one named so."""
+    """The pixel of the highest persistence and the largest birth has the corresponding name."""
     image = PersistenceImage(resolution=(2, 3), bandwidth=1e-3, birth_range=(0, 2),
                              persistence_range=(0, 3), orientation=orientation)
     (row,) = image.fit_transform([[[1.5, 4.0]]])
@@ -147,7 +147,7 @@ def test_ranges_that_are_given(dgms):
 
 
 def test_fitted_grids_are_used_again(dgms):
-    """Those of one batch, stored as text, are given to another transformer."""
+    """The ranges of one batch, stored as text, are given to another transformer."""
     import json
     for kind in (Landscape, BettiCurve, Silhouette, LifeEntropy):
         fitted = kind(resolution=7).fit(dgms[:2])

@@ -79,7 +79,7 @@ def test_what_torch_cannot(rng):
 
 
 def test_code_of_the_page():
-    """What stands in docs/how-to/gradients.md without prompts."""
+    """The code in docs/how-to/gradients.md without prompts."""
     torch.manual_seed(0)
     source = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[3]))
     page = (source / "docs/how-to/gradients.md").read_text()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of diagrams, beside plain loops over bars."""
+"""Compares vectors of diagrams with plain loops over bars."""
 import math
 import statistics
 
@@ -101,7 +101,7 @@ def test_image_is_an_integral():
 
 
 def test_image_far_from_its_bars():
-    """What is left out is less than a bar has beyond eight standard deviations."""
+    """The omitted part is less than a bar's share beyond eight standard deviations."""
     bars = np.array([[0.0, 1.0], [50.0, 51.0]])
     pixels = _functions.image(bars, 0.01, (2, 1), (-50.0, 50.5), (0.0, 2.0), 0)
     assert pixels.tolist() == [[pytest.approx(1, abs=2e-15), pytest.approx(1, abs=2e-15)]]
@@ -109,7 +109,7 @@ def test_image_far_from_its_bars():
 
 
 def test_betti_curve(dgm):
-    found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)  # births and deaths among them
+    found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)  # including births and deaths
     grid = np.linspace(-1.5, 3.5, 51)
     assert found.tolist() == [sum(b <= t < d for b, d in dgm) for t in grid]
 
@@ -154,7 +154,7 @@ def test_atol(rng, contrast):
     assert centres.shape == (4, 2) and centres.tolist() == sorted(centres.tolist())
     apart = np.linalg.norm(centres[:, None] - centres, axis=2) + np.diag([np.inf] * 4)
     assert np.allclose(widths, apart.min(axis=1) / 2, rtol=1e-14)
-    points = np.concatenate(dgms)  # k-means has come to an end: each centre is the mean of its points
+    points = np.concatenate(dgms)  # k-means has converged: each centre is the mean of its points
     nearest = np.linalg.norm(points[:, None] - centres, axis=2).argmin(axis=1)
     assert np.allclose(centres, [points[nearest == k].mean(axis=0) for k in range(4)], rtol=1e-14)
     distances = np.linalg.norm(dgms[2][:, None] - centres, axis=2) / widths
@@ -173,7 +173,7 @@ def test_blocks_do_not_change_what_comes_out(monkeypatch, rng):
 
 
 def test_arrays_of_any_steps(rng):
-    """Rows that do not lie side by side are the same rows."""
+    """Rows that are not contiguous give the same result."""
     wide = np.sort(rng.random((80, 6)), axis=1)
     dgm = wide[::2, [1, 4]]
     for view in (wide[::2, 1:5:3], np.asfortranarray(dgm), dgm[::-1]):
@@ -251,7 +251,7 @@ def test_what_is_no_diagram(data, words):
 def test_ranges():
     assert _ranges.range_of_values([EMPTY]) == (0, 1)
     assert _ranges.range_of_values([EMPTY, ENDLESS]) == (0, 1)
-    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)  # a bar that counts for nothing
+    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)  # a bar that does not count
     assert _ranges.range_of_values([np.array([[3.0, np.inf]])]) == (2.5, 3.5)
     assert _ranges.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))
     births, lengths = _ranges.ranges_of_image([np.array([[0.0, 1.0], [0.0, 4.0]])], None, None)
@@ -267,7 +267,7 @@ def test_what_is_no_range(value):
         _ranges.checked_range("r", value)
 
 
-# ---- of barcodes
+# ---- methods of barcodes
 
 
 @pytest.fixture(scope="module")
@@ -364,7 +364,7 @@ def test_of_no_bars():
 
 
 def test_beside_gudhi(dgm):
-    """Its landscapes are ours times the square root of 2."""
+    """Its landscapes equal ours times the square root of 2."""
     theirs = pytest.importorskip("gudhi.representations", reason="GUDHI is missing")
     if not len(dgm):
         pytest.skip("GUDHI 3.7 fails without bars")

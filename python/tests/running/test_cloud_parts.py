@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts of clouds that processes compute apart: the same components as one process finds."""
+"""Parts of clouds computed by separate processes: the same components as from one process."""
 import concurrent.futures
 import itertools
 import multiprocessing
@@ -137,7 +137,7 @@ def _anonymous():
 
 
 def test_points_stay_in_their_file(tmp_path):
-    """Of 64 MB one part of 64 is computed in less than that."""
+    """One of 64 parts of a 64 MB cloud is computed in less than 64 MB."""
     path = tmp_path / "points.npy"
     np.save(path, RNG.random((4 << 20, 2)))
     points = np.load(path, mmap_mode="r")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Loops of volumes that parts find together, in messages: the bars of one process."""
+"""Loops of volumes that parts find together through messages: the same bars as from one process."""
 import copy
 import multiprocessing
 import os
@@ -23,7 +23,7 @@ VOLUME = RNG.random((12, 8, 7)).astype(np.float32)
 
 
 def begun(image, count, field=2, **options):
-    """The whole, and the loops of all parts, which have begun."""
+    """The whole, and the loops of all parts, already started."""
     parts = [ph.image_part(image, i, count, loops=True, **options) for i in range(count)]
     whole = ph.join_parts(random.Random(1).sample(parts, count))
     loops = [ph.ImageLoops(part, field=field) for part in parts]
@@ -33,7 +33,7 @@ def begun(image, count, field=2, **options):
 
 
 def rounds(loops):
-    """Until nothing is on its way."""
+    """Runs until no message is in transit."""
     while True:
         letters = []
         for some in loops:
@@ -62,7 +62,7 @@ def test_the_same_bars(count, options):
 
 
 def test_the_order_of_all_is_free():
-    """Whoever works works a little; messages arrive late, and in any order, also before the begin."""
+    """Parts work in small steps; messages arrive late and in any order, even before `begin`."""
     chance = random.Random(3)
     for _ in range(5):
         count = 4
@@ -110,7 +110,7 @@ def _actor(number, count, field, mine, others, to_whole, to_rank):
             heard[sender] = is_busy
             if message is not None:
                 loops.receive(message)
-        to_whole.put(("round", number))  # nobody goes on before all have heard all
+        to_whole.put(("round", number))  # no part continues before all have received everything
         if to_rank.get() == "done" and not letters and not any(heard.values()):
             break
     to_whole.put(("bars", loops.barcode()))
@@ -168,7 +168,7 @@ if whole:
 
 def test_the_page_on_the_ranks_of_mpi4py(tmp_path):
     pytest.importorskip("mpi4py")
-    mpirun = shutil.which("mpirun.openmpi")  # what Debian's mpi4py is built with
+    mpirun = shutil.which("mpirun.openmpi")  # the MPI of Debian's mpi4py
     if mpirun is None:
         pytest.skip("there is no mpirun.openmpi")
     page = SOURCE / "docs/how-to/scale-out.md"
@@ -195,7 +195,7 @@ def test_calls_out_of_order():
     for field in (4, 1, "two"):
         with pytest.raises(ph.UsageError, match="field"):
             ph.ImageLoops(part, field=field)
-    loops = ph.ImageLoops(part)  # it was not used up
+    loops = ph.ImageLoops(part)  # it was not consumed
     with pytest.raises(ph.UsageError, match="has lent its voxels"):
         ph.ImageLoops(part)
     assert repr(loops) == "ImageLoops(0 of 2, shape=(12, 8, 7))" and loops.is_idle
@@ -209,7 +209,7 @@ def test_calls_out_of_order():
     with pytest.raises(ph.UsageError, match="expected bytes"):
         loops.begin("told")
     loops.begin(told[0])
-    with pytest.raises(ph.UsageError, match="expected to begin once"):
+    with pytest.raises(ph.UsageError, match="expected to begin only once"):
         loops.begin(told[0])
     with pytest.raises(ph.UsageError, match="messages that were not taken"):
         loops.barcode()
@@ -246,14 +246,14 @@ def test_damage_is_seen():
         loops[to].receive(wrong)
     assert to != 2
     with pytest.raises(ph.DataError):
-        loops[2].receive(message)  # it was for another one
+        loops[2].receive(message)  # it was meant for another part
 
 
 def test_what_is_lost_is_seen():
     whole, loops = begun(VOLUME, 3)
     bars = rounds(loops)
     for few in (None, [], bars[:2], [*bars[:2], bars[0]], [*bars, bars[0]]):
-        with pytest.raises(ph.DataError, match="expected one of each part"):
+        with pytest.raises(ph.DataError, match="expected one for each part"):
             whole.barcode(loops=few)
     with pytest.raises(ph.UsageError, match="ImageLoops.barcode"):
         whole.barcode(loops=[ph.cubical(VOLUME)] * 3)

@@ -25,7 +25,7 @@ def test_memory_limit(compute):
     with pytest.raises(ph.MemoryLimitError, match="memory limit") as caught:
         compute(memory_limit="1MiB")
     assert isinstance(caught.value, MemoryError) and isinstance(caught.value, ph.Error)
-    assert len(ph.rips([[0], [1]])) == 2  # the process lives
+    assert len(ph.rips([[0], [1]])) == 2  # the process survives
 
 
 def test_a_limit_that_suffices_changes_nothing():
@@ -34,7 +34,7 @@ def test_a_limit_that_suffices_changes_nothing():
 
 
 def test_memory_that_the_system_refuses():
-    """Beyond what is counted: the kernel says no."""
+    """Beyond the counted memory, the kernel refuses."""
     code = textwrap.dedent("""
         import resource, numpy as np, libph as ph
         points = np.random.default_rng(0).normal(size=(6000, 3))

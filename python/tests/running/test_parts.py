@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts of images that processes compute apart: the same bars as one process."""
+"""Parts of images computed by separate processes: the same bars as from one process."""
 import concurrent.futures
 import multiprocessing
 import pickle

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Computations are stopped, and tell of their progress."""
+"""Computations can be stopped, and report their progress."""
 import os
 import signal
 import sys
@@ -51,7 +51,7 @@ one_of_the_long = pytest.mark.parametrize("name", LONG)
 
 
 def interrupt_after(seconds):
-    """Ctrl-C; tells when."""
+    """Sends Ctrl-C; returns the time."""
     fired = []
 
     def fire():
@@ -77,7 +77,7 @@ def test_timeout(name):
     start = time.monotonic()
     with pytest.raises(ph.Timeout, match="0.4 s"):
         LONG[name](timeout=0.4)
-    assert time.monotonic() - start < 0.4 + SOON + 1.5  # making the data counts, too
+    assert time.monotonic() - start < 0.4 + SOON + 1.5  # creating the data counts as well
 
 
 def test_ctrl_c_while_python_is_told_of_progress():
@@ -138,7 +138,7 @@ def test_what_is_stopped_before_it_begins_is_not_done():
 
 
 def test_ctrl_c_reaches_the_main_thread_only():
-    """Others end by a stop of their own."""
+    """Others end by their own stop."""
     stop, outcome = threading.Event(), []
 
     def compute():
@@ -213,7 +213,7 @@ def test_progress_true_is_a_bar_of_tqdm(monkeypatch):
 
 
 def test_where_the_system_gives_no_thread():
-    """It looks after itself: at the time, for a stop and signals, and tells its progress."""
+    """The computation checks the time, stops and signals itself, and reports its progress."""
     code = textwrap.dedent("""
         import os, resource, signal, threading, time
         import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Data to compute with, and programs of their own."""
+"""Data for computations, and separate programs."""
 import subprocess
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ten frames of a scene that stands still, before a camera that nearly does."""
+"""Ten frames of a still scene in front of a nearly still camera."""
 import struct
 import zlib
 
@@ -29,7 +29,7 @@ def pose(rng):
 
 
 def room(rng, moves=True):
-    """The depth of a table with boxes before a wall, metres, and the block of each pixel."""
+    """The depth of a table with boxes in front of a wall, metres, and the block of each pixel."""
     fx, fy, cx, cy = ROOM_CAMERA
     v, u = np.mgrid[:480, :640]
     c = np.sqrt(0.5)
@@ -71,7 +71,7 @@ def seen_again(depth, camera, noise, rng):
 
 
 def noise_on(depth, camera, plane):
-    """How far depth scatters about a plane at one metre, if that grows with the square."""
+    """The scatter of depth about a plane at one metre, if it grows with the square."""
     fx, fy, cx, cy = camera
     v, u = np.mgrid[:depth.shape[0], :depth.shape[1]]
     a, b, c, d = plane
@@ -101,7 +101,7 @@ def read_png(path):
 
 
 def _unfiltered(filter_, line, above):
-    """A row of a PNG, of two bytes a pixel."""
+    """A row of a PNG with two bytes per pixel."""
     if filter_ in (0, 2):
         return (line + (above if filter_ else 0)) & 255
     if filter_ == 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pages: those of --report but for where they say that they come from; frames of notebooks."""
+"""Pages equal those of --report, except for their stated origin; frames in notebooks."""
 import html.parser
 import json
 import os
@@ -20,13 +20,13 @@ META = re.compile(r'<script type="application/json" id="ph-meta">(.*?)</script>'
 
 
 def parts(page):
-    """What the page says of itself, and all the rest."""
+    """The page's metadata, and the rest of the page."""
     meta = json.loads(META.search(page)[1])
     return meta, META.sub("", page, count=1)
 
 
 def differing(mine, its):
-    """The lines that differ, by their beginnings: a name stands there."""
+    """The lines that differ, by their beginnings, which hold a name."""
     mine, its = mine.split("\n"), its.split("\n")
     return [(a[:120], b[:120]) for a, b in zip(mine, its) if a != b] + [len(mine)] * (
         len(mine) != len(its))
@@ -189,7 +189,7 @@ def test_pages_of_bars_alone(program, tmp_path):
         for page in (meta, expected):
             del page["provenance"], page["program"]
         assert meta == expected
-    # What was read shows its data, too: the file says how it was computed.
+    # A barcode from a file also shows its data: the file states how it was computed.
     weighted = ph.rips(POINTS, metric="manhattan")
     weighted.save(tmp_path / "bars.json")
     read = ph.read_barcode(tmp_path / "bars.json")
@@ -232,7 +232,7 @@ def test_pages_of_scenes(tmp_path, rng):
         assert mine == its
 
 
-# ---- what users do with it
+# ---- use of the page
 
 
 @needs_page

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Poses and grasps of python/examples, against boxes whose poses are known."""
+"""Poses and grasps of python/examples, against boxes with known poses."""
 import json
 import os
 import subprocess
@@ -47,7 +47,7 @@ def table_from_camera():
 
 @pytest.fixture(scope="module")
 def cloud():
-    """What it sees, in its own frame: (rows, columns, 3), with noise of half a millimetre."""
+    """The view in the camera's frame: (rows, columns, 3), with noise of half a millimetre."""
     rows, columns = np.mgrid[0:360, 0:480]
     rays = np.stack([(columns - 239.5) / 450, (rows - 179.5) / 450, np.ones(rows.shape)], axis=2)
     camera = table_from_camera()
@@ -99,7 +99,7 @@ def test_poses_of_known_boxes(scene):
 
 
 def test_grasps_of_known_boxes(scene):
-    """In the frame of the table, as an arm that stands on it would have them."""
+    """In the frame of the table, as for an arm mounted on it."""
     gripper, grasped = Gripper(opening=0.085), 0
     for known, size, thing in pairs(scene):
         box = table_from_camera() @ known
@@ -173,7 +173,7 @@ def test_the_frame_of_the_cloud_does_not_matter(rng):
 def test_fingers_stay_above_the_plane():
     grasp = from_above(*box((0.1, 0.04, 0.02)), TABLE)
     assert grasp.pose[2, 3] == pytest.approx(Gripper().clearance)
-    # On something else they may go down along all of it.
+    # On another object, they may reach down along all of it.
     stacked = from_above(*box((0.1, 0.04, 0.02), bottom=0.1), TABLE)
     assert stacked.pose[2, 3] == pytest.approx(0.12 - Gripper().finger)
 

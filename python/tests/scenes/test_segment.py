@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmentation: what ph-segment writes of the same scene."""
+"""Segmentation gives the same results as ph-segment on the same scene."""
 import json
 import os
 import re
@@ -17,7 +17,7 @@ from scenes import CAMERA, TABLE, depth_of_scene, points_of_scene
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory):
-    """Runs ph-segment. @return what it wrote: labels, the result as JSON, the tree."""
+    """Runs ph-segment. @return its outputs: labels, the result as JSON, the tree."""
     path = os.environ.get("PH_SEGMENT", "")
     if not os.access(path, os.X_OK):
         pytest.skip("PH_SEGMENT names no program")
@@ -64,7 +64,7 @@ def check(found, expected):
     assert own.read_bytes() == tree.read_bytes()
 
 
-# ---- as the program
+# ---- same as the program
 
 
 @pytest.mark.parametrize("options, arguments", [
@@ -168,7 +168,7 @@ def test_colours_go_into_files(program, rng):
         assert own.read_bytes() == written.read_bytes()
     points = points_of_scene(rng)
     colours = rng.integers(0, 256, (len(points), 3))
-    colours[0, 0] = 200  # else the program may take them for shares of 1
+    colours[0, 0] = 200  # otherwise the program may read them as numbers from 0 to 1
     np.save(program.folder / "points.npy", np.hstack([points, colours]))
     for name in ("labelled.ply", "labelled.pcd"):
         program(program.folder / "points.npy", more=("-o", program.folder / name))

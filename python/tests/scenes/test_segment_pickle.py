@@ -42,7 +42,7 @@ def table():
 
 
 def same(a, b):
-    """Whether all that two segmentations tell is the same, to the last bit and in type."""
+    """True if all properties of two segmentations are the same, to the last bit and in type."""
     if isinstance(a, np.ndarray):
         return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
     if isinstance(a, tuple):
@@ -105,7 +105,7 @@ def test_of_a_stored_tree(table, tmp_path):
     stored = ph.segment(tmp_path / "table.tree")
     other = pickle.loads(pickle.dumps(stored))
     assert same(told(other), told(stored)) and other == stored == table
-    with pytest.raises(ph.UsageError, match="there is no cloud"):
+    with pytest.raises(ph.UsageError, match="has no cloud"):
         other.save(tmp_path / "x.pcd")
 
 
@@ -167,7 +167,7 @@ def test_joblib(table, tmp_path):
     assert joblib.hash(table) == joblib.hash(ph.segment(TABLE))
 
 
-# ---- what is no state
+# ---- invalid states
 
 
 def test_another_version_is_refused(table):
@@ -202,7 +202,7 @@ def test_another_version_is_refused(table):
     (lambda s: s["cloud"].update(fields=[("x", 8, 2**62, 0)]), "cloud"),
     (lambda s: s["cloud"].update(fields=[("x", 8, 1, 10**6)]), "cloud"),
     (lambda s: s["cloud"].update(width=s["cloud"]["height"], height=s["cloud"]["width"]),
-     "found a cloud of 160 x 120 points, expected 120 x 160 as of the tree"),
+     "found a cloud of 160 x 120 points, expected 120 x 160 as in the tree"),
 ])
 def test_a_damaged_state_is_refused(table, change, words):
     restored, (version, state, names) = table.__reduce__()

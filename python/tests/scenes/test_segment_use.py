@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmentation: cuts into so many objects, arrays of all kinds, words, limits."""
+"""Segmentation: cuts into a number of objects, arrays of all kinds, messages, limits."""
 import os
 import re
 import threading
@@ -26,7 +26,7 @@ def test_so_many_objects(rng, options):
         try:
             other = found.cut(n=n)
         except ph.UsageError as error:
-            assert re.search(r"found no cut into \d+ objects; those next to it give \d+", str(error))
+            assert re.search(r"found no cut into \d+ objects; the nearest ones give \d+", str(error))
             continue
         reached += 1
         assert len(other.objects) == n and other.labels.max() == n
@@ -164,7 +164,7 @@ def test_a_stored_tree_has_no_options(tmp_path):
         ph.segment(tmp_path / "t.tree", voxel=0.01)
     stored = ph.segment(tmp_path / "t.tree")
     assert np.array_equal(stored.labels, found.labels) and stored._repr_html_()
-    with pytest.raises(ph.UsageError, match="there is no cloud"):
+    with pytest.raises(ph.UsageError, match="has no cloud"):
         stored.save(tmp_path / "x.pcd")
     (tmp_path / "t.tree").write_bytes((tmp_path / "t.tree").read_bytes()[:-1])
     with pytest.raises(ph.DataError, match="t.tree"):
@@ -179,8 +179,8 @@ def test_words_of_results(tmp_path):
                        (lambda: found.first_meeting(0, 1), "a: found 0"),
                        (lambda: found.save(tmp_path / "x.obj"), r"path: found .*expected \.npy"),
                        (lambda: found.save(tmp_path / "x", format="obj"), "format: found 'obj'"),
-                       (lambda: found.cut(n=10**6), "no cut into 1000000 .* those next to it give 2"),
-                       (lambda: found.cut(n=0), "no cut into 0 .* those next to it give 2")):
+                       (lambda: found.cut(n=10**6), "no cut into 1000000 .* the nearest ones give 2"),
+                       (lambda: found.cut(n=0), "no cut into 0 .* the nearest ones give 2")):
         with pytest.raises(ph.UsageError, match=words):
             act()
     with pytest.raises(ph.OutputError):

@@ -23,7 +23,7 @@ REAL = {"ucn0": (UCN, 1000), "ucn1": (UCN, 1000), "ucn2": (UCN, 1000), "ucn3": (
 
 
 def tracked(depths, camera, **options):
-    """Segmentations of frames, one after another, and what the objects of each are."""
+    """Segmentations of consecutive frames, and the identities of the objects of each."""
     tracker, scene, frames = ph.LabelTracker(), None, []
     for depth in depths:
         scene = ph.segment(depth, intrinsics=camera, previous=scene, check=False, **options)
@@ -32,7 +32,8 @@ def tracked(depths, camera, **options):
 
 
 def changes(frames, what):
-    """By object how often something of it is another one than in the frame before; of how many."""
+    """For each object, how often a property differs from the previous frame, and out of how many
+    frames."""
     before, count, all_ = {}, Counter(), 0
     for scene, objects in frames:
         now = {}
@@ -49,7 +50,7 @@ def held_role(thing, found, objects):
 
 
 def held_support(thing, found, objects):
-    """What it stands on, by a name that is the same in all frames."""
+    """Its support, by a name that is the same in all frames."""
     if thing.on and thing.on[0] == "object":
         return objects[thing.on[1] - 1].number
     return thing.on
@@ -140,7 +141,7 @@ def test_ten_frames_of_a_real_scene(name):
           f"{roles.total()} roles and {support.total()} supports changed ({single.total()} by "
           f"single frames); "
           f"large ones kept: {min(kept):.2f}; the plane turned by {turn:.2f} degrees")
-    # It may be that the first frame was wrong. No role goes to and fro.
+    # The first frame may have been wrong. No role alternates.
     assert max(roles.values(), default=0) <= 1 and roles.total() <= 1
     assert support.total() <= max(1, single.total() / 4)
     assert min(kept) >= 0.8

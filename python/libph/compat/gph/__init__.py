@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""giotto-ph's interface over libph.
+"""giotto-ph's interface on top of libph.
 
 >>> from libph.compat.gph import ripser_parallel
 >>> ripser_parallel(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.       , 1.4142135]], dtype=float32)
 
-The numbers are those of giotto-ph: of single precision, in its order. ``dtype=np.float64`` gives
-exact ones. Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
+The numbers are those of giotto-ph: in single precision, in its order. ``dtype=np.float64`` gives
+exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
 """
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
                     weight_params: Mapping[str, Any] | None = None, collapse_edges: bool = False,
                     n_threads: int = 1, return_generators: bool = False, *,
                     dtype: DTypeLike = np.float32, **run: Unpack[RunOptions]) -> dict[str, Any]:
-    """Diagrams of the Vietoris-Rips filtration, as giotto-ph gives them.
+    """Diagrams of the Vietoris-Rips filtration, as giotto-ph returns them.
 
     Parameters
     ----------
     X : array_like or sparse matrix
-        Points, one a row; with ``metric="precomputed"`` distances, with births on the diagonal. Of
-        a dense matrix what is above the diagonal is read, of a sparse one both triangles; the
-        upper one wins. What is not stored is never joined.
+        Points, one per row; with ``metric="precomputed"``, distances with births on the diagonal. A
+        dense matrix is read above the diagonal; a sparse matrix is read in both triangles, and the
+        upper one wins. Pairs that are not stored are never joined.
     maxdim : int
         The highest dimension of homology.
     thresh : float
@@ -55,7 +55,7 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     coeff : int
         A prime.
     metric : str or callable
-        As of scikit-learn's `pairwise_distances`, or "precomputed".
+        As in scikit-learn's `pairwise_distances`, or "precomputed".
     metric_params : dict
         More arguments for the metric.
     nearest_neighbors_params : dict
@@ -64,16 +64,16 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     weights : array_like or "DTM", optional
         The diameters at which points enter; "DTM": twice the distance to a measure.
     weight_params : dict, optional
-        "p": how balls grow from the birth of a point on, 1 (default), 2 or inf. For "DTM"
-        "n_neighbors": how many, the point not among them (3), and "r", the exponent of the mean
-        (2).
+        "p": how a ball grows after the birth of its point, 1 (default), 2 or inf. For "DTM" also
+        "n_neighbors", the number of neighbours without the point itself (3), and "r", the exponent
+        of the mean (2).
     collapse_edges : bool
-        Whether edges are collapsed first whatever it takes. Otherwise they are where that saves
-        time. The bars are the same.
+        If True, edges are always collapsed first. Otherwise they are collapsed if this saves time.
+        The bars are the same.
     n_threads : int
-        -1: one for each core.
+        Number of threads; -1: one per core.
     return_generators : bool
-        Whether the edges come along that give simplices their values.
+        If True, the edges that determine the values of simplices are returned as well.
     dtype : {float32, float64}
         The precision of the filtration, and of the diagrams.
     **run
@@ -82,22 +82,22 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     Returns
     -------
     dict
-        `dgms`: a diagram for each dimension. With `return_generators` also `gens`, a tuple: of H0
-        rows vertex of birth, larger and smaller vertex of the edge of death; of each dimension
-        from 1 on rows edge of birth, edge of death; the vertices of bars of H0 that never die; of
-        each dimension from 1 on the edges of bars that never die.
+        `dgms`: a diagram for each dimension. With `return_generators` also `gens`, a tuple of four:
+        for H0, rows of the birth vertex and the larger and smaller vertex of the death edge; for
+        each dimension from 1, rows of birth edge and death edge; the vertices of bars of H0 that
+        never die; for each dimension from 1, the edges of bars that never die.
 
     Raises
     ------
     UsageError, DataError
         Both are a ValueError.
     NotBuiltIn
-        A NotImplementedError: for `collapse_edges` with `return_generators`, and other p.
+        A NotImplementedError, for `collapse_edges` with `return_generators` and for other p.
     """
     _run.check_names("ripser_parallel", run, ripser_parallel)
     if collapse_edges and return_generators:
         raise NotBuiltIn("collapse_edges: found True with return_generators=True, expected one of "
-                         "the two; without collapse_edges edges are collapsed where that helps")
+                         "the two; without collapse_edges, edges are collapsed if that helps")
     kind = _flag.precision(dtype)
     limit, max_dim = _flag.threshold(thresh), _flag.dimension(maxdim)
     if "threads" not in run:
@@ -106,7 +106,7 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
                            None if n_threads == -1 else n_threads)
     births = None
     if collapse_edges or _arrays.is_sparse(distances) or distances.dtype != np.float64:
-        limit = _flag.last_rounded_to(limit, kind)  # giotto-ph compares single precision
+        limit = _flag.last_rounded_to(limit, kind)  # giotto-ph compares in single precision
     if weights is not None:
         distances, births = weighted(distances, weights, weight_params or {})
     if _arrays.is_sparse(distances):
@@ -137,19 +137,20 @@ def _distances(X: Any, limit: float, metric: Any, metric_params: Mapping[str, An
         from sklearn.metrics import pairwise_distances
         from sklearn.neighbors import NearestNeighbors
     except ImportError:
-        raise NotBuiltIn("ripser_parallel: distances of points are those of scikit-learn, which is "
+        raise NotBuiltIn("ripser_parallel: distances of points come from scikit-learn, which is "
                          "not installed; metric='precomputed' takes distances, ph.rips points"
                          ) from None
     if limit == np.inf:
         return pairwise_distances(X, metric=metric, **metric_params)
     near = NearestNeighbors(radius=limit, metric=metric, metric_params=metric_params, n_jobs=jobs,
                             **neighbors_params).fit(X)
-    # Of a pair that is as far apart as the limit, up to rounding, one point may find the other.
+    # If a pair is as far apart as the limit, up to rounding, only one of its points may find the
+    # other.
     return triu(near.radius_neighbors_graph(mode="distance"))
 
 
 def _generators(flag: _flag.Flag, bars: _flag.Bars) -> tuple[Any, ...]:
-    """What stands for the simplices of birth and death: the edge of a simplex that comes last."""
+    """Represents the simplices of birth and death by their last edges."""
     finite, essential = [], []
     for dim, dgm in enumerate(bars.dgms):
         places = bars.places_in_dim(dim)

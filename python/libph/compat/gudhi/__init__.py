@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""A part of GUDHI's interface over libph: Rips and cubical complexes, bottleneck distance.
+"""A part of GUDHI's interface on top of libph: Rips and cubical complexes, bottleneck distance.
 
 >>> from libph.compat import gudhi
 >>> tree = gudhi.RipsComplex(points=[[0, 0], [1, 0], [1, 1], [0, 1]]).create_simplex_tree(2)
 >>> tree.persistence(min_persistence=0.4)[0]
 (1, (1.0, 1.4142135623730951))
 
-What is not here raises `NotBuiltIn`. What is answered otherwise on purpose is listed in
-docs/how-to/coming-from.md.
+Missing functions raise `NotBuiltIn`. docs/how-to/coming-from.md lists where libph deliberately
+answers differently.
 """
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def bottleneck_distance(diagram_1: Any, diagram_2: Any, e: float | None = None) 
     diagram_1, diagram_2 : array_like
         Rows birth, death.
     e : float, optional
-        The error that is allowed; there is none.
+        The allowed error; libph is exact.
 
     Returns
     -------

@@ -18,7 +18,7 @@ from ._persistence import Persistence, _OrderError
 
 
 class _FileError(MissingInputError, RuntimeError):
-    """GUDHI has a RuntimeError where a file cannot be read."""
+    """GUDHI raises RuntimeError if a file cannot be read."""
 
 
 class CubicalComplex(Persistence):
@@ -27,13 +27,14 @@ class CubicalComplex(Persistence):
     Parameters
     ----------
     top_dimensional_cells : array_like, optional
-        The values of the cubes of the highest dimension; faces have the smallest around them.
+        The values of the cubes of the highest dimension; a face has the smallest value of the cubes
+        around it.
     vertices : array_like, optional
-        The values of the vertices; cubes have the largest of theirs.
+        The values of the vertices; a cube has the largest value of its vertices.
     dimensions : sequence of int, optional
-        The extents, if the values are flat: in Fortran order.
+        The extents, if the values are a flat array in Fortran order.
     perseus_file : path, optional
-        A file of Perseus, of the values of cubes.
+        A Perseus file with the values of cubes.
     """
 
     def __init__(self, *, top_dimensional_cells: ArrayLike | None = None,
@@ -41,12 +42,12 @@ class CubicalComplex(Persistence):
                  perseus_file: str | os.PathLike[str] = "") -> None:
         super().__init__()
         if self._read(top_dimensional_cells, vertices, dimensions, perseus_file):
-            raise UsageError("perseus_file: found axes that close up, expected a "
+            raise UsageError("perseus_file: found periodic axes, expected a "
                              "PeriodicCubicalComplex for them")
         self._periodic: tuple[bool, ...] = (False,) * self._image.ndim
 
     def _read(self, cells: Any, vertices: Any, dimensions: Any, perseus_file: Any) -> list[bool]:
-        """Takes the values; which axes close up, if a file says that any does."""
+        """Stores the values, and the periodic axes if a file states any."""
         given = [name for name, value in (("top_dimensional_cells", cells), ("vertices", vertices),
                                           ("perseus_file", perseus_file or None))
                  if value is not None]
@@ -109,7 +110,7 @@ class CubicalComplex(Persistence):
         homology_coeff_field : int
             A prime.
         min_persistence : float
-            Bars with death - birth <= this are left out; below 0: none are.
+            Bars with death - birth <= this value are left out; a negative value keeps all bars.
         """
         barcode = cubical(self._image, periodic=self._periodic, field=homology_coeff_field,
                           construction="vertices" if self._is_vertices else "cells",
@@ -118,24 +119,25 @@ class CubicalComplex(Persistence):
 
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0
                     ) -> list[tuple[int, tuple[float, float]]]:
-        """Computes, as `compute_persistence`, and lists (dimension, (birth, death)): the highest
-        dimension first, then the longest bars."""
+        """Computes like `compute_persistence` and returns a list of (dimension, (birth, death)):
+        the highest dimension first, the longest bars first within it."""
         self.compute_persistence(homology_coeff_field, min_persistence)
         return self._listed()
 
     def cofaces_of_persistence_pairs(self) -> list[list[NDArray[np.int64]]]:
-        """Where the values of bars come from: places of cubes in the flat array, in Fortran order.
+        """The cubes that determine the values of bars, as indices into the flat array in Fortran
+        order.
 
         Returns
         -------
         list of two lists
-            For each dimension rows birth, death, of bars that die; for each dimension births of
-            bars that never die. Dimensions above the last such bar have no entry.
+            For each dimension, rows birth, death of the bars that die; for each dimension, births
+            of the bars that never die. Dimensions above the last such bar have no entry.
         """
         return self._places("cofaces_of_persistence_pairs", False)
 
     def vertices_of_persistence_pairs(self) -> list[list[NDArray[np.int64]]]:
-        """As `cofaces_of_persistence_pairs`, of a complex made of values of vertices."""
+        """Like `cofaces_of_persistence_pairs`, for a complex made from values of vertices."""
         return self._places("vertices_of_persistence_pairs", True)
 
     def _places(self, asked: str, of_vertices: bool) -> list[list[NDArray[np.int64]]]:
@@ -161,16 +163,16 @@ class CubicalComplex(Persistence):
 
 
 class PeriodicCubicalComplex(CubicalComplex):
-    """The cubical complex of an image some of whose axes close up.
+    """The cubical complex of an image with some periodic axes.
 
     Parameters
     ----------
     dimensions, top_dimensional_cells, vertices
-        As of `CubicalComplex`.
+        As in `CubicalComplex`.
     periodic_dimensions : sequence of bool
-        Which axes close up on themselves; not with a file.
+        Which axes are periodic; not with a file.
     perseus_file : path, optional
-        A file of Perseus, of the values of cubes. Axes whose extents are below 0 close up.
+        A Perseus file with the values of cubes. Axes with negative extents are periodic.
     """
 
     def __init__(self, dimensions: Sequence[int] | None = None,
@@ -184,7 +186,7 @@ class PeriodicCubicalComplex(CubicalComplex):
         if perseus_file:
             if periodic_dimensions is not None:
                 raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected none "
-                                 "beside perseus_file, which says it by extents below 0")
+                                 "beside perseus_file, which marks periodic axes by extents below 0")
             periodic_dimensions = closed or [False] * axes
         if periodic_dimensions is None or len(periodic_dimensions) != axes:
             raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected {axes} "
@@ -194,7 +196,7 @@ class PeriodicCubicalComplex(CubicalComplex):
 
 def _with_cells_between(values: NDArray[np.float64], axis: int, periodic: bool, is_vertices: bool
                         ) -> NDArray[np.float64]:
-    """Along an axis: the cells between those that are given, and at the ends."""
+    """The cells along an axis that lie between the given ones and at the ends."""
     a = np.moveaxis(values, axis, 0)
     following = np.roll(a, -1, axis=0)
     n = len(a)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What GUDHI's complexes tell of their bars."""
+"""The methods of GUDHI's complexes about their bars."""
 from __future__ import annotations
 
 import numpy as np
@@ -12,11 +12,11 @@ from ..._errors import UsageError
 
 
 class _OrderError(UsageError, RuntimeError):
-    """GUDHI has a RuntimeError where nothing is computed yet."""
+    """GUDHI raises RuntimeError if nothing has been computed yet."""
 
 
 class Persistence:
-    """Bars, once they are computed."""
+    """Stores bars after their computation."""
 
     def __init__(self) -> None:
         self._found: Barcode | None = None
@@ -24,7 +24,8 @@ class Persistence:
         self._above: NDArray[np.float64] | None = None
 
     def _keep(self, barcode: Barcode, dims: int, above: NDArray[np.float64] | None = None) -> None:
-        """Bars of so many dimensions; `above`: births of bars that never die, of the last one."""
+        """Stores the bars of this many dimensions; `above` holds births of bars of the last
+        dimension, which never die."""
         self._found, self._dims, self._above = barcode, dims, above
 
     def _is_persistence_defined(self) -> bool:
@@ -36,7 +37,7 @@ class Persistence:
         return self._found
 
     def _order(self, dim: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-        """The order of the bars of a dimension: by death, those that never die by birth; and which
+        """The order of the bars of a dimension (by death, or by birth if they never die), and which
         of them die."""
         births, deaths = self._barcode("order").dgm(dim).T
         order = np.lexsort((births, deaths))
@@ -56,20 +57,20 @@ class Persistence:
         return bars
 
     def persistence_intervals_in_dimension(self, dimension: int) -> NDArray[np.float64]:
-        """The bars of a dimension: rows birth, death, by death."""
+        """The bars of a dimension: rows birth, death, sorted by death."""
         self._barcode("persistence_intervals_in_dimension")
         if not 0 <= _options.whole("dimension", dimension, -2**31) < self._dims:
             return np.empty((0, 2))
         return self._dgm(dimension)
 
     def betti_numbers(self) -> list[int]:
-        """How many bars of each dimension never die."""
+        """The number of bars of each dimension that never die."""
         self._barcode("betti_numbers")
         return [int((self._dgm(dim)[:, 1] == np.inf).sum()) for dim in range(self._dims)]
 
     def persistent_betti_numbers(self, from_value: float, to_value: float) -> list[int]:
-        """How many bars of each dimension are born up to `from_value`, and die after `to_value` or
-        never."""
+        """The number of bars of each dimension that are born up to `from_value` and die after
+        `to_value` or never."""
         self._barcode("persistent_betti_numbers")
         born = _options.real("from_value", from_value)
         alive = _options.real("to_value", to_value)

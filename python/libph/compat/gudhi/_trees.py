@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's Rips complexes, and in the place of a simplex tree what computes without listing one."""
+"""GUDHI's Rips complexes, and a substitute for the simplex tree that computes without listing
+simplices."""
 from __future__ import annotations
 
 from typing import Any, NoReturn
@@ -37,9 +38,9 @@ class FlagTree(Persistence):
         super().__init__()
         self._data = data
         self._options = options
-        # GUDHI lists edges in any case.
+        # GUDHI always lists edges.
         self._dimension = max(1, _options.whole("max_dimension", max_dimension, 0))
-        self._creators: NDArray[np.int64] | None = None  # of bars in the highest dimension
+        self._creators: NDArray[np.int64] | None = None  # births of bars in the highest dimension
 
     def __getattr__(self, name: str) -> Any:
         if name not in _TREE_METHODS:
@@ -52,14 +53,14 @@ class FlagTree(Persistence):
         return missing
 
     def num_vertices(self) -> int:
-        """How many points enter."""
+        """The number of points that enter."""
         births, limit = self._births(), self._options["threshold"]
         if births is None:
             return len(self._data)
         return int(np.count_nonzero(births <= (np.inf if limit is None else limit)))
 
     def is_empty(self) -> bool:
-        """Whether no point enters."""
+        """True if no point enters."""
         return self.num_vertices() == 0
 
     def copy(self) -> FlagTree:
@@ -68,24 +69,25 @@ class FlagTree(Persistence):
 
     def compute_persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0,
                             persistence_dim_max: bool = False) -> FlagTree:
-        """Computes bars of the dimensions below that of the complex, and returns itself.
+        """Computes the bars of all dimensions below the dimension of the complex, and returns
+        itself.
 
         Parameters
         ----------
         homology_coeff_field : int
             A prime.
         min_persistence : float
-            Bars with death - birth <= this are left out; below 0: none are.
+            Bars with death - birth <= this value are left out; a negative value keeps all bars.
         persistence_dim_max : bool
-            Whether bars of the dimension of the complex come along: as there are no simplices
-            above, they never die.
+            If True, bars of the dimension of the complex are included; they never die, because
+            there are no simplices of higher dimension.
         """
         above, creators = None, None
         data, options = self._data, self._options
         min_persistence = _options.real("min_persistence", min_persistence)
         if _options.flag("persistence_dim_max", persistence_dim_max):
             if options.get("approximation") is not None:
-                raise NotBuiltIn("persistence_dim_max: libph has no such bars of a sparse Rips "
+                raise NotBuiltIn("persistence_dim_max: libph has no such bars for a sparse Rips "
                                  "complex; GUDHI has them")
             data, options, above, creators = self._skeleton(homology_coeff_field)
         if min_persistence < 0 and options["threshold"] is None:
@@ -110,9 +112,9 @@ class FlagTree(Persistence):
         Returns
         -------
         tuple
-            Of H0 rows vertex of birth, edge of death; for each dimension from 1 on rows edge of
-            birth, edge of death; vertices of bars of H0 that never die; for each dimension from 1
-            on edges of bars that never die. Of edges the larger vertex comes first.
+            For H0, rows of birth vertex and death edge; for each dimension from 1, rows of birth
+            edge and death edge; the vertices of bars of H0 that never die; for each dimension from
+            1, the edges of bars that never die. The larger vertex of an edge comes first.
         """
         barcode = self._barcode("flag_persistence_generators")
         finite, essential = [], []
@@ -151,8 +153,8 @@ class FlagTree(Persistence):
 
     def _skeleton(self, field: int) -> tuple[NDArray[np.float64], dict[str, Any],
                                              NDArray[np.float64], NDArray[np.int64]]:
-        """Edges as a matrix, how `rips` takes them, and the bars in the dimension of the complex:
-        values and vertices of its simplices that kill no bar of the dimension below."""
+        """Edges as a matrix, in the form that `rips` accepts, and the bars in the dimension of the
+        complex: values and vertices of its simplices that kill no bar of the dimension below."""
         n = len(self._data)
         limit = self._options["threshold"]
         limit = np.inf if limit is None else limit
@@ -171,7 +173,7 @@ class FlagTree(Persistence):
             simplices = np.column_stack([simplices[s], v])
         np.fill_diagonal(matrix, 0)
         matrix = np.minimum(matrix, matrix.T)
-        # All edges, those beyond the enclosing radius among them.
+        # All edges, including those beyond the enclosing radius.
         options = {"metric": "precomputed", "threshold": limit, "weights": births}
         below = rips(matrix, max_dim=self._dimension - 1, min_persistence=-1, field=field,
                      **options)
@@ -191,14 +193,14 @@ class RipsComplex:
     Parameters
     ----------
     points : array_like
-        Points, one a row.
+        Points, one per row.
     distance_matrix : array_like
         Distances: a square, or the rows of its lower triangle.
     max_edge_length : float
         The largest distance at which points are joined.
     sparse : float, optional
-        Epsilon of a sparse filtration, below 1: bars are off by a factor of 1 / (1 - epsilon) at
-        most.
+        Epsilon of a sparse filtration, below 1: bars are off by a factor of at most 1 / (1 -
+        epsilon).
     """
 
     def __init__(self, *, points: ArrayLike = (), distance_matrix: ArrayLike = (),
@@ -249,9 +251,9 @@ class DTMRipsComplex(WeightedRipsComplex):
     Parameters
     ----------
     points, distance_matrix : array_like
-        As of `RipsComplex`.
+        As in `RipsComplex`.
     k : int
-        How many neighbours, the point among them; up to 1 there are no weights.
+        Number of neighbours, including the point itself; with 0 or 1, there are no weights.
     q : float
         The exponent of the mean of their distances.
     max_filtration : float
@@ -280,7 +282,7 @@ class DTMRipsComplex(WeightedRipsComplex):
 
 def _space(points: Any, distances: Any, name: str, limit: float
            ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-    """Data and keywords for `rips`; `name`: of the limit."""
+    """Data and keywords for `rips`; `name` is the name of the limit."""
     options: dict[str, Any] = {
         "metric": "euclidean", "threshold": None if limit == np.inf else
         _options.real(name, limit, "a number of at least 0", 0)}
@@ -293,7 +295,7 @@ def _space(points: Any, distances: Any, name: str, limit: float
 
 
 def _square(distances: Any) -> NDArray[np.float64]:
-    """A full matrix; of lower rows, or of a square whose upper triangle is 0, the mirror image."""
+    """A full matrix; lower rows, or a square whose upper triangle is 0, are mirrored."""
     if isinstance(distances, (list, tuple)) and all(
             hasattr(row, "__len__") and len(row) in (i, i + 1) for i, row in enumerate(distances)):
         square = np.zeros((len(distances),) * 2)

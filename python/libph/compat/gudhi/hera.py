@@ -14,7 +14,7 @@ __all__ = ["bottleneck_distance", "wasserstein_distance"]
 
 
 class _WidthError(UsageError, TypeError):
-    """GUDHI has a TypeError where rows are not birth, death."""
+    """GUDHI raises TypeError if rows are not birth, death."""
 
 
 def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
@@ -25,7 +25,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     X, Y : array_like
         Rows birth, death.
     delta : float
-        The error that is allowed; there is none.
+        The allowed error; libph is exact.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError; the one for rows of another width is a TypeError, too.
+        Both are a ValueError; the one for rows of another width is also a TypeError.
     """
     _options.real("delta", delta, "a number of at least 0", 0)
     _check_width(X, Y)
@@ -53,22 +53,22 @@ def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float =
     order : float
         p: at least 1, finite.
     internal_p : float
-        The norm in which a pair is apart, at least 1.
+        The norm that measures a pair, at least 1.
     delta : float
-        The relative error that is allowed; there is none.
+        The allowed relative error; libph is exact.
     matching : bool
-        Whether the matching is returned, too.
+        If True, the matching is returned as well.
 
     Returns
     -------
     float or (float, ndarray)
-        Rows of the matching: place in `X`, place in `Y`; -1 is the diagonal. None in its place if
-        the distance is infinite.
+        The matching has rows of an index in `X` and an index in `Y`; -1 is the diagonal. It is None
+        if the distance is infinite.
 
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError; the one for rows of another width is a TypeError, too.
+        Both are a ValueError; the one for rows of another width is also a TypeError.
     """
     _options.real("delta", delta, "a number of at least 0", 0)
     _check_width(X, Y)

@@ -6,7 +6,7 @@ __all__ = ["set_seed"]
 
 
 def set_seed(seed: int) -> None:
-    """Has no effect: nothing in this drop-in is random.
+    """Has no effect, because nothing in this drop-in is random.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's classes for scikit-learn: lists of clouds or images in, lists of diagrams out."""
+"""GUDHI's classes for scikit-learn, which turn lists of clouds or images into lists of diagrams."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -24,7 +24,7 @@ _RIPS_INPUTS = ["point cloud", "full distance matrix", "lower distance matrix",
 
 
 class _DiagramsOfEach(TransformerMixin, BaseEstimator):
-    """Takes samples one by one, in threads."""
+    """Processes samples one by one, in threads."""
 
     homology_dimensions: int | Sequence[int]
     homology_coeff_field: int
@@ -32,7 +32,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
     _function: Callable[..., Barcode]
 
     def fit(self, X: Any, y: Any = None, Y: Any = None) -> Any:
-        """Looks at the parameters; there is nothing to learn. `Y` is GUDHI's name for `y`."""
+        """Checks the parameters; there is nothing to learn. `Y` is GUDHI's name for `y`."""
         self._dims()
         return self
 
@@ -53,7 +53,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
                 for dim in np.atleast_1d(np.asarray(self.homology_dimensions)).tolist()]
 
     def _input(self, x: Any) -> Any:
-        """What the function takes."""
+        """The arguments of the function."""
         raise NotImplementedError
 
     def _keywords(self) -> dict[str, Any]:
@@ -74,19 +74,19 @@ class RipsPersistence(_DiagramsOfEach):
     Parameters
     ----------
     homology_dimensions : int or list of int
-        Of one dimension each sample has a diagram, of a list a list.
+        With one dimension, each sample has a diagram; with a list, a list of diagrams.
     threshold : float
-        The largest distance at which points are joined; not of a "distance coo_matrix".
+        The largest distance at which points are joined; not for a "distance coo_matrix".
     input_type : {"point cloud", "full distance matrix", "lower distance matrix", \
 "distance coo_matrix"}
-        What each sample is. Of a lower matrix the upper triangle is not read; a sparse one has each
-        pair once.
+        The kind of each sample. The upper triangle of a lower matrix is not read; a sparse matrix
+        has each pair once.
     num_collapses : int or "auto"
-        0: edges are not collapsed; above: they are.
+        0: edges are not collapsed; above 0: they are.
     homology_coeff_field : int
         A prime.
     n_jobs : int, optional
-        Samples at a time, as of joblib.
+        Number of samples processed at a time, as in joblib.
     """
 
     _function = staticmethod(rips)
@@ -119,7 +119,7 @@ class RipsPersistence(_DiagramsOfEach):
 
 
 def _lower(x: Any) -> NDArray[np.float64]:
-    """The square of a matrix's lower triangle, or of its rows."""
+    """A square matrix from a lower triangle, or from its rows."""
     n = len(x)
     square = np.zeros((n, n))
     for i in range(n):
@@ -135,15 +135,15 @@ class CubicalPersistence(_DiagramsOfEach):
     Parameters
     ----------
     homology_dimensions : int or list of int
-        Of one dimension each sample has a diagram, of a list a list.
+        With one dimension, each sample has a diagram; with a list, a list of diagrams.
     input_type : {"top_dimensional_cells", "vertices"}
-        What the values belong to.
+        The cells that the values belong to.
     homology_coeff_field : int
         A prime.
     min_persistence : float
-        Bars with death - birth <= this are left out; below 0: none are.
+        Bars with death - birth <= this value are left out; a negative value keeps all bars.
     n_jobs : int, optional
-        Samples at a time, as of joblib.
+        Number of samples processed at a time, as in joblib.
     """
 
     _function = staticmethod(cubical)

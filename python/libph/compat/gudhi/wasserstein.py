@@ -24,24 +24,24 @@ def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 
     X, Y : array_like
         Rows birth, death.
     matching : bool
-        Whether the matching is returned, too.
+        If True, the matching is returned as well.
     order : float
         p: at least 1, finite.
     internal_p : float
-        The norm in which a pair is apart, at least 1.
+        The norm that measures a pair, at least 1.
     enable_autodiff : bool
         Not built in.
     keep_essential_parts : bool
-        Whether bars that never die count.
+        If True, bars that never die count.
 
     Returns
     -------
     float or (float, ndarray)
-        Rows of the matching: place in `X`, place in `Y`; -1 is the diagonal. None in its place if
-        the distance is infinite.
+        The matching has rows of an index in `X` and an index in `Y`; -1 is the diagonal. It is None
+        if the distance is infinite.
     """
     if _options.flag("enable_autodiff", enable_autodiff):
-        raise NotBuiltIn("enable_autodiff: libph gives numbers alone; GUDHI has it")
+        raise NotBuiltIn("enable_autodiff: libph returns only numbers; GUDHI has it")
     _check_width(X, Y)
     if not 1 <= _options.real("order", order) < math.inf:
         raise _options.refuse("order", order, "a finite number of at least 1")
@@ -54,6 +54,6 @@ def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 
         return found.distance
     if math.isinf(found.distance):
         return found.distance, None
-    # Places of all bars; the last number stands for the diagonal, whose place is -1.
+    # Indices of all bars; the last number stands for the diagonal, whose index is -1.
     places = [np.append(kept[side], -1)[found.pairs[:, side]] for side in (0, 1)]
     return found.distance, np.column_stack(places)

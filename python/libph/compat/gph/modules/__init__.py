@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts of giotto-ph's compiled modules that other code imports."""
+"""The parts of giotto-ph's compiled modules that other code imports."""
 from . import gph_collapser, gph_ripser
 
 __all__ = ["gph_collapser", "gph_ripser"]

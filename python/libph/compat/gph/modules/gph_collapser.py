@@ -17,14 +17,14 @@ Edges = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]]
 
 def flag_complex_collapse_edges_coo(row: ArrayLike, column: ArrayLike, data: ArrayLike,
                                     thresh: float = np.inf) -> Edges:
-    """Fewer edges with the same bars, of the edges above the diagonal.
+    """Collapses the edges above the diagonal: fewer edges with the same bars.
 
     Parameters
     ----------
     row, column, data : array_like
-        The ends of edges, and their values.
+        The two ends and the values of the edges.
     thresh : float
-        The largest value that is kept.
+        The largest value to keep.
 
     Returns
     -------
@@ -46,14 +46,14 @@ def flag_complex_collapse_edges_coo(row: ArrayLike, column: ArrayLike, data: Arr
 
 
 def flag_complex_collapse_edges_dense(dm: ArrayLike, thresh: float = np.inf) -> Edges:
-    """The same of a matrix: of its entries above the diagonal.
+    """The same for the entries above the diagonal of a matrix.
 
     Parameters
     ----------
     dm : array_like
         A square matrix of values.
     thresh : float
-        The largest value that is kept.
+        The largest value to keep.
 
     Returns
     -------

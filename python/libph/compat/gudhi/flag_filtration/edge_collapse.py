@@ -15,24 +15,24 @@ __all__ = ["reduce_graph"]
 
 
 def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
-    """Fewer edges with the same bars.
+    """Collapses edges: fewer edges with the same bars.
 
     Parameters
     ----------
     input_edges : scipy.sparse.coo_matrix
         Each edge once, in either triangle, with its value, of any sign.
     nb_iterations : int
-        How often GUDHI collapses. libph goes on for as long as it helps.
+        The number of GUDHI's rounds. libph continues as long as it helps.
 
     Returns
     -------
     scipy.sparse.coo_matrix
-        Of the same type of numbers.
+        The remaining edges, with the same number type.
 
     Raises
     ------
     DataError
-        If a value is NaN, or an edge has two.
+        If a value is NaN, or an edge has two values.
     """
     from scipy.sparse import coo_matrix
     _options.whole("nb_iterations", nb_iterations, 0)
@@ -49,7 +49,7 @@ def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
     is_edge = row != column
     i, j, values = unique_pairs(row[is_edge], column[is_edge], values[is_edge], 0.0, None, "",
                                 "input_edges")
-    # libph has no values below 0. What is collapsed depends on their order alone.
+    # libph has no negative values. The collapse depends only on the order of values.
     levels, ranks = np.unique(values, return_inverse=True)
     size = max(edges.shape)
     found = collapse(coo_matrix((ranks.astype(np.float64), (i, j)), shape=(size, size)))
