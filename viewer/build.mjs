@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bundles the page into one template, build/report-template.html: script, style and their hashes
-// in the policy are fixed here, and the programs put a payload where the marker stands. Beside it,
-// report-template.inputs lists all files that are in it, also those of npm packages.
-// node build.mjs [output folder]
+// Bundles the page into one template, build/report-template.html: script, style and their hashes in
+// the policy are fixed here, and the programs put a payload where the marker stands. Beside it,
+// report-template.inputs lists all files in the page, including files of npm packages. node
+// build.mjs [output folder]
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
@@ -12,8 +12,8 @@ import { build } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2] ?? join(here, "build");
 
-// three.js as it is written, not as its authors have bundled it: what is in the page has its source in
-// report-template.inputs.
+// Uses the sources of three.js, not its authors' bundle, so that report-template.inputs lists the
+// source of everything in the page.
 const asWritten = {
   name: "as-written",
   setup(steps) {
@@ -45,7 +45,7 @@ const code = await bundle("src/page/main.ts", {
   target: "es2022",
   legalComments: "inline",
 });
-// The licences of the packages that are in it: a copy of the page is a copy of them.
+// The licences of the packages in the page: a copy of the page is a copy of these packages.
 const folders = [...inputs].map((path) => /^node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]);
 const notices = [...new Set(folders)].filter(Boolean).sort().map((folder) => {
   const { name, version } = JSON.parse(readFileSync(join(here, folder, "package.json"), "utf8"));
@@ -59,7 +59,7 @@ for (const [what, text, end] of [
 ])
   if (text.toLowerCase().includes(end)) throw new Error(`the ${what} contains its own end tag`);
 
-// Says which sources the page belongs to; libreport/ready_page.cmake computes it, too.
+// Identifies the sources of the page; libreport/ready_page.cmake computes the same value.
 const digest = (text) => createHash("sha256").update(text).digest("hex");
 const sources = readdirSync(join(here, "src"), { recursive: true, withFileTypes: true })
   .filter((entry) => entry.isFile())

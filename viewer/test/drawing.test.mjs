@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn where, without a browser: dots that are fanned out, lines of a matching.
+// Tests drawing positions without a browser: fanned-out dots, lines of a matching.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
@@ -66,7 +66,7 @@ test("elsewhere dots lie around their place", () => {
   assert.deepEqual(of(Array.from({ length: 30 }, (_, i) => i)), [{ x: 100, y: 100, count: 30 }]);
 });
 
-/// The lines that a matching is drawn with. @param bars [birth, death] of each barcode.
+/// The lines of a drawn matching. @param bars [birth, death] of each barcode.
 function linesOf(barcodes, pairs) {
   const columns = barcodes.map((bars) => ({
     dim: new Uint8Array(bars.length).fill(1),
@@ -163,7 +163,7 @@ test("a mesh stands along y, a relief along z, either on a flat base if it has o
   assert.deepEqual(upOf([1, 1.2, 0.9], { isMesh }).toArray(), [0, 1, 0]);
   assert.deepEqual(upOf([1, 1.2, 0.2], { isMesh }).toArray(), [0, 0, 1]);
   assert.deepEqual(upOf([1, 1.2, 0.9]).toArray(), [0, 0, 1], "points");
-  // A fifth of the vertices lie right at the lower end of x.
+  // A fifth of the vertices lie exactly at the lower end of x.
   const positions = Float32Array.from({ length: 3000 }, (_, i) =>
     i % 15 === 0 ? 0 : next(),
   );
@@ -180,7 +180,7 @@ test("numbers keep apart, larger ones more", () => {
   assert.ok(!small.take(3, 0, "7"));
 });
 
-/// Marks that a diagram or a barcode draws over itself. @param fields of the chart.
+/// Marks that a diagram or a barcode draws over its bars. @param fields of the chart.
 async function drawnOver(module, name, fields) {
   const { [name]: Chart } = await importSource(module);
   const marks = [];
@@ -275,7 +275,7 @@ test("a dimension with few bars has high rows beside one with many", async () =>
   assert.ok(heights[0] >= 9 && heights[1] >= 2.5, `${heights}`);
   const strips = rows[1] < 96 ? 12 : 0;
   assert.ok(rows[0] * heights[0] + rows[1] * heights[1] + strips <= 270);
-  // Where there is room for all of them they are equally high.
+  // If there is room for all rows, they are equally high.
   assert.deepEqual(layOut([2, 10], [2, 10], 270), { rows: [2, 10], heights: [14, 14], row: 14 });
 });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which bars stand out, and the sentence about them: the criterion of
+// Tests which bars stand out, and the sentence about them: the criterion of
 // docs/reference/report.md, case by case.
 import assert from "node:assert/strict";
 import test from "node:test";
@@ -33,12 +33,12 @@ const noise = (dim, lengths, birth = 0.1) => lengths.map((length) => [dim, birth
 test("the widest gap", () => {
   assert.deepEqual(widestGap([8, 2, 1]), { count: 1, ratio: 4 });
   assert.deepEqual(widestGap([8, 7, 1, 0.9]), { count: 2, ratio: 7 });
-  // Far below the longest bar gaps are chance.
+  // Far below the longest bar, gaps occur by chance.
   assert.deepEqual(widestGap([10, 6, 5, 4, 0.5, 0.001]), { count: 4, ratio: 8 });
   assert.deepEqual(widestGap([10, 9, 8, 7, 6, 0.9, 1e-9]), { count: 5, ratio: 6 / 0.9 });
   assert.deepEqual(widestGap([3]), { count: 1, ratio: Infinity });
   assert.deepEqual(widestGap([3, 3]), { count: 2, ratio: Infinity });
-  // Of so few all may stand out, unless the gap is much wider than chance makes it.
+  // Of so few bars, all may stand out, unless the gap is much wider than chance.
   assert.deepEqual(widestGap([3, 1]), { count: 2, ratio: Infinity });
   assert.deepEqual(widestGap([3, 0.5]), { count: 1, ratio: 6 });
   assert.deepEqual(widestGap([3, 1], 1), { count: 1, ratio: 3 });
@@ -89,7 +89,7 @@ test("noise of a higher dimension is no finding", () => {
     const { dim } = finding([...loop, ...noise(2, voids, 1)]);
     assert.equal(dim, 1, `${voids}`);
   }
-  // One alone has nothing below it to stand out from.
+  // A single bar has nothing below it to stand out from.
   assert.equal(finding([[0, 0, kNever], [1, 0, 1], ...noise(1, [0.1, 0.1, 0.1]), [2, 0.5, 0.65]]).dim, 1);
   // Nothing but one short bar.
   const { bars, sentence } = finding([[0, 0, kNever], [1, 1, 1.05]]);
@@ -126,7 +126,7 @@ test("honest where nothing stands out", () => {
   assert.ok(outstanding < 10, `${outstanding} of 200`);
 });
 
-/// A tree of which a cut leaves as many basins as have a level above it, and the oldest one.
+/// A tree in which a cut leaves the basins with a level above it, and the oldest one.
 function treeOf(levels, rule = "persistence") {
   const cut = (at) => ({ segments: [0, ...levels.filter((level) => level >= at)] });
   return { arrays: { rule, levels: Float64Array.from(levels) }, cut };
@@ -145,9 +145,9 @@ test("where nothing stands out the sentence names the gap that the page cuts at"
   );
   assert.ok(found.components, "the cut is open");
   assert.deepEqual(found.bars, []);
-  // Of points nothing is said of components where there are loops.
+  // For points with loops, components are not mentioned.
   assert.ok(!finding(bars, { tree: treeOf(levels) }).components);
-  // All levels alike: the cut has nothing to say.
+  // All levels are equal: the cut carries no information.
   const fives = [5, 5, 5, 5, 5];
   const more = { image: {}, tree: treeOf(fives) };
   const alike = finding([[0, 0, kNever], ...noise(0, fives, 0)], more);
@@ -166,7 +166,7 @@ test("components: one is always there, several are a finding", () => {
   assert.ok(!finding([[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]).components);
   const begun = finding([[0, -Infinity, 3]]);
   assert.equal(begun.sentence, "One component has no beginning: [−∞, 3).");
-  // So many are said, but not selected.
+  // So many bars are mentioned, but not selected.
   const dust = finding(Array(70_001).fill([0, 0, kNever]));
   assert.deepEqual([dust.sentence, dust.bars], ["70,001 components never merge.", []]);
 });
@@ -179,13 +179,14 @@ test("beyond the threshold nobody has looked", () => {
     finding(negated, { threshold: -2.5, value: { negated: true } }).sentence,
     /^Two components are apart down to 2\.5/,
   );
-  // Alive at 1, and known to be 0.9, 0.3 long: both may be longer, so that no gap is between them.
+  // Alive at 1, and known to be 0.9 and 0.3 long: both may be longer, so that there is no gap
+  // between them.
   const loops = [[0, 0, kNever], [1, 0.1, kNever], [1, 0.7, kNever], ...noise(1, [0.1, 0.1, 0.09, 0.08])];
   assert.equal(
     finding(loops, { threshold: 1 }).sentence,
     "Two loops stand out: the shorter, [0.7, ∞), is at least 3.0 times as long as the next.",
   );
-  // The gap is among the dead ones, whose lengths are known.
+  // The gap is among dead bars, whose lengths are known.
   const dead = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.6, 0.05, 0.05, 0.04, 0.04])];
   assert.equal(
     finding(dead, { threshold: 1 }).sentence,
@@ -214,7 +215,7 @@ test("bars that never end", () => {
   // Alive where the complex was cut: at least that long.
   const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
   assert.equal(finding(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
-  // Born right before the cut: nothing is known of it.
+  // Born right before the cut: nothing is known about its length.
   assert.deepEqual(finding([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
 });
 
@@ -231,7 +232,7 @@ test("the void of a closed surface leads only if there is nothing else", () => {
   const legs = [[0, -2, 2], [0, -2, 1.9], ...noise(0, [0.2, 0.1, 0.1, 0.1], 0)];
   const last = /^Three components stand out.* One void stands out, too\.$/;
   assert.match(finding([...sphere, ...legs]).sentence, last);
-  // One that ends is a hollow of the values, no matter of course.
+  // A void that ends is a hollow of the values, which is not trivial.
   assert.match(finding([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);
 });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a reader sees before the first click: the finding, a cloud without holes whose back is
-// hidden, an image as it is, panels that say something, all of it on a telephone.
+// Tests what a reader sees before the first click: the finding, a cloud without holes whose back is
+// hidden, an unchanged image, informative panels, all of it also on a phone.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { barArrays, metaOf } from "./support/fixture_parts.mjs";
@@ -86,7 +86,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     assert.equal(await selection(first.page), "nothing selected");
     const hash = new URL(first.page.url()).hash;
     await first.page.click(".finding button");
-    // The button is gone; the keyboard goes on from the bars.
+    // The button is gone; keyboard focus continues from the bars.
     assert.ok(await first.page.evaluate(() => document.activeElement.matches(".diagram canvas")));
     await frame(first.page);
     assert.match(await selection(first.page), /^H₂/);
@@ -160,7 +160,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const front = vividPixels(pixels, 40, kBlue),
       back = vividPixels(pixels, 40, kOrange);
     assert.ok(front > 30_000 && back < front / 500, `${front} and ${back} pixels`);
-    // Nor does the number of what is behind.
+    // The number of the segment behind is hidden as well.
     await page.evaluate(() => (location.hash = "colour=segment"));
     await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 1);
     await page.focus(".stage canvas");
@@ -181,7 +181,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     await page.mouse.move(2, 2);
     await frame(page);
     assert.match(await selection(page), /^H₀/);
-    // Its branch has its number: nothing but what is over the chart is drawn anew.
+    // Its branch has its number: only the overlay of the chart is redrawn.
     await page.keyboard.press("Escape");
     await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 0);
     await page.evaluate(() => {
@@ -273,7 +273,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const words = [...svg.matchAll(/<text [^>]*>([^<]*)</g)].map(([, text]) => text);
     assert.ok(words.includes(await page.textContent(".finding span")));
     for (const row of rows) assert.ok(words.filter((w) => w === row).length >= 4, `${row} in legend, data, charts`);
-    // What the reader folds stays so.
+    // A panel that the reader folds stays folded.
     await page.click(".tree .fold");
     await page.selectOption(".data select", "persistence");
     await frame(page);

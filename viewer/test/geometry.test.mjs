@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn in space, held to slow ways to find the same.
+// Tests geometry in space against slow methods with the same results.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";

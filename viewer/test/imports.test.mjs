@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rooms of src/ as the table in README.md has them. A room imports only what its row names, a
+// Tests the rooms of src/ against the table in README.md. A room imports only what its row names, a
 // row names only rows above it and npm packages, no module needs itself (types included), and no
 // folder has more than 20 files.
 import assert from "node:assert/strict";
@@ -19,14 +19,14 @@ function filesIn(folder) {
   );
 }
 
-/// What each room knows, in the order of the table.
+/// The rooms that each room may import, in the order of the table.
 function roomsOf(table) {
   const rows = [...table.matchAll(/^\| `(\w+)\/` \|.*\|([^|]*)\|$/gm)];
   const names = (knows) => knows.match(/\w+/g).filter((word) => word !== "nothing");
   return new Map(rows.map(([, room, knows]) => [room, names(knows)]));
 }
 
-/// What a module imports: modules as "charts/axis", packages as "three".
+/// The imports of a module: modules as "charts/axis", packages as "three".
 function importsOf(module, text) {
   const found = text.matchAll(/\b(?:from|import)\s*\(?\s*["']([^"']+)["']/g);
   return [...found].map(([, to]) =>
@@ -34,7 +34,7 @@ function importsOf(module, text) {
   );
 }
 
-/// A way from a module back to itself; empty: there is none.
+/// A cycle of imports from a module to itself; empty if there is none.
 function cycle(imports) {
   const done = new Set();
   const search = (module, path) => {
@@ -54,7 +54,7 @@ function cycle(imports) {
   return [];
 }
 
-/// @param imports of each module of src/, `rooms` what each room knows.
+/// @param imports of each module of src/, `rooms` the rooms that each may import.
 function faultsOf(imports, rooms, packages) {
   const faults = [];
   const order = [...rooms.keys()];

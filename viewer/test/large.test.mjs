@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is large stays usable: bars, leaves, points. Sizes and times.
+// Tests that large reports stay usable: sizes and times of many bars, leaves, points.
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";

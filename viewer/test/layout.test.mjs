@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where panels, controls and words stand, at any width and on any screen.
+// Tests the positions of panels, controls and words, at any width and on any screen.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { barArrays, byOrder, metaOf } from "./support/fixture_parts.mjs";
@@ -12,7 +12,7 @@ import { scene } from "./support/scene_fixture.mjs";
 
 const kWidths = [320, 390, 620, 761, 768, 809, 900, 1024, 1153, 1280, 2560];
 
-/// The values of a report of distances as others, and minus these at the axes.
+/// The values of a report of distances, and their negatives at the axes.
 function elsewhere({ meta, arrays }, valueOf) {
   const isValue = (name) => /\/(birth|death|leaf_birth|merge_value|merge_level)$/.test(name);
   const moved = Object.entries(arrays).map(([name, values]) => [
@@ -168,7 +168,7 @@ test("layout", { timeout: 200_000 }, async (t) => {
     const phone = { width: 390, height: 844, touch: true };
     const { page, close } = await open(browser, treeOnly(), phone);
     const session = await page.context().newCDPSession(page);
-    // The page goes on for a while once the finger has left it.
+    // The page continues to scroll for a while after the finger has left it.
     const atRest = async () => {
       for (let last = NaN, still = 0, tries = 0; ; ++tries) {
         const now = await page.evaluate(() => scrollY);

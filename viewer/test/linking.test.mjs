@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is brought out or selected in one view is so in all; the slider cuts as the programs do;
-// what is exported is what was selected.
+// Tests that highlights and selections of one view appear in all, that the slider cuts like the
+// programs, and that the selection is what is exported.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { image } from "./support/image_fixture.mjs";
@@ -136,7 +136,7 @@ test("linked views", { timeout: 300_000 }, async (t) => {
     assert.equal(await again.page.inputValue(".data select"), "plain");
     assert.equal(await again.page.getAttribute("html", "data-theme"), "dark");
     assert.match(await selection(again.page), /^3 bars selected/);
-    // What another address does not name is as at first.
+    // State that another address does not name has its default.
     await again.page.evaluate(() => (location.hash = "bars=2-4,7&hide=0"));
     await again.page.waitForFunction(() => document.documentElement.dataset.theme === "light");
     assert.match(await selection(again.page), /^4 bars selected/);
@@ -274,7 +274,7 @@ async function cutOfAScene(t, browser) {
     const all = report.answer.points.reduce((a, b) => a + b, 0) + support + wall;
     assert.ok(all <= report.vertexOfPoint.length && all > 0.99 * report.vertexOfPoint.length);
     await page.mouse.move(2, 2);
-    // Paler than any segment: what is vivid, too, is taken off.
+    // Paler than any segment: vivid pixels are subtracted as well.
     const tints = async () => {
       const pixels = await pixelsOf(page, ".stage");
       const pale = (colour) => vividPixels(pixels, 10, colour) - vividPixels(pixels, 40, colour);

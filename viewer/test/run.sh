@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs a test of the page for CTest: run.sh FILE [ARGUMENTS]. Exit code 77, with the reason, where a
-# tool that it needs is missing.
+# Runs a test of the page for CTest: run.sh FILE [ARGUMENTS]. Exit code 77, with the reason, if a
+# required tool is missing.
 set -eu
 here=${0%/*}
 skip() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cuts of the page are the program's: every label of every vertex, ties included.
+// Tests that the cuts of the page equal the program's: every label of every vertex, including ties.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { contracted, cutOf, mergeTree } from "./support/reference_tree.mjs";
@@ -63,7 +63,7 @@ for (const rule of ["persistence", "value"])
           `seed ${seed} cut ${cut}`,
         );
         const labels = Array.from(arrays["points/leaf"], (leaf) => found.labelOfLeaf[leaf] ?? 0);
-        // Of a leaf that has entered later than the cut nothing is known inside: only from 0 up.
+        // Nothing is known inside a leaf that enters after the cut: only from 0 up.
         if (rule === "value" && from > 0) continue;
         assert.deepEqual(labels, [...expected.labels], `seed ${seed} cut ${cut}`);
       }
@@ -105,7 +105,7 @@ test("branches nest, and no drawing crosses", () => {
       if (parent === 0xffffffff) continue;
       assert.ok(page.rank[parent] < page.rank[branch] && page.end[branch] <= page.end[parent]);
       assert.ok(page.death(parent) >= page.death(branch));
-      // What stands between a branch and the one it merges into merges no later.
+      // Branches between a branch and the one it merges into merge no later.
       for (let r = page.rank[parent] + 1; r < page.rank[branch]; ++r)
         assert.ok(page.death(page.order[r]) <= page.death(branch));
     }
@@ -143,7 +143,7 @@ test("what lies on a plane is no segment, at every cut", () => {
     const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0);
     const { arrays, leafOf } = contracted(tree, vertexOfPoint, { rule: "persistence" });
     const next = random(seed + 1000);
-    // Two planes; of each component the first one counts that has enough of it.
+    // Two planes; for each component, the first plane with enough of its vertices counts.
     const on = [0, 1].map(() => Uint8Array.from(tree.births, () => Number(next() < 0.7)));
     const counts = new Uint32Array(2 * arrays["tree/leaf_birth"].length);
     leafOf.forEach((leaf, v) => [0, 1].forEach((p) => (counts[2 * leaf + p] += on[p][v])));
@@ -176,7 +176,7 @@ test("what lies on a plane is no segment, at every cut", () => {
   }
 });
 
-/// By vertex the root that cutOf names its component by.
+/// For each vertex, the root by which cutOf names its component.
 function vertices(tree, cut) {
   const parent = [...tree.births.keys()];
   const find = (v) => {
@@ -204,7 +204,7 @@ test("300 000 leaves are cut at once", (t) => {
   );
   page.cut(0.5);
   const times = [0.3, 0.5, 0.7].map((cut) => {
-    const start = process.cpuUsage(); // of this process: others may keep the machine busy
+    const start = process.cpuUsage(); // time of this process, because others may keep the machine busy
     page.cut(cut);
     const { user, system } = process.cpuUsage(start);
     return (user + system) / 1000;

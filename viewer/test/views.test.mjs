@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every made-up report in headless Chromium: each view shows something, no console error, no
-// request, no dialog. Screenshots go to the folder that PICTURES names.
+// Opens every synthetic report in headless Chromium: each view shows something, without console
+// errors, requests or dialogs. Screenshots go to the folder that PICTURES names.
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
@@ -189,7 +189,7 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.equal(await row.locator("output").textContent(), "5");
     await row.locator("select").selectOption("1");
     await page.waitForFunction(() => location.hash.includes("slice=1,5"));
-    // The other slice is seen from where the address says, not from its front.
+    // The other slice is seen from the place in the address, not from its front.
     const view = "view=30,9,40,5,-4,4,1";
     await page.evaluate((v) => (location.hash = `slice=0,3&${v}`), view);
     await frame(page);

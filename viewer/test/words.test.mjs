@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers as the page says them: enough digits, those of the programs where files are written; and
-// the steps of the cut.
+// Tests numbers on the page: enough digits, the programs' digits in written files; and the steps of
+// the cut.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
@@ -99,7 +99,7 @@ test("the slider of the cut stays within its ends, and each step moves it", () =
   }
 });
 
-// Points that are left out have numbers, too.
+// Points that are left out also have numbers.
 test("the loop through a point is found by its number in the input", () => {
   const bars = new Bars(
     [{ dim: Uint8Array.of(1), birth: Float64Array.of(1), death: Float64Array.of(2) }],

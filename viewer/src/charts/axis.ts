@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From values to pixels, with ticks at round numbers. Very large and very small values share one
-// power of ten, which stands beside the name of the axis.
+// Maps values to pixels, with ticks at round numbers. Very large and very small values share one
+// power of ten, which is shown beside the name of the axis.
 import { superscript } from "../common/number_format";
 import { textWidth } from "./pen";
 
@@ -11,9 +11,10 @@ export interface Tick {
 
 export const kLabelSize = 10.5,
   kLeastLeft = 50;
-const kTitle = 24; // wide, with what is empty beside the labels
+const kTitle = 24; // width, including the space beside the labels
 
-/// From the left edge to an upright axis: there is room for its labels and its title.
+/// The distance from the left edge to a vertical axis, which leaves room for its labels and its
+/// title.
 export function leftOf(ticks: Tick[]): number {
   return Math.ceil(Math.max(kLeastLeft, kTitle + widest(ticks)));
 }
@@ -32,7 +33,7 @@ export class Axis {
     high: number,
     readonly from: number,
     readonly to: number,
-    private readonly negated = false, // its labels are minus the values
+    private readonly negated = false, // its labels show minus the values
   ) {
     const largest = Math.max(Math.abs(low), Math.abs(high));
     if (largest > 0) {
@@ -58,7 +59,7 @@ export class Axis {
     const half = Math.trunc(this.exponent / 2);
     return (this.low + part * (this.high - this.low)) * 10 ** half * 10 ** (this.exponent - half);
   }
-  /// ×10⁻⁵, or nothing.
+  /// The common power of ten, such as ×10⁻⁵, or nothing.
   get unit(): string {
     return this.exponent === 0 ? "" : "×10" + superscript(this.exponent);
   }
@@ -82,7 +83,8 @@ export class Axis {
   }
 
   private inUnits(value: number): number {
-    // In two steps: a power of ten beyond 10^±308 is not a double, half of it is.
+    // In two steps, because a power of ten beyond 10^±308 is not a double, but one with half the
+    // exponent is.
     const half = Math.trunc(this.exponent / 2);
     return value / 10 ** half / 10 ** (this.exponent - half);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts whose items are bars: diagram and barcode. Keyboard, table and description are the same.
+// Charts whose items are bars: diagram and barcode. They share keyboard, table and description.
 import { Chart } from "./chart";
 import { table } from "../common/dom";
 import { counted, homology, short } from "../common/number_format";
@@ -8,7 +8,7 @@ import type { Session } from "../model/session";
 
 const kMostRows = 500;
 
-/// "H₁ [0.5, 2.25), persistence 1.75", with its barcode where there are two.
+/// "H₁ [0.5, 2.25), persistence 1.75", with its barcode if there are two.
 export function nameOfBar(session: Session, bar: number): string {
   const { bars, meta } = session.report;
   const of = meta.barcodes.length > 1 ? `, ${meta.barcodes[bars.barcodeOf(bar)]!.name}` : "";
@@ -16,9 +16,9 @@ export function nameOfBar(session: Session, bar: number): string {
 }
 
 export abstract class BarChart extends Chart {
-  private current = -1; // place among the shown bars, by persistence
+  private current = -1; // index among the shown bars, by persistence
 
-  /// Of the dimensions that are shown, the most persistent first.
+  /// The bars of the shown dimensions, the most persistent first.
   protected shownBars(most: number): Uint32Array {
     const { bars } = this.session.report,
       hidden = this.session.hiddenDims.size > 0;

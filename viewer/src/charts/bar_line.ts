@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bar of the barcode as it is drawn: a line, an arrow if it never ends, its number at its end.
+// Draws a bar of the barcode: a line, an arrow if it never ends, and its number at its end.
 import type { Pen } from "./pen";
 
 export interface Item {
@@ -11,7 +11,7 @@ export interface Item {
   endless: boolean; // an arrow follows
 }
 
-export const kNumber = 9.5, // size of text
+export const kNumber = 9.5, // text size
   kRowOfFew = 9;
 const kThinRow = 5;
 
@@ -21,12 +21,12 @@ export function thicknessOf(row: number): number {
 function arrowOf({ row }: Item): number {
   return Math.min(5, Math.max(2.5, row / 2));
 }
-/// How far a bar goes beyond its end: by an arrow, if it never ends.
+/// The length that a bar extends beyond its end: an arrow, if it never ends.
 export function reachOf(item: Item): number {
   return item.endless ? 1.6 * arrowOf(item) : 0;
 }
 
-/// One bar. @param edge by which it is larger on all sides, its arrow, too.
+/// Draws one bar. @param edge widens the bar and its arrow on all sides.
 export function drawLine(pen: Pen, item: Item, thick: number, colour: string, edge = 0): void {
   const { x1, x2, y, row } = item;
   const middle = y + row / 2;
@@ -38,7 +38,7 @@ export function drawLine(pen: Pen, item: Item, thick: number, colour: string, ed
   pen.polygon(corners, colour, 1, edge > 0 ? colour : "none", 2 * edge);
 }
 
-/// A bar with an outline, both within its row: it covers no other bar.
+/// A bar with an outline, both within its row, so that it covers no other bar.
 export function drawChosen(pen: Pen, item: Item, colour: string, outline: string): void {
   const edge = item.row > kRowOfFew ? 1.5 : 1;
   const thick = Math.max(1, Math.min(0.75 * item.row, item.row - 2 * edge));
@@ -46,7 +46,7 @@ export function drawChosen(pen: Pen, item: Item, colour: string, outline: string
   drawLine(pen, item, thick, colour);
 }
 
-/// Bars whose numbers would lie on each other, together.
+/// Groups of bars whose numbers would overlap.
 export function closeTogether(items: Item[]): Item[][] {
   const groups: Item[][] = [];
   for (const item of items) {
@@ -57,7 +57,7 @@ export function closeTogether(items: Item[]): Item[][] {
   return groups;
 }
 
-/// "2, 3, 4", or, in less room, "2, 3, …". @param room letters.
+/// "2, 3, 4" or, with less room, "2, 3, …". @param room in letters.
 export function asManyAsFit(numbers: number[], room: number): string {
   for (let count = numbers.length; count > 0; --count) {
     const text = [...numbers.slice(0, count), ...(count < numbers.length ? ["…"] : [])].join(", ");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The barcode: a line a bar, one band a dimension, two barcodes side by side. Where there are more
-// bars than rows the most persistent ones have a row and the others are a strip: darker where more
-// of them live.
+// The barcode: one line per bar, one band per dimension, two barcodes side by side. If there are
+// more bars than rows, the most persistent ones have a row, and the others form a strip that is
+// darker where more of them are alive.
 import { Axis, kLabelSize } from "./axis";
 import { BarChart } from "./bar_chart";
 import {
@@ -29,21 +29,21 @@ const kLeft = 34,
   kGap = 10,
   kRowsOfNoNote = 12,
   kDigit = 5.5,
-  kMostRedrawn = 50_000; // bars; more are not drawn anew at each cut
+  kMostRedrawn = 50_000; // number of bars up to which they are redrawn at each cut
 
 interface Band {
   dim: number;
   barcode: number;
-  bars: Uint32Array; // that have a row, in the order of the barcode: by birth
+  bars: Uint32Array; // bars with a row, in the order of the barcode: by birth
   rest: Uint32Array;
 }
 
 export class Barcode extends BarChart {
   protected redrawsOn: Change[] = ["dims", "colour"];
   private items: Item[] = [];
-  private rowsFor: Map<number, string> | undefined; // bars that had to have a row
+  private rowsFor: Map<number, string> | undefined; // bars that must have a row
   private axes: Axis[] = [];
-  private readonly right: number; // room for arrows, and for numbers if bars may have some
+  private readonly right: number; // room for arrows, and for numbers if bars have them
 
   constructor(session: Session) {
     super(session, "barcode", "Barcode", "");
@@ -122,8 +122,8 @@ export class Barcode extends BarChart {
       if (colour) drawLine(pen, item, Math.max(1.5, thicknessOf(item.row)), colour);
     }
   }
-  /// After all bars, none of which may lie on them. Neighbours whose rows are lower than a number
-  /// have one text, at the end of the longest of them.
+  /// Drawn after all bars, so that no bar covers them. Neighbours whose rows are lower than a
+  /// number share one text, at the end of the longest bar.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers();
     const numbered = this.items.filter((item) => numbers.has(item.bar));
@@ -157,7 +157,8 @@ export class Barcode extends BarChart {
     const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
-    // Components that say nothing leave the room to the others; those with colours say something.
+    // Components without information leave the room to the others; coloured components carry
+    // information.
     const few = this.session.finding.dim !== 0;
     const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
@@ -197,7 +198,7 @@ export class Barcode extends BarChart {
     };
   }
 
-  /// Bars of segments: they have a row, however many others are as long.
+  /// Bars of segments always have a row, however many other bars are as long.
   private wanted(dim: number, barcode: number): number[] {
     return dim === 0 && barcode === 0 ? [...this.session.tintedBars().keys()] : [];
   }

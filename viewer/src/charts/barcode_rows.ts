@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// How the barcode shares its height: rows of each dimension, and which bars have one.
+// Divides the height of the barcode: the rows of each dimension, and the bars that get one.
 import { kRowOfFew } from "./bar_line";
 
-export const kStrip = 12; // height of what stands for the bars without a row
+export const kStrip = 12; // height of the strip for bars without a row
 const kLeastRow = 2.5,
   kMostRow = 14,
-  kFewBars = 6; // of a dimension that has higher rows where the others are thin
+  kFewBars = 6; // bars of a dimension that keeps higher rows when others are thin
 
-/// So many rows fill the room.
+/// The number of rows that fill the room.
 export function rowsIn(room: number): number {
   return Math.floor(room / kMostRow);
 }
 
-/// How many rows each dimension has, and how high they are: where all of them are thin, those of a
-/// dimension with few bars are not.
+/// The number and the height of the rows of each dimension. If rows are thin, a dimension with few
+/// bars keeps higher rows.
 export function layOut(
   counts: number[],
   wishes: number[],
@@ -35,7 +35,7 @@ export function layOut(
   return even.row >= kRowOfFew || needed > room / 2 ? even : share(isFew, needed);
 }
 
-/// Bars with a row, the last of them replaced by `most` of those that want one at most.
+/// The bars with a row; the last of them are replaced by at most `most` bars that need one.
 export function withRows(bars: Uint32Array, wanted: number[], most: number): Uint32Array {
   const present = new Set(bars),
     wants = new Set(wanted);
@@ -46,7 +46,7 @@ export function withRows(bars: Uint32Array, wanted: number[], most: number): Uin
   return result;
 }
 
-/// Shares rows among bands: none gets more than it needs, what is left over goes to the others.
+/// Shares rows among bands: none gets more than it needs, and the rest goes to the others.
 function shared(needs: number[], rows: number): number[] {
   const given = needs.map(() => 0);
   let open = needs.map((_, i) => i),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all charts have in common: a panel with a title, two canvases (the chart, and what changes
-// with the pointer), a table in place of the chart, and the keyboard.
+// The common base of all charts: a panel with a title, two canvases (the chart, and an overlay that
+// follows the pointer), a table that can replace the chart, and the keyboard.
 import { button, el, isOfBrowser, onResize, type Size } from "../common/dom";
 import { CanvasPen, type Pen } from "./pen";
 import type { Change, Session } from "../model/session";
@@ -35,17 +35,17 @@ export abstract class Chart {
     onResize(this.body, () => this.resize());
   }
 
-  /// Draws the chart, without what is selected or under the pointer.
+  /// Draws the chart, without the selection and the item under the pointer.
   abstract draw(pen: Pen, size: Size): void;
   protected abstract drawOver(pen: Pen): void;
   protected abstract redrawsOn: Change[];
   protected abstract makeTable(): HTMLTableElement;
   protected abstract describe(): string;
-  /// Moves the focus by some items; `extend`: selects what it passes, too.
+  /// Moves the focus by some items; with `extend`, also selects the items that it passes.
   protected abstract step(by: number, extend: boolean): void;
   protected abstract choose(how: "replace" | "toggle"): void;
 
-  /// Selected and focused items too: for pictures.
+  /// Also draws selected and focused items, for pictures.
   drawAll(pen: Pen, size: Size): void {
     this.draw(pen, size);
     this.drawOver(pen);

@@ -18,7 +18,7 @@ const kTitles = ["segments left at each cut (logarithmic)", "segments left at ea
 export class CutChart extends Chart {
   protected redrawsOn: Change[] = ["cut"];
   private readonly scale: CutScale;
-  readonly counts: number[]; // segments at each sample
+  readonly counts: number[]; // number of segments at each sample
   private readonly slider: HTMLInputElement;
   private readonly number: HTMLInputElement;
   private readonly outcome = el("output", { class: "outcome" });
@@ -85,7 +85,7 @@ export class CutChart extends Chart {
       height = size.height - kTop - kBottom;
     const few = Math.min(...this.counts),
       least = few > most / 4 ? 0.8 * few : 0;
-    // By logarithm: what matters are the few segments at the right.
+    // Logarithmic, because the few segments at the right matter.
     const y = (count: number) =>
       kTop +
       height * (1 - Math.log((count + 1) / (least + 1)) / Math.log((most + 1) / (least + 1)));
@@ -157,7 +157,7 @@ export class CutChart extends Chart {
       ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
-  /// What the program's answer has beyond a cut of the tree; empty: nothing.
+  /// The steps of the program's answer beyond a cut of the tree; empty if there are none.
   private note(): string {
     const { meta } = this.session.report;
     const { min_seam = 0, objects = false } = meta.scene ?? {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The persistence diagram: birth across, death up, infinity on a line of its own. Where bars are
-// many, their density and the most persistent ones. A lasso selects.
+// The persistence diagram: births on the horizontal axis, deaths on the vertical one, infinity on a
+// separate line. If there are many bars, it shows their density and the most persistent ones. A
+// lasso selects.
 import { Axis, kLabelSize, leftOf, type Tick, widest } from "./axis";
 import { BarChart } from "./bar_chart";
 import { drawDensity } from "./diagram_density";
@@ -23,7 +24,7 @@ const kRight = 14,
   kMinusInfinityRoom = 34;
 const kMostMarkers = 3000,
   kLongest = 1200,
-  kLeastFanned = 0.1, // of the range of values
+  kLeastFanned = 0.1, // share of the range of values
   kReach = 14;
 
 export class Diagram extends BarChart {
@@ -100,7 +101,7 @@ export class Diagram extends BarChart {
     this.drawCounts(pen, crowds);
   }
 
-  /// The largest first: one that would lie on another is left out.
+  /// The largest come first; a number that would overlap another is left out.
   private drawCounts(pen: Pen, crowds: Crowd[]): void {
     const { theme } = this.session,
       labelPlaces = new LabelPlaces(10);
@@ -113,8 +114,8 @@ export class Diagram extends BarChart {
     }
   }
 
-  /// Equal bars side by side, those of segments in the order of their numbers. Near the diagonal,
-  /// where nobody looks for one of them, they lie on each other.
+  /// Equal bars are drawn side by side, bars of segments in the order of their numbers. Near the
+  /// diagonal, where nobody looks for single bars, they overlap.
   private fan(marked: Uint32Array): Crowd[] {
     const { session } = this;
     const { bars } = session.report;
@@ -175,8 +176,8 @@ export class Diagram extends BarChart {
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
   }
 
-  /// A selected bar, or the one under the pointer. One of a second barcode stays hollow: its
-  /// outline is around a ring of its colour.
+  /// A selected bar, or the one under the pointer. A bar of a second barcode stays hollow: its
+  /// outline surrounds a ring of its colour.
   private drawChosen(pen: Pen, bar: number, r: number, edge: string, width: number): void {
     const { bars } = this.session.report;
     const colour = this.session.colourOfBar(bar);
@@ -223,7 +224,7 @@ export class Diagram extends BarChart {
     const left = this.left + (fromBelow ? kMinusInfinityRoom : 0);
     const births = (right: number) => new Axis(low, high, left, size.width - right, negated);
     this.births = births(kRight);
-    // Half of the last label may be right of the axis.
+    // Half of the last label may extend to the right of the axis.
     this.births = births(Math.max(kRight, widest(this.birthTicks()) / 2));
     for (let i = 0; i < bars.size; ++i) {
       this.x[i] = bars.birth[i] === -Infinity ? this.left + 6 : this.births.at(bars.birth[i]!);
@@ -288,7 +289,7 @@ export class Diagram extends BarChart {
       cutValue,
     } = this.session;
     if (!tree || !this.session.isShown(0) || bars.dim[0] !== 0 || cutValue <= 0) return;
-    if (this.session.tintedBars().size === 0) return; // nothing that is seen is cut
+    if (this.session.tintedBars().size === 0) return; // nothing visible is cut off
     const low = this.births.value(this.births.from),
       high = this.deaths.value(this.deaths.to);
     if (cutValue > high) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where dots of a diagram would hide each other: how many there are, as a tint.
+// Shows the number of dots as a tint where dots of a diagram would hide each other.
 import type { Pen } from "./pen";
 import type { Session } from "../model/session";
 

@@ -4,8 +4,8 @@ import type { Pen } from "./pen";
 import { LabelPlaces } from "../common/label_places";
 import type { Session } from "../model/session";
 
-/// The numbers of segments at their dots: beneath the line of infinity, where dots stand side by
-/// side; else beside them.
+/// Places the numbers of segments at their dots: beneath the line of infinity, where dots are side
+/// by side; otherwise beside the dots.
 export function drawNumbers(pen: Pen, session: Session, { x, y }: Places): void {
   const labelPlaces = new LabelPlaces();
   for (const [bar, label] of session.numbers()) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Dots of a diagram that lie on each other, fanned out: each can be seen and hit.
+// Fans out dots of a diagram that coincide, so that each can be seen and hit.
 
-/// Pixels from dot to dot.
+/// Distance between dots in pixels.
 export const kPitch = 8.5;
-/// Dots at one place; of more their number is shown.
+/// Largest number of dots at one place; beyond it, only the count is shown.
 const kMostFanned = 24,
   kMostOnLine = 60;
 
@@ -13,11 +13,12 @@ export interface Crowd {
   count: number;
 }
 
-/// Moves dots of equal bars: those on the line of infinity side by side, others around their place.
-/// @param groups bars of one place each, in the order in which they get theirs.
-/// @param onLine whether a bar is on the line of infinity.
-/// @param isNumbered whether its number is beside it: it must not be hidden.
-/// @return the places with more dots than can be fanned out.
+/// Moves the dots of equal bars: on the line of infinity side by side, elsewhere around their
+/// place.
+/// @param groups the bars at each place, in the order in which they are placed.
+/// @param onLine true if a bar is on the line of infinity.
+/// @param isNumbered true if a bar has its number beside it and must not be hidden.
+/// @return the places with too many dots to fan out.
 export function fanOut(
   groups: Iterable<number[]>,
   x: Float32Array,
@@ -32,9 +33,9 @@ export function fanOut(
     const [first] = group as [number];
     const at = { x: x[first]!, y: y[first]! };
     if (onLine(first)) {
-      // All of them, or those with numbers and the others on each other behind these.
+      // All dots, or the numbered dots with the others stacked behind them.
       const apart = group.length <= kMostOnLine ? group : group.filter(isNumbered);
-      // To the side where there is more room.
+      // Towards the side with more room.
       const side = right - at.x >= at.x - left ? 1 : -1;
       const pitch = Math.min(kPitch, (side > 0 ? right - at.x : at.x - left) / apart.length);
       apart.forEach((bar, k) => (x[bar] = at.x + side * k * pitch));
@@ -49,7 +50,7 @@ export function fanOut(
       continue;
     }
     group.forEach((bar, k) => {
-      const angle = 2.399963 * k, // golden: evenly filled
+      const angle = 2.399963 * k, // golden angle: fills evenly
         radius = 0.62 * kPitch * Math.sqrt(k);
       x[bar] = at.x + radius * Math.cos(angle);
       y[bar] = at.y + radius * Math.sin(angle);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/// Whether a ray to the right crosses the polygon an odd number of times.
+/// True if a ray to the right crosses the polygon an odd number of times.
 export function isInside(polygon: number[], x: number, y: number): boolean {
   let inside = false;
   for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {

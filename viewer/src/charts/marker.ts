@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import type { Pen } from "./pen";
 
-/// A shape of its own for each dimension: colours may be lost in print.
+/// Each dimension has its own shape, because colours may be lost in print.
 export function drawMarker(
   pen: Pen,
   dim: number,

@@ -6,7 +6,7 @@ import type { Session } from "../model/session";
 
 const kMostDrawn = 1500; // pairs
 
-/// Where the bars of a diagram are.
+/// The positions of the bars of a diagram.
 export interface Places {
   x: Float32Array;
   y: Float32Array;
@@ -14,9 +14,9 @@ export interface Places {
   deaths: Axis;
 }
 
-/// Which bar of the first barcode becomes which one of the second: lines between pairs, and dotted
-/// ones to the diagonal for those without a partner. Of many the pairs that move farthest.
-/// @return how many lines there are, and how many of them are drawn.
+/// Shows the matching of two barcodes: lines between pairs, and dotted lines to the diagonal for
+/// bars without a partner. If there are many pairs, only those that move farthest are drawn.
+/// @return the number of lines, and how many of them are drawn.
 export function drawMatching(
   pen: Pen,
   session: Session,
@@ -31,7 +31,7 @@ export function drawMatching(
     if (!session.isShown(bar) || (partner !== undefined && partner < bar)) continue;
     pairs.push({ bar, partner, move: Matching.move(bars, bar, partner) });
   }
-  if (pairs.length > kMostDrawn) pairs.sort((a, b) => (a.move > b.move ? -1 : 1)); // Infinity - Infinity is no number
+  if (pairs.length > kMostDrawn) pairs.sort((a, b) => (a.move > b.move ? -1 : 1)); // Infinity - Infinity is NaN
   const shown = pairs.slice(0, kMostDrawn);
   for (const { bar, partner } of shown) {
     if (partner !== undefined)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// One way to draw a chart, two kinds of paper: the canvas on the screen, and SVG for export, where
-// text stays text.
+// One interface for drawing charts, with two outputs: the canvas on the screen, and SVG for export,
+// where text stays text.
 
 export interface TextStyle {
   colour: string;
   size?: number;
   anchor?: "start" | "middle" | "end";
   bold?: boolean;
-  upwards?: boolean; // turned by a quarter
-  halo?: string; // around the letters: they lie on a picture
+  upwards?: boolean; // rotated by a quarter turn
+  halo?: string; // colour around the letters, for text on a picture
 }
 
 type Line = [
@@ -45,7 +45,7 @@ const kFont =
   "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 let measuring: CanvasRenderingContext2D | undefined;
-/// How wide a text will be, pixels.
+/// The width of a text in pixels.
 export function textWidth(text: string, size: number): number {
   measuring ??= document.createElement("canvas").getContext("2d")!;
   measuring.font = `${size}px ${kFont}`;
@@ -125,7 +125,7 @@ export class CanvasPen implements Pen {
 
 function escaped(text: string): string {
   return text
-    .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "\ufffd") // not in XML
+    .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "\ufffd") // not allowed in XML
     .replace(/&/g, "&amp;")
     .replace(/</g, "&lt;")
     .replace(/>/g, "&gt;")

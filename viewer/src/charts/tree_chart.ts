@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The merge tree: an upright line a branch, from its birth up to the value at which it merges into
-// an elder one. Where branches are many, the most persistent ones.
+// The merge tree: one vertical line per branch, from its birth up to the value at which it merges
+// into an elder one. If there are many branches, only the most persistent ones are shown.
 import { Axis, kLabelSize, kLeastLeft, leftOf, type Tick } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart } from "./chart";
@@ -42,8 +42,8 @@ export class TreeChart extends Chart {
     const { tree } = this;
     const level = Float64Array.from({ length: tree.leaves }, (_, b) => tree.level(b));
     const size = tree.sizes();
-    // Of equal level the larger one, or the one that dies later: a branch comes after the one that
-    // it merges into.
+    // At equal levels, the larger one or the one that dies later comes first, so that a branch
+    // follows the one that it merges into.
     this.byLevel = new Uint32Array(tree.leaves)
       .map((_, i) => i)
       .sort((a, b) =>
@@ -79,7 +79,7 @@ export class TreeChart extends Chart {
       pen.line(left, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    // The word of the barcode's axis, which has the same values.
+    // The title of the barcode's axis, which has the same values.
     const label = clipped(meta.value.label.toLowerCase(), 24);
     pen.text(12, size.height / 2, unit ? `${label} (${unit})` : label, {
       ...small,
@@ -104,13 +104,13 @@ export class TreeChart extends Chart {
         : "";
   }
 
-  /// Whether the cut has joined a branch to the one that it merges into.
+  /// True if the cut has joined a branch to the one that it merges into.
   private isMerged(branch: number): boolean {
     const merge = this.tree.deathOf[branch]!;
     return merge !== kNone && this.tree.isDone(merge, this.session.cutValue);
   }
 
-  /// Numbers follow the selection where only what is selected has one.
+  /// Numbers follow the selection if only selected items have one.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers(),
       labelPlaces = new LabelPlaces();

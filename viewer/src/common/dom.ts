@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Elements without markup: every text goes through textContent, so that no name of a file or a
-// field can become HTML.
+// Creates elements without markup: every text goes through textContent, so that no name of a file
+// or a field can become HTML.
 
-/// Of an element, pixels.
+/// The size of an element in pixels.
 export interface Size {
   width: number;
   height: number;
@@ -46,7 +46,7 @@ export function button(
   return element;
 }
 
-/// A labelled choice; `change` gets the value taken.
+/// A labelled choice; `change` receives the chosen value.
 export function select(
   label: string,
   options: [value: string, text: string][],
@@ -59,7 +59,7 @@ export function select(
   return el("label", { class: "field" }, el("span", {}, label), element);
 }
 
-/// A table that scrolls by itself; the first row of cells are headings.
+/// A table with its own scroll bar; the first row of cells holds the headings.
 export function table(
   caption: string,
   head: string[],
@@ -78,13 +78,13 @@ export function table(
   );
 }
 
-/// Whether a key is a shortcut of the browser: zoom, the page before this one.
+/// True if a key is a shortcut of the browser: zoom, the previous page.
 export function isOfBrowser({ ctrlKey, altKey, metaKey }: KeyboardEvent): boolean {
   return ctrlKey || altKey || metaKey;
 }
 
-/// Calls when an element has another size, or as many pixels of the page are others of the screen:
-/// another monitor, another zoom.
+/// Calls back when the size of an element changes, or when the ratio of screen pixels to page
+/// pixels does: another monitor, another zoom.
 export function onResize(element: Element, changed: () => void): void {
   let last = "";
   const look = () => {
@@ -93,11 +93,11 @@ export function onResize(element: Element, changed: () => void): void {
     last = now;
   };
   new ResizeObserver(look).observe(element);
-  if ("devicePixelContentBoxSize" in ResizeObserverEntry.prototype) // WebKit has none
+  if ("devicePixelContentBoxSize" in ResizeObserverEntry.prototype) // WebKit does not support this
     new ResizeObserver(look).observe(element, { box: "device-pixel-content-box" });
 }
 
-/// Hands a file to the reader of the page.
+/// Offers a file to the reader as a download.
 export function download(name: string, content: Blob): void {
   const url = URL.createObjectURL(content);
   el("a", { href: url, download: name }).click();

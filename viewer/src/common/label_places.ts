@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 
-/// Where numbers already stand: one that would lie on another is left out.
+/// Records the places of numbers: a number that would overlap another is left out.
 export class LabelPlaces {
   private readonly taken: [x: number, y: number, halfWidth: number][] = [];
 
   /// @param size of the text, pixels.
   constructor(private readonly size = 9.5) {}
 
-  /// Whether a text that is centred here has room; takes it.
+  /// True if there is room for a text centred here; reserves the room.
   take(x: number, y: number, text: string): boolean {
     const half = 0.284 * this.size * text.length + 1.2,
       high = 0.95 * this.size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as a reader wants them.
+// Formats numbers for readers.
 
 const kSub = "₀₁₂₃₄₅₆₇₈₉",
   kSuper = "⁰¹²³⁴⁵⁶⁷⁸⁹";
@@ -26,8 +26,7 @@ export function counted(count: number, noun: string): string {
   return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/// To four significant digits, and to the point where it has more before that; ∞ and −∞ by their
-/// signs.
+/// Four significant digits, or all digits before the point if there are more; ∞ and −∞ as symbols.
 export function short(value: number, digits = 4): string {
   if (value === Infinity) return "∞";
   if (value === -Infinity) return "−∞";
@@ -44,13 +43,14 @@ export function short(value: number, digits = 4): string {
   return text.replace(/-/g, "−");
 }
 
-/// How many significant digits, four at least, tell apart what differs by a part of its size.
+/// The number of significant digits, at least four, that distinguish values with this relative
+/// difference.
 export function digitsFor(size: number, difference: number): number {
   const digits = Math.ceil(Math.log10(size) - Math.log10(difference)) + 2;
   return Number.isFinite(digits) ? Math.min(15, Math.max(4, digits)) : 4;
 }
 
-/// The shortest text that reads back to the same double, as the programs write it.
+/// The shortest text that reads back as the same double, as the programs write it.
 export function exact(value: number): string {
   if (!Number.isFinite(value)) return value > 0 ? "inf" : "-inf";
   const [digits, power] = value.toExponential().split("e") as [string, string];
@@ -62,7 +62,7 @@ export function exact(value: number): string {
   return `${digits}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
 }
 
-/// To a thousandth of a range.
+/// Rounded to a thousandth of a range.
 export function inRange(value: number, range: number): string {
   const digits = Math.ceil(Math.log10(Math.max(Math.abs(value), range) / range)) + 3;
   return short(Math.abs(value) < range / 1000 ? 0 : value, Math.min(15, Math.max(1, digits)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colours that people with any common kind of colour blindness can tell apart: Masataka Okabe and
-// Kei Ito, "Color Universal Design" (2008). Dimensions have shapes besides, for print.
+// Colours that people with any common kind of colour blindness can distinguish: Masataka Okabe and
+// Kei Ito, "Color Universal Design" (2008). Dimensions also have shapes, for print.
 
 export type Rgb = [number, number, number];
 
@@ -15,11 +15,11 @@ export interface Theme {
   faint: string; // axes, ticks
   grid: string;
   panel: string;
-  shade: string; // where no bar can be
+  shade: string; // area where no bar can be
   accent: string;
 }
 
-/// What the reader's system asks for.
+/// The preference of the reader's system.
 export function prefersDark(): boolean {
   return matchMedia("(prefers-color-scheme: dark)").matches;
 }
@@ -61,15 +61,15 @@ export function fromHex(text: string): Rgb {
   return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)) as Rgb;
 }
 
-/// What bounds a scene, by role: colours that no segment has.
+/// Colours of the surfaces that bound a scene, by role; no segment has them.
 export const kSurfaces = { support: "#b9ac93", wall: "#93a4b9" } as const;
 
-/// Which of the seven colours of segments it is; -1: none of them.
+/// The index of a colour among the seven colours of segments; -1 if it is none of them.
 export function numberOfColour([r, g, b]: Rgb): number {
   return kSegments.indexOf((r << 16) | (g << 8) | b);
 }
 
-/// The seven colours, then lighter and darker ones, so that there is always another one.
+/// The seven colours, then lighter and darker ones, so that there is always one more.
 export function segmentColour(i: number): Rgb {
   const base = kSegments[i % kSegments.length]!;
   const rgb: Rgb = [base >> 16, (base >> 8) & 255, base & 255];
@@ -80,8 +80,8 @@ export function segmentColour(i: number): Rgb {
   return rgb.map((c) => Math.round(c + share * (towards - c))) as Rgb;
 }
 
-/// A colour number a segment such that those that touch differ. Each would like `wish`, so that a
-/// segment keeps its colour while the cut changes around it.
+/// A colour number for each segment, such that touching segments differ. Each gets its `wish` if
+/// possible, so that a segment keeps its colour while the cut changes around it.
 export function coloursApart(touching: Iterable<number>[], wish: number[]): number[] {
   const choice: number[] = [];
   const uses = new Array<number>(kSegments.length).fill(0);
@@ -100,7 +100,7 @@ export function coloursApart(touching: Iterable<number>[], wish: number[]): numb
   return choice;
 }
 
-// Viridis (Stefan van der Walt and Nathaniel Smith, CC0) at nine places.
+// Viridis (Stefan van der Walt and Nathaniel Smith, CC0) at nine values.
 const kViridis: Rgb[] = [
   [68, 1, 84],
   [71, 44, 122],

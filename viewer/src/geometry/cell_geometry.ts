@@ -10,7 +10,8 @@ export interface Geometry {
 
 export const emptyGeometry = (): Geometry => ({ points: [], segments: [], triangles: [] });
 
-/// Where in the picture the vertex of this number in the input is; undefined: it is not shown.
+/// The place in the picture of the vertex with this number in the input; undefined if it is not
+/// shown.
 export function elementOf(report: Report, vertex: number): number | undefined {
   const index = report.cloud?.index;
   if (!index) return vertex < (report.elements?.count ?? 0) ? vertex : undefined;
@@ -51,7 +52,7 @@ export class CellGeometry {
   }
 }
 
-/// The place of a point of an image: columns to the right, rows down, planes towards the reader.
+/// The place of a point of an image: columns go to the right, rows down, planes towards the reader.
 export function placeInImage(plane: number, row: number, column: number): [number, number, number] {
   return [column, -row, plane];
 }

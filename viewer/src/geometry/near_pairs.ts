@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Pairs of points that are near each other, and the triangles that edges make.
+// Finds pairs of points that are near each other, and the triangles that edges form.
 
-/// Pairs i < j of points, x, y, z of each, at a distance of `r` or less, one after another, unless
-/// there are more than `most`.
+/// Pairs i < j of points, given as x, y, z of each, at a distance of at most `r`, as one flat list;
+/// nothing if there are more than `most`.
 function pairsWithin(p: Float32Array, r: number, most: number): number[] | undefined {
   const cubes = cubesOf(p, r);
   const pairs: number[] = [];
@@ -21,7 +21,7 @@ function pairsWithin(p: Float32Array, r: number, most: number): number[] | undef
 
 interface Cube {
   points: number[];
-  next: number[]; // names of the cubes around it that come after it
+  next: number[]; // names of the neighbouring cubes that come after it
 }
 
 function cubesOf(p: Float32Array, r: number): Map<number, Cube> {
@@ -29,7 +29,7 @@ function cubesOf(p: Float32Array, r: number): Map<number, Cube> {
   let extent = 0;
   for (let i = 0; i < p.length; ++i) low[i % 3] = Math.min(low[i % 3]!, p[i]!);
   for (let i = 0; i < p.length; ++i) extent = Math.max(extent, p[i]! - low[i % 3]!);
-  // Names of cubes must stay exact numbers.
+  // Names of cubes must be exactly representable numbers.
   const side = Math.max(r, extent / 2 ** 16) || 1;
   const kStride = 2 ** 17;
   const cubes = new Map<number, Cube>();
@@ -61,24 +61,24 @@ function distance(p: Float32Array, i: number, j: number): number {
 }
 
 export interface SortedPairs {
-  ends: Uint32Array; // two a pair
+  ends: Uint32Array; // two numbers per pair
   values: Float32Array | Float64Array; // ascending
-  missingFrom: number; // pairs of this value and more may be missing
+  missingFrom: number; // pairs from this value on may be missing
 }
 
-/// The shortest pairs, up to a distance of `limit`, no more than `most`, and as many as a few
-/// guesses at the reach find.
+/// The shortest pairs up to a distance of `limit`, at most `most`, as far as a few guesses of the
+/// radius find them.
 export function shortestPairs(p: Float32Array, limit: number, most: number): SortedPairs {
   let best: number[] = [],
     reach = 0,
     over = Infinity;
-  // Guess, double, halve the gap.
+  // Guess a radius, double it, then bisect.
   let guess = limit / 64;
   for (let round = 0; round < 24 && reach < limit; ++round) {
     const pairs = pairsWithin(p, guess, most);
     if (pairs) [best, reach] = [pairs, guess];
     else over = guess;
-    if (best.length > 1.6 * most) break; // nine tenths of the budget would be luck
+    if (best.length > 1.6 * most) break; // nine tenths of the budget are good enough
     if (over === Infinity) guess = Math.min(limit, 2 * reach);
     else guess = reach > 0 ? (reach + over) / 2 : over / 8;
   }
@@ -91,7 +91,7 @@ export function shortestPairs(p: Float32Array, limit: number, most: number): Sor
   return { ends, values: Float32Array.from(order, (at) => lengths[at]!), missingFrom };
 }
 
-/// The triples of points all of whose pairs are edges; nothing if there are more than `most`.
+/// The triples of points whose pairs are all edges; nothing if there are more than `most`.
 /// @param ends pairs i < j, each once.
 export function trianglesOf(ends: Uint32Array, most: number): Uint32Array | undefined {
   const above = new Map<number, Set<number>>();

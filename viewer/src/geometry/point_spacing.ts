@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How far a point is from the next ones: what a mark must cover so that a surface has no holes.
+// Measures the distance between neighbouring points, which a mark must cover so that a surface has
+// no holes.
 
 const kSampled = 800,
   kMostCompared = 4000, // points around one
-  kOutermost = 0.01, // of the points at each end of an axis: they may be anywhere
-  kNeighbours = 4; // of a grid the four next ones are one spacing away
+  kOutermost = 0.01, // share of the points at each end of an axis that may be outliers
+  kNeighbours = 4; // in a grid, the four nearest points are one spacing away
 
-/// The median, over some points, of the distance to the fourth nearest other place; with an eye, of
-/// that distance divided by the distance from the eye: a camera sees in equal angles. 0: unknown.
+/// The median, over some points, of the distance to the fourth nearest other place. With an eye,
+/// this distance is divided by the distance from the eye, because a camera samples equal angles. 0
+/// if unknown.
 export function spacingOf(positions: Float32Array, eye?: ArrayLike<number>): number {
   const count = positions.length / 3;
   if (count <= kNeighbours) return 0;
@@ -26,7 +28,7 @@ export function spacingOf(positions: Float32Array, eye?: ArrayLike<number>): num
   return found.sort((a, b) => a - b)[found.length >> 1] ?? 0;
 }
 
-/// Points by the cubes they lie in; cubes share the lists of a table.
+/// Points sorted into cubes; the cubes share the lists of a hash table.
 class Grid {
   private readonly low: number[] = [];
   private readonly cube: number;
@@ -46,7 +48,7 @@ class Grid {
       this.low.push(sample[cut]!);
       size.push(sample[sample.length - 1 - cut]! - sample[cut]!);
     }
-    // Points of a surface as large as the two longer sides of their box: some in each cube.
+    // Assumes a surface as large as the two longer sides of the box, with some points in each cube.
     const [long, middle] = size.sort((a, b) => b - a) as [number, number];
     this.cube = 2.5 * Math.sqrt((long * Math.max(middle, long / count)) / count) || 1;
     this.mask = 2 ** Math.ceil(Math.log2(count + 1)) - 1;
@@ -62,7 +64,8 @@ class Grid {
     for (let i = 0; i < count; ++i) this.members[next[list[i]!]!++] = i;
   }
 
-  /// The distance of the fourth nearest other place; beyond the cubes around it infinite.
+  /// The distance of the fourth nearest other place; infinite if it lies beyond the neighbouring
+  /// cubes.
   neighbour(of: number): number {
     const nearest = new Array<number>(kNeighbours).fill(Infinity);
     const lists = new Set<number>();
@@ -73,7 +76,7 @@ class Grid {
     const p = this.positions;
     let members = 0;
     for (const list of lists) members += this.start[list + 1]! - this.start[list]!;
-    // Where points are crowded every so many are looked at; those of a surface are then farther apart.
+    // In crowded cubes, only every n-th point is examined; the distance is corrected for a surface.
     const step = Math.ceil(members / kMostCompared);
     for (const list of lists)
       for (let k = this.start[list]!; k < this.start[list + 1]!; k += step) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The complex up to a filtration value: the edges that the program wrote, or, of a Vietoris-Rips
-// complex of points that are all here, the pairs within that distance; and its triangles.
+// The complex up to a filtration value: the edges that the program wrote or, for a Vietoris-Rips
+// complex whose points are all here, the pairs within that distance; and its triangles.
 import { elementOf } from "./cell_geometry";
 import { shortestPairs, trianglesOf, type SortedPairs } from "./near_pairs";
 import type { Numbers } from "../model/payload";
@@ -11,10 +11,10 @@ const kMostEdges = 40_000,
   kMostPoints = 50_000;
 
 export interface ShownPart {
-  ends: Uint32Array; // places in the picture, two an edge
-  corners: Uint32Array | undefined; // three a triangle; undefined: too many to draw
-  moreEdges: boolean; // than the budget has
-  moreTriangles: boolean; // than the report has
+  ends: Uint32Array; // places in the picture, two per edge
+  corners: Uint32Array | undefined; // three per triangle; undefined: too many to draw
+  moreEdges: boolean; // more cells than the budget allows
+  moreTriangles: boolean; // more cells than the report has
 }
 
 export class ShownComplex {
@@ -44,7 +44,7 @@ export class ShownComplex {
       moreTriangles: reaches(value, this.report.meta.cloud?.triangles_below),
     };
   }
-  /// x, y, z of each.
+  /// x, y, z of each point.
   places(elements: Uint32Array): Float32Array {
     const to = new Float32Array(3 * elements.length);
     const { positions } = this.report.cloud!;
@@ -53,7 +53,7 @@ export class ShownComplex {
     return to;
   }
 
-  /// The vertices that lie in no triangle of a mesh.
+  /// The vertices that belong to no triangle of a mesh.
   outside(): Uint32Array {
     const isIn = new Uint8Array(this.report.elements!.count);
     for (const element of this.surface ?? []) isIn[element] = 1;
@@ -62,13 +62,13 @@ export class ShownComplex {
     for (let i = 0; i < isIn.length; ++i) if (isIn[i] === 0) found[count++] = i;
     return found.subarray(0, count);
   }
-  /// The triangles of a mesh, three places each, ascending by value; undefined: it is none.
+  /// The triangles of a mesh, three places each, ascending by value; undefined if it is not a mesh.
   get surface(): Uint32Array | undefined {
     const { triangles } = this.report;
     return triangles && this.available ? this.elementsOf(triangles.corners) : undefined;
   }
 
-  /// Those that the program wrote, or, of a flag complex, those whose edges are there.
+  /// The triangles that the program wrote or, for a flag complex, those whose edges are present.
   private trianglesUpTo(value: number, edges: Uint32Array): Uint32Array | undefined {
     const { triangles, meta } = this.report;
     if (triangles) {
@@ -104,12 +104,12 @@ export class ShownComplex {
   }
 }
 
-/// Whether there is a value from which on cells are missing, and another one is not below it.
+/// True if cells are missing from some value on, and the other value is not below it.
 function reaches(value: number, missingFrom = Infinity): boolean {
   return missingFrom < Infinity && value >= missingFrom;
 }
 
-/// How many of ascending values lie up to another one. Values and positions are float32.
+/// The number of ascending values up to another value. Values and positions are float32.
 function countUpTo(values: ArrayLike<number>, value: number): number {
   const limit = value + 1e-6 * Math.abs(value);
   let low = 0,
@@ -122,7 +122,7 @@ function countUpTo(values: ArrayLike<number>, value: number): number {
   return low;
 }
 
-/// How many bars of each dimension live at a value.
+/// The number of bars of each dimension that are alive at a value.
 export function bettiAt(report: Report, value: number): number[] {
   const { bars } = report;
   const betti = new Array<number>((bars.dims.at(-1) ?? -1) + 1).fill(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of voxels of bars: which voxels they are, and, in a volume, the surface around them.
+// Sets of voxels of bars: the voxels and, in a volume, the surface around them.
 import { placeInImage } from "./cell_geometry";
 import type { Numbers } from "../model/payload";
 import type { VoxelSets } from "../model/report";
@@ -16,7 +16,7 @@ const kMostFaces = 150_000,
 
 const kMostKept = 32;
 
-/// The surface around the set of a bar: the pointer comes back to the same bars.
+/// Cached surfaces around the sets of bars, because the pointer returns to the same bars.
 export function surfaceOfBar(sets: VoxelSets, bar: number, shape: number[]): Float32Array {
   const surface = sets.surfaces.get(bar) ?? surfaceOf(runsOf(sets, bar), shape);
   if (sets.surfaces.size >= kMostKept) sets.surfaces.clear();
@@ -24,8 +24,8 @@ export function surfaceOfBar(sets: VoxelSets, bar: number, shape: number[]): Flo
   return surface;
 }
 
-/// Triangles around a set, x, y, z of each corner. Where the set is large its voxels are taken
-/// together in cubes, twice as long until few enough are left: the picture has no room for more.
+/// Triangles around a set, x, y, z of each corner. The voxels of a large set are grouped into cubes
+/// whose edge is doubled until few enough are left, because the picture has no room for more.
 export function surfaceOf(runs: Numbers, shape: number[]): Float32Array {
   const box = boxOf(runs, shape);
   for (let step = 1; ; step *= 2) {
@@ -50,7 +50,7 @@ function boxOf(runs: Numbers, shape: number[]): { low: number[]; high: number[] 
       meet(1, Math.floor(place / columns) % rows);
       meet(2, place % columns);
     }
-  // A run may go around the end of a row or of a plane.
+  // A run may continue past the end of a row or a plane.
   for (let i = 0; i + 1 < runs.length; i += 2) {
     const first = runs[i]!,
       last = first + runs[i + 1]! - 1;
@@ -66,7 +66,8 @@ function boxOf(runs: Numbers, shape: number[]): { low: number[]; high: number[] 
   return { low, high };
 }
 
-/// Cubes of `step`³ voxels with an empty layer around them; one is in if any of its voxels is.
+/// Cubes of `step`³ voxels with an empty layer around them; a cube is in the set if any of its
+/// voxels is.
 class Blocks {
   private readonly isIn: Uint8Array;
   private readonly strides: [number, number, number];
@@ -92,7 +93,7 @@ class Blocks {
         ] = 1;
   }
 
-  /// Faces in a line along the columns are one rectangle.
+  /// Faces in a line along the columns form one rectangle.
   surface(): number[] {
     const corners: number[] = [];
     const [planes, rows, columns] = this.sizes as [number, number, number];

@@ -18,8 +18,9 @@ export class Bars {
   readonly dim: Uint8Array;
   readonly birth: Float64Array;
   readonly death: Float64Array;
-  readonly dims: number[]; // that occur, ascending
-  /// All bars, the most persistent first (infinite ones before all), the first among equals.
+  readonly dims: number[]; // dimensions that occur, ascending
+  /// All bars, the most persistent first (infinite ones before all others); equal bars keep their
+  /// order.
   readonly byPersistence: Uint32Array;
   readonly low: number; // least and largest finite value; 0 and 1 if there is none
   readonly high: number;
@@ -62,7 +63,7 @@ export class Bars {
   isInfinite(bar: number): boolean {
     return this.death[bar] === Infinity;
   }
-  /// 0 or 1: which barcode a bar is of.
+  /// The barcode of a bar, 0 or 1.
   barcodeOf(bar: number): number {
     return bar < this.first[1]! ? 0 : 1;
   }
@@ -73,8 +74,8 @@ export class Bars {
   of(dim: number, barcode: number): Uint32Array {
     return this.groups[barcode]?.get(dim) ?? new Uint32Array();
   }
-  /// The most persistent of bars that are in this order. Infinite ones take no more than half of the
-  /// room while there are others.
+  /// The most persistent of bars in this order. Infinite bars take at most half of the room if
+  /// there are others.
   prominent(sorted: Uint32Array, most: number): Uint32Array {
     let infinite = 0;
     while (infinite < sorted.length && this.isInfinite(sorted[infinite]!)) ++infinite;
@@ -84,13 +85,13 @@ export class Bars {
     result.set(sorted.subarray(infinite, infinite + result.length - kept), kept);
     return result;
   }
-  /// How many numbers name a cell of the dimension of a bar, or of the next one.
+  /// The count of numbers that name a cell of the dimension of a bar, or of the next dimension.
   arity(bar: number, above: 0 | 1): number {
     const kind = this.meta[this.barcodeOf(bar)]?.cells ?? "vertices";
     if (kind === "row") return 1;
     return kind === "grid" ? this.axes : this.dim[bar]! + 1 + above;
   }
-  /// The cell that gave birth to a bar (0) or killed it (1); empty if it is not known.
+  /// The birth cell (0) or death cell (1) of a bar; empty if unknown.
   cell(bar: number, which: 0 | 1): number[] {
     const barcode = this.barcodeOf(bar);
     const starts = this.cellStart[barcode]?.[which];
@@ -142,9 +143,9 @@ export class Bars {
   }
 }
 
-/// The places of numbers >= 0, the largest first, the first among equals first. A million bars
-/// must not wait for a comparison sort: two passes of 16 bits over float32, then what these cannot
-/// tell apart.
+/// The indices of numbers >= 0, the largest first; equal numbers keep their order. A comparison
+/// sort of a million bars would take too long: two radix passes of 16 bits over float32 come first,
+/// then a sort of the values that these cannot distinguish.
 function decreasing(values: Float64Array): Uint32Array {
   const n = values.length,
     bits = new Uint32Array(Float32Array.from(values).buffer);
@@ -165,10 +166,10 @@ function decreasing(values: Float64Array): Uint32Array {
   return order;
 }
 
-/// Most runs are pairs: those by insertion.
+/// Most runs are pairs: sort short ones by insertion.
 function sortRun(order: Uint32Array, from: number, to: number, values: Float64Array): void {
   if (to - from > 16) {
-    // Infinity - Infinity is no number: compare, do not subtract.
+    // Infinity - Infinity is NaN: compare instead of subtracting.
     order
       .subarray(from, to)
       .sort((a, b) => (values[a]! > values[b]! ? -1 : values[a]! < values[b]! ? 1 : a - b));

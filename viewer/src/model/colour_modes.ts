@@ -5,10 +5,10 @@ import type { Report } from "./report";
 export type ColourMode =
   "grey" | "segment" | "rgb" | "truth" | "normal" | "depth" | "birth" | "persistence" | "plain";
 
-const kLeastPart = 0.02; // of the largest segment
+const kLeastPart = 0.02; // share of the largest segment
 
-/// The ways to colour that a report has, the default first: an image as it is, a mesh by its values,
-/// segments where there are several, else one colour.
+/// The colour modes of a report, the default first: an image unchanged, a mesh by its values,
+/// segments if there are several, otherwise one colour.
 export function colourModesOf(report: Report): [ColourMode, string][] {
   const { elements, tree, cloud, image, isMesh, meta } = report;
   const modes: [ColourMode, string][] = [];
@@ -28,7 +28,7 @@ export function colourModesOf(report: Report): [ColourMode, string][] {
   return modes;
 }
 
-/// Whether the program's cut has more than one large part; what ph-segment found is always shown.
+/// True if the program's cut has more than one large part; results of ph-segment are always shown.
 function hasParts({ tree, meta }: Report): boolean {
   if (!tree || meta.tree?.command) return !!tree;
   const [first, second] = tree.cut(meta.tree!.cut).segments;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The command line that gives what is on the screen.
+// The command line that reproduces what is on the screen.
 import { exact } from "../common/number_format";
 import type { Session } from "./session";
 
-/// A word as a POSIX shell reads it.
+/// A word quoted for a POSIX shell.
 function quoted(word: string): string {
   return /^[A-Za-z0-9_@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
 }

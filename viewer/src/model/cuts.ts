@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where to cut: how many branches a cut separates, and the widest gap between their persistences.
+// Finds cuts: the number of branches that a cut separates, and the widest gap between their
+// persistences.
 import { DisjointSets, numbered } from "./disjoint_sets";
 import { FlatSets } from "./flat_sets";
 import type { MergeTree } from "./merge_tree";
 
-/// Of the longest: shorter ones are not at the upper end of a gap. Nor are those after so many.
+/// Share of the longest level: shorter ones cannot be the upper end of a gap. Neither can levels
+/// after this many.
 export const kLeastShare = 0.1,
   kMostAbove = 64;
 
@@ -13,8 +15,8 @@ function levelsOf(tree: MergeTree): Float64Array {
   return Float64Array.from(tree.arrays.levels).sort();
 }
 
-/// The number of segments at each of some cuts, which ascend. What a cut joins a larger one joins,
-/// too, so that one sweep is enough. O(merges log merges + leaves).
+/// The number of segments at each of some ascending cuts. A larger cut joins everything that a
+/// smaller one joins, so that one sweep is enough. O(merges log merges + leaves).
 export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   const { levels, vertices, births, younger, elder, rule, minSize } = tree.arrays;
   const merges = numbered(tree.merges).sort((a, b) => levels[a]! - levels[b]!);
@@ -58,9 +60,9 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   });
 }
 
-/// Between the two neighbouring levels that are farthest apart as a ratio, the upper of them among
-/// the largest ones: what lies above is much more persistent than what lies below. Where no ratio is wide, those
-/// of basins whose difference is the largest.
+/// A cut between the two neighbouring levels with the largest ratio, the upper of which is among
+/// the largest levels: levels above are much more persistent than levels below. If no ratio is
+/// wide, the two levels with the largest difference, for basins.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
   const levels = levelsOf(tree)
     .filter((v) => v > 0 && Number.isFinite(v))
@@ -83,16 +85,16 @@ export function suggestedCut(tree: MergeTree, from: number, to: number): number 
   return widest(0, (low, high) => high - low);
 }
 
-/// Steps of the slider.
+/// Number of steps of the slider.
 export const kSteps = 2000;
 
-/// From a slider's place (0 … 1) to a cut and back: by decades where the levels span some, and
-/// always 0 at its beginning if that is allowed.
+/// Converts a slider's position (0 … 1) to a cut and back: logarithmically if the levels span
+/// decades, and always with 0 at its start if that is allowed.
 export class CutScale {
   readonly from: number;
   readonly to: number;
   private readonly least: number; // smallest value on the logarithmic part
-  private readonly digits: number; // that tell a step of the slider from the next
+  private readonly digits: number; // digits that distinguish one step of the slider from the next
 
   constructor(tree: MergeTree, from: number | undefined, to: number | undefined, cut: number) {
     const levels = levelsOf(tree).filter((v) => v > 0 && Number.isFinite(v));

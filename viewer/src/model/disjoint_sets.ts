@@ -19,7 +19,7 @@ export class DisjointSets {
     while (p[v] !== v) v = p[v] = p[p[v]!]!;
     return v;
   }
-  /// Precondition: two roots. @return the one that is left.
+  /// Precondition: two roots. @return the root that remains.
   join(a: number, b: number): number {
     const root = Math.min(a, b);
     this.parent[Math.max(a, b)] = root;

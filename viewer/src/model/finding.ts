@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands out among the bars, and the sentence above the views that says so.
-// docs/reference/report.md has the criterion in words.
+// Finds the bars that stand out, and writes the sentence above the views about them.
+// docs/reference/report.md describes the criterion.
 import { kLeastShare, kMostAbove, suggestedCut } from "./cuts";
 import { counted, homology, short } from "../common/number_format";
 import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";
@@ -10,31 +10,31 @@ import type { Meta } from "./meta";
 import type { Report } from "./report";
 
 export interface Finding {
-  dim: number; // of the bars that stand out, or of the longest one; -1: there is none
-  bars: number[]; // that stand out, the most persistent first: selected at first
+  dim: number; // dimension of the bars that stand out, or of the longest one; -1 if there is none
+  bars: number[]; // bars that stand out, the most persistent first; selected at the start
   sentence: string;
-  components: boolean; // something is said of them: the cut and the merge tree show it
+  components: boolean; // true if the sentence, the cut and the merge tree show them
 }
 
-/// How far the longest bars of a dimension are from the others.
+/// The gap between the longest bars of a dimension and the others.
 export interface Gap {
   count: number; // bars above the widest gap
-  ratio: number; // of the lengths at its two ends; Infinity: nothing is below
+  ratio: number; // ratio of the lengths at its two ends; Infinity: nothing is below
 }
 
-const kLeastRatio = 2, // of a gap that makes bars stand out
-  kWideAmongFew = 4, // of a gap that parts bars where there are so few that all may stand out
-  kLeastAlone = 1 / 3, // of the longest bar of H1 and higher: what bars with none below them reach
+const kLeastRatio = 2, // ratio of a gap that makes bars stand out
+  kWideAmongFew = 4, // ratio of a gap that separates so few bars that all may stand out
+  kLeastAlone = 1 / 3, // share of the longest bar of H1 and higher that lone bars must reach
   kHardly = 1.05,
   kMostKnown = 4 * kMostAbove, // bars of a dimension
   kMostSelected = 1000,
-  kFew = 4; // bars; among so few wide gaps are chance
+  kFew = 4; // number of bars; among so few, wide gaps occur by chance
 
-/// The widest gap, as a ratio, between neighbours of finite lengths > 0 that descend. Lengths below
-/// a tenth of the first and all after the 64th are not at the upper end of it.
-/// @param alike as many lengths are a gap by themselves, if nothing is below them and no gap among
-/// them is much wider than chance makes it.
-/// @param least so many of them are no lower end of a gap.
+/// The widest gap, as a ratio, between neighbours of finite lengths > 0 in descending order.
+/// Lengths below a tenth of the first, and all after the 64th, cannot be its upper end.
+/// @param alike this many lengths form a gap by themselves if nothing is below them and no gap
+/// among them is much wider than chance.
+/// @param least this many of the lengths cannot be the lower end of a gap.
 export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
   const apart = lengths.length <= alike ? kWideAmongFew : kLeastRatio;
@@ -48,18 +48,18 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
   return gap;
 }
 
-/// The bars of one dimension of a barcode by what is known of their lengths.
+/// The bars of one dimension of a barcode, by the knowledge about their lengths.
 interface Lengths {
   dim: number;
-  endless: number[]; // bars of infinite length
-  reach: number; // the longest of all, endless ones up to where the values end
-  isEndless: boolean; // one of them never ends: others have no beginning
-  finite: number[]; // bars, the longest first
-  lengths: number[]; // of them; of a bar that is alive at the threshold what is known of it
-  alive: number; // so many of `finite`, the first ones, are alive at the threshold
+  endless: number[]; // the bars of infinite length
+  reach: number; // the longest of all; infinite bars count up to the end of the values
+  isEndless: boolean; // true if one of them never ends; others have no beginning
+  finite: number[]; // finite bars, the longest first
+  lengths: number[]; // their lengths; for a bar that is alive at the threshold, its known part
+  alive: number; // this many of `finite`, the first ones, are alive at the threshold
 }
 
-/// @param threshold where the complex was cut: bars alive there are at least that long.
+/// @param threshold at which the complex was cut: bars alive there are at least this long.
 function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Lengths {
   const result: Lengths = {
     dim,
@@ -84,7 +84,7 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
     else if (!(length > 0) || known.length > kMostKnown) break;
     else known.push([bar, length]);
   }
-  // How long those would be that were born late nobody knows: they are no lower end of a gap.
+  // The lengths of bars that were born late are unknown: they cannot be the lower end of a gap.
   const longer = alive.filter(([, length]) => length > (known[0]?.[1] ?? 0));
   result.alive = longer.length;
   known.unshift(...longer.sort((a, b) => b[1] - a[1]));
@@ -98,9 +98,9 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
 }
 
 /// The bars of a dimension that stand out.
-/// @param scale length below which few bars are noise.
+/// @param scale length below which a few bars count as noise.
 function outstanding(found: Lengths, scale: number, range: number): { bars: number[]; gap: Gap } {
-  // Some points have as many components at first.
+  // A few points have as many components at the start.
   const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew, found.alive);
   const shortest = found.lengths[gap.count - 1] ?? 0;
   const few = found.finite.length <= kFew && shortest < kLeastShare * range;
@@ -108,7 +108,7 @@ function outstanding(found: Lengths, scale: number, range: number): { bars: numb
   const isLong = shortest >= kLeastShare * scale && !few && !alone;
   const stands = gap.ratio >= kLeastRatio && isLong;
   const above = stands ? found.finite.slice(0, gap.count) : [];
-  // One component is always there: it is none that stands out among others.
+  // One component always exists: it does not stand out among others.
   const only =
     found.dim === 0 && found.endless.length === 1 && found.isEndless && above.length === 0;
   return { bars: only ? [] : [...found.endless, ...above], gap };
@@ -125,7 +125,7 @@ export function findingOf(report: Report): Finding {
   const range = bars.high - bars.low;
   const out = found.map((f) => ({ found: f, ...outstanding(f, f.dim > 0 ? scale : 0, range) }));
   const some = out.filter((o) => o.bars.length > 0);
-  // Whatever the values are, a closed surface has a void that never ends: others say more.
+  // Whatever its values, a closed surface has a void that never ends: other bars say more.
   const first = some.find((o) => !isWhole(o.found, o.bars)) ?? some[0];
   if (!first) return nothingOf(dims[0] ?? -1, found, report);
   const others = some.filter((o) => o !== first);
@@ -143,7 +143,7 @@ export function findingOf(report: Report): Finding {
   };
 }
 
-/// Whether a dimension has just one bar, which never ends: that of the whole space.
+/// True if a dimension has just one bar, which never ends: the class of the whole space.
 function isWhole({ dim, isEndless, finite }: Lengths, out: number[]): boolean {
   return dim > 1 && isEndless && out.length === 1 && finite.length === 0;
 }
@@ -174,7 +174,7 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, report: Report): st
     : `${subject} ${verb}: the ${shorter}, ${of(last)}, is ${ratio}`;
 }
 
-/// What is known of bars of infinite length: beyond the threshold nobody has looked.
+/// A remark on bars of infinite length: nothing is known beyond the threshold.
 function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   const { threshold } = meta.provenance;
   if (!found.isEndless) return many === 1 ? "has no beginning" : "have no beginning";
@@ -184,7 +184,7 @@ function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   return `are apart ${meta.value.negated ? "down" : "up"} to ${short(shownValue(meta, threshold))}`;
 }
 
-/// Nothing is selected. Where the components are spoken of, the page still suggests a cut.
+/// Nothing is selected. If the sentence mentions components, the page still suggests a cut.
 function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
   const sentence = nothing(found, report);
   const gap = toldOf(found, report).some((f) => f.dim === 0) ? gapOfCuts(report) : "";
@@ -192,17 +192,17 @@ function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
   return { ...plain(dim, sentence.replace(/\.$/, `; ${gap}.`)), components: true };
 }
 
-/// "the widest gap leaves 24 basins": what the cut panel says; nothing if it leaves all in one.
+/// "the widest gap leaves 24 basins", as in the cut panel; nothing if the gap leaves one basin.
 function gapOfCuts({ tree, meta }: Report): string {
   const at = tree && suggestedCut(tree, meta.tree?.from ?? 0, meta.tree?.to ?? Infinity);
   const left = at === undefined ? 0 : tree!.cut(at).segments.length;
   return left > 1 ? `the widest gap leaves ${counted(left, kindOfSegment(meta))}` : "";
 }
 
-/// The dimensions of which is said why none stands out.
+/// The dimensions for which the sentence says why no bar stands out.
 function toldOf(found: Lengths[], { image }: Report): Lengths[] {
   const some = found.filter((f) => f.finite.length > 0 || f.endless.length > 0);
-  // Components of points say little where there are holes to speak of.
+  // Components of points say little if there are holes to mention.
   const isImage = image || some.every((f) => f.dim === 0);
   return (isImage ? some : some.filter((f) => f.dim > 0)).slice(0, 3);
 }
@@ -232,8 +232,8 @@ function nothing(found: Lengths[], report: Report): string {
   return `No ${names} stands out: ${listed(each)}.`;
 }
 
-/// How the lengths of a dimension compare in which none stands out.
-/// @param named by "loops", not only by "all" and "the longest".
+/// Compares the lengths in a dimension where no bar stands out.
+/// @param named true to use a noun such as "loops", not only "all" and "the longest".
 function lengthsInWords({ dim, lengths, alive, endless }: Lengths, named: boolean): string {
   const many = lengths.length;
   const hole = named ? ` ${holes(dim)}` : "",
@@ -256,7 +256,7 @@ function plain(dim: number, sentence: string): Finding {
   return { dim, bars: [], sentence, components: false };
 }
 
-/// What ph-segment found is no single bar.
+/// A result of ph-segment is not a single bar.
 function segmentsOf({ tree, meta, bars }: Report): Finding {
   const { cut: at } = meta.tree!,
     what = kindOfSegment(meta);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which sets of leaves are surfaces of a scene, walls and boards, and no segments.
+// Decides which sets of leaves are surfaces of a scene (walls and boards) instead of segments.
 import type { Numbers } from "./payload";
 
-/// What tells the walls and boards of a scene from its segments: how many vertices of each leaf lie
-/// on each plane. What lies on one with a share of `least` is surface `first`, or one after it.
+/// The data that distinguish the walls and boards of a scene from its segments: how many vertices
+/// of each leaf lie on each plane. A set with a share of `least` on a plane is surface `first`, or
+/// one of the following.
 export interface FlatLeaves {
   on: Numbers; // leaf by leaf, `planes` numbers each
   planes: number;
@@ -11,11 +12,11 @@ export interface FlatLeaves {
   least: number;
 }
 
-/// How many vertices of sets of leaves lie on each plane.
+/// Counts the vertices of sets of leaves on each plane.
 export class FlatSets {
   private readonly on: Float64Array; // of each root
 
-  /// @param flat of a tree without: no set is a surface.
+  /// @param flat of a tree without planes: no set is a surface.
   constructor(
     private readonly flat: FlatLeaves | undefined,
     leaves: number,
@@ -33,7 +34,7 @@ export class FlatSets {
     const planes = this.flat?.planes ?? 0;
     for (let p = 0; p < planes; ++p) this.on[to * planes + p]! += this.on[from * planes + p]!;
   }
-  /// The surface that a set of so many vertices is; 0: it is none.
+  /// The surface that a set with this many vertices is; 0 if it is none.
   surfaceOf(root: number, vertices: number): number {
     const { flat } = this;
     for (let p = 0; p < (flat?.planes ?? 0); ++p)

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Which bar of one barcode is paired with which of the other, so that no end of a bar has to move
-// farther than the bottleneck distance. Bars in no pair move to the diagonal.
+// The pairs of bars of two barcodes, such that no end of a bar moves farther than the bottleneck
+// distance. Bars without a pair move to the diagonal.
 import type { Bars } from "./bars";
 import type { Numbers } from "./payload";
 
 export class Matching {
   private readonly partners = new Map<number, number>();
 
-  /// @param pairs numbers of bars, one of the first and one of the second barcode.
+  /// @param pairs numbers of bars, alternating between the first and the second barcode.
   constructor(pairs: Numbers) {
     for (let i = 0; i + 1 < pairs.length; i += 2) {
       this.partners.set(pairs[i]!, pairs[i + 1]!);
       this.partners.set(pairs[i + 1]!, pairs[i]!);
     }
   }
-  /// undefined: a bar goes to the diagonal.
+  /// undefined if a bar goes to the diagonal.
   partnerOf(bar: number): number | undefined {
     return this.partners.get(bar);
   }
-  /// How far the farther end of a bar moves.
+  /// The distance that the farther end of a bar moves.
   static move(bars: Bars, bar: number, partner: number | undefined): number {
     if (partner === undefined) return bars.persistence(bar) / 2;
     const apart = (a: number, b: number) => (a === b ? 0 : Math.abs(a - b));

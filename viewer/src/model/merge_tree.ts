@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The merge tree of H0 and its cuts: the same arithmetic on the same doubles as ph::MergeTree, so
-// that a cut here has the segments of the program's.
+// The merge tree of H0 and its cuts. It uses the same arithmetic on the same doubles as
+// ph::MergeTree, so that a cut has the same segments here as in the program.
 //
-// The program has contracted what no cut can separate: a leaf is a set of vertices that are
-// together in every cut. Each leaf is also a branch, the one that was born in it: it dies in the
-// merge in which its component is the younger one.
+// The program has contracted everything that no cut can separate: a leaf is a set of vertices that
+// are together in every cut. Each leaf is also a branch, which is born there and dies in the merge
+// in which its component is the younger one.
 import { DisjointSets, numbered } from "./disjoint_sets";
 import { FlatSets, type FlatLeaves } from "./flat_sets";
 import { kNone, PayloadError, type Numbers } from "./payload";
 
-/// When a merge is done: `persistence`: if its level (its persistence) is below the cut; `value`:
-/// if its level (its value) is at most the cut.
+/// The rule for doing a merge. `persistence`: its level (its persistence) is below the cut;
+/// `value`: its level (its value) is at most the cut.
 export type CutRule = "persistence" | "value";
 
 /// The label and the surface of each leaf; 0: none.
@@ -26,12 +26,12 @@ export interface TreeArrays {
   births: Numbers;
   points: Numbers;
   vertices: Numbers;
-  younger: Numbers; // leaf at the end of the edge that lies in the younger component
+  younger: Numbers; // the leaf at the edge's end in the younger component
   elder: Numbers;
   values: Numbers;
   levels: Numbers;
-  answer: Answer | undefined; // of the program, at its own cut
-  flat: FlatLeaves | undefined; // which components are no segments, at any other cut
+  answer: Answer | undefined; // the program's segments, at its own cut
+  flat: FlatLeaves | undefined; // which components are surfaces, at any other cut
   touching: Numbers | undefined; // pairs of leaves that touch in space
   mergeBar: Numbers | undefined;
   leafBar: Numbers | undefined;
@@ -54,16 +54,17 @@ export interface Cut {
 export class MergeTree {
   readonly leaves: number;
   readonly merges: number;
-  /// The merge that kills each branch; kNone for one that lives for ever.
+  /// The merge that kills each branch; kNone for a branch that never dies.
   readonly deathOf: Uint32Array;
-  /// The branch that each branch merges into; kNone.
+  /// The branch that each branch merges into, or kNone.
   readonly parentOf: Uint32Array;
-  /// Branches so that each comes right before those that merge into it, and its place in it.
+  /// An order in which each branch comes right before those that merge into it, and the index of
+  /// each branch in it.
   readonly order: Uint32Array;
   readonly rank: Uint32Array;
-  /// One past the last place of what merges into a branch.
+  /// One past the last index of the branches that merge into a branch.
   readonly end: Uint32Array;
-  /// Bar of each branch and branch of each bar; kNone and absent where not known.
+  /// Bar of each branch and branch of each bar; kNone, or missing, if unknown.
   readonly barOf: Uint32Array;
   private readonly branchOfBar = new Map<number, number>();
 
@@ -86,7 +87,7 @@ export class MergeTree {
     const level = this.arrays.levels[merge]!;
     return this.arrays.rule === "persistence" ? level < cut : level <= cut;
   }
-  /// Vertices of each branch with all that merges into it.
+  /// Number of vertices of each branch with everything that merges into it.
   sizes(): Float64Array {
     const before = new Float64Array(this.leaves + 1);
     this.order.forEach(
@@ -97,7 +98,7 @@ export class MergeTree {
       (_, b) => before[this.end[b]!]! - before[this.rank[b]!]!,
     );
   }
-  /// How long a branch stays by itself, as the cut counts it.
+  /// How long a branch stays separate, in the measure of the cut.
   level(branch: number): number {
     const merge = this.deathOf[branch]!;
     return merge === kNone ? Infinity : this.arrays.levels[merge]!;
@@ -106,7 +107,7 @@ export class MergeTree {
     const merge = this.deathOf[branch]!;
     return merge === kNone ? Infinity : this.arrays.values[merge]!;
   }
-  /// The branch that a leaf belongs to in a cut: the first one around it that is not merged.
+  /// The branch that a leaf belongs to in a cut: the first enclosing one that is not merged.
   branchAt(leaf: number, cut: number): number {
     let branch = leaf;
     for (;;) {
@@ -115,17 +116,17 @@ export class MergeTree {
       branch = this.parentOf[branch]!;
     }
   }
-  /// The same of every leaf at once.
+  /// The same for all leaves at once.
   branchesAt(cut: number): Uint32Array {
     const branches = new Uint32Array(this.leaves);
     for (const branch of this.order) {
-      const merge = this.deathOf[branch]!; // what it merges into comes before it
+      const merge = this.deathOf[branch]!; // its parent comes before it
       const isMerged = merge !== kNone && this.isDone(merge, cut);
       branches[branch] = isMerged ? branches[this.parentOf[branch]!]! : branch;
     }
     return branches;
   }
-  /// Marks the leaves of a branch, without those branches in it that the cut keeps apart.
+  /// Marks the leaves of a branch, without the branches inside it that the cut keeps apart.
   markBranch(branch: number, cut: number, mask: Uint8Array): void {
     for (let r = this.rank[branch]!; r < this.end[branch]!;) {
       const b = this.order[r]!;
@@ -134,8 +135,9 @@ export class MergeTree {
       r = apart ? this.end[b]! : r + 1;
     }
   }
-  /// Calls `mark` on the leaves of a branch as markBranch does. @return the value below which their
-  /// vertices are the component that was born in it: there it dies, or meets what the cut keeps apart.
+  /// Calls `mark` on the leaves of a branch like markBranch. @return the value up to which their
+  /// vertices form the component born in it: there it dies, or meets a part that the cut keeps
+  /// apart.
   markBasin(branch: number, cut: number, mark: (leaf: number) => void): number {
     let limit = this.death(branch);
     for (let r = this.rank[branch]!; r < this.end[branch]!;) {
@@ -150,7 +152,8 @@ export class MergeTree {
   branchOf(bar: number): number | undefined {
     return this.branchOfBar.get(bar);
   }
-  /// The segments of the program's own cut as it gave them; of a tree without them those of `at`.
+  /// The segments of the program's own cut, unchanged; for a tree without them, the segments of
+  /// `at`.
   answer(at: number): Cut {
     const { answer, points, vertices, births } = this.arrays;
     if (!answer) return this.cut(at);
@@ -262,7 +265,7 @@ export class MergeTree {
       branch[sets.join(younger, elder)] = survivor;
     }
   }
-  /// Depth first; what merges first comes first, so that a drawing has no crossings.
+  /// Depth first; branches that merge first come first, so that a drawing has no crossings.
   private orderBranches(): void {
     const head = new Uint32Array(this.leaves).fill(kNone),
       next = new Uint32Array(this.leaves).fill(kNone);
@@ -305,7 +308,7 @@ export class MergeTree {
       const merge = this.deathOf[b]!;
       if (mergeBar && merge !== kNone) this.name(b, mergeBar[merge]!);
     }
-    // Bars that no merge of the tree kills: infinite ones, and those that were contracted away.
+    // Bars that no merge of the tree kills: infinite bars, and bars that were contracted away.
     if (leafBar) {
       for (let i = 0; i + 1 < leafBar.length; i += 2) {
         const leaf = leafBar[i]!,

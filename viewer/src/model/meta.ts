@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The metadata of a report, as docs/reference/report-format.md has them.
+// The metadata of a report, as in docs/reference/report-format.md.
 import type { CutRule } from "./merge_tree";
 
 export type CellKind = "vertices" | "grid" | "row";
@@ -18,7 +18,7 @@ export interface Provenance {
   field?: number;
   max_dim?: number;
   threshold?: number | null;
-  filtration?: Record<string, unknown>; // what else is said of the values, as in JSON of the bars
+  filtration?: Record<string, unknown>; // further facts, as in the JSON of the bars
   engine?: string;
   timings?: Record<string, number>;
   peak_memory?: number | null;
@@ -26,23 +26,23 @@ export interface Provenance {
   notes?: Record<string, string>;
 }
 
-/// A segment of the program's own answer; the place in the list is its label less one.
+/// A segment of the program's own answer; its index in the list is its label minus one.
 export interface SegmentMeta {
-  number: number; // what it is called
+  number: number; // the number by which it is called
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  role: "object" | "unknown" | "support" | "wall"; // the last two: of a stream, in which it was one
+  role: "object" | "unknown" | "support" | "wall"; // the last two: only from earlier frames
   on_surface?: number;
   on_segment?: number; // by its number
 }
 
-/// What a segmentation says besides its labels.
+/// The properties of a segmentation beside its labels.
 export interface SceneMeta {
   segments: SegmentMeta[];
   surfaces: { role: "support" | "wall" }[]; // by number, from 1
-  removed: number; // how many of these no leaf is on
-  flat: number; // least share of a surface on its plane
-  min_seam: number; // the answer joins over weak seams, if > 0,
+  removed: number; // how many of these have no leaf on them
+  flat: number; // least share of a surface's vertices on its plane
+  min_seam: number; // if > 0, the answer joins over weak seams,
   objects: boolean; // and parts of an object
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads what a program wrote into the page: one JSON block and any number of arrays. The bytes are
-// described in docs/reference/report-format.md.
+// Reads the data that a program wrote into the page: one JSON block and any number of arrays.
+// docs/reference/report-format.md describes the bytes.
 
 export type Numbers =
   | Uint8Array
@@ -15,8 +15,8 @@ export type Numbers =
 /// No leaf, no bar, no merge.
 export const kNone = 0xffffffff;
 
-/// A block of numbers; `shape[0]` rows. A number means offset + scale * what is stored, where the
-/// block has an offset and a scale (one for all, or one a column).
+/// A block of numbers with `shape[0]` rows. A stored number means offset + scale * number if the
+/// block has an offset and a scale (one for all, or one per column).
 export interface Block {
   values: Numbers;
   shape: number[];
@@ -27,7 +27,7 @@ export interface Block {
 export interface Payload {
   meta: unknown;
   blocks: Map<string, Block>;
-  /// Bytes of base64 text, for the figures that the page states of itself.
+  /// Bytes of base64 text, for the figures that the page states about itself.
   bytes: number;
 }
 
@@ -100,7 +100,7 @@ async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/// The first bytes of all numbers stand together, then the second bytes, …
+/// The first bytes of all numbers come first, then all second bytes, …
 function fromPlanes(planes: Uint8Array, size: number): Uint8Array {
   const bytes = new Uint8Array(planes.length);
   const count = planes.length / size;
@@ -115,7 +115,7 @@ function undoDelta(values: Numbers, columns: number): void {
   for (let i = columns; i < values.length; ++i) values[i]! += values[i - columns]!;
 }
 
-/// The numbers that a block means.
+/// The numbers that a block represents.
 export function decoded(block: Block): Numbers {
   if (block.scale.length === 0) return block.values;
   const columns = block.scale.length;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report says: its metadata, checked, and its arrays under the names of
+// The contents of a report: its checked metadata, and its arrays under the names of
 // docs/reference/report-format.md.
 import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
 import { Bars } from "./bars";
@@ -11,11 +11,11 @@ import type { Meta, SceneMeta } from "./meta";
 export interface Elements {
   count: number;
   rgb: Uint8Array | undefined;
-  normals: Int8Array | undefined; // octahedral, two a point
-  readonly birth: Numbers | undefined; // found when it is asked for
+  normals: Int8Array | undefined; // octahedral encoding, two per point
+  readonly birth: Numbers | undefined; // computed on first use
   truth: Numbers | undefined;
-  surface: Numbers | undefined; // that was removed with the point; 0: none
-  leaf: Numbers | undefined; // in the merge tree; 2^bits - 1: none
+  surface: Numbers | undefined; // surface that was removed with the point; 0: none
+  leaf: Numbers | undefined; // leaf in the merge tree; 2^bits - 1: none
 }
 
 export interface Cloud {
@@ -29,16 +29,16 @@ export interface Cloud {
 export interface Image {
   shape: number[]; // planes, rows, columns
   values: Numbers;
-  shift: number; // from a doubled coordinate to twice the place of its voxel
+  shift: number; // converts a doubled coordinate to twice the index of its voxel
 }
 
-/// Representatives: chain i belongs to bar `bar[i]`, its cells are start[i] … start[i + 1] - 1.
+/// Representatives: chain i belongs to bar `bar[i]`; its cells are start[i] … start[i + 1] - 1.
 export interface Chains {
   ofBar: Map<number, number>;
   start: Numbers;
   cells: Numbers;
   coefficients: Numbers | undefined;
-  first: Float64Array; // place in `cells` of each chain
+  first: Float64Array; // index into `cells` of each chain
 }
 
 /// Sets of voxels of bars, as runs of places in the image.
@@ -46,7 +46,7 @@ export interface VoxelSets {
   ofBar: Map<number, number>;
   start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
   runs: Numbers; // first place and length of each
-  surfaces: Map<number, Float32Array>; // by bar, of those seen last
+  surfaces: Map<number, Float32Array>; // by bar, of the bars seen last
 }
 
 export interface Report {
@@ -57,11 +57,11 @@ export interface Report {
   image: Image | undefined;
   tree: MergeTree | undefined;
   chains: Chains | undefined;
-  matching: Matching | undefined; // of the two barcodes of a comparison
+  matching: Matching | undefined; // for the two barcodes of a comparison
   voxels: VoxelSets | undefined;
   edges: { ends: Numbers; values: Numbers } | undefined;
   triangles: { corners: Numbers; values: Numbers } | undefined;
-  isMesh: boolean; // the triangles are the data; else they grow with the scale
+  isMesh: boolean; // true if the triangles are data; otherwise they depend on the scale
   payloadBytes: number;
 }
 
@@ -98,8 +98,8 @@ function checkScene(scene: unknown): void {
     if (typeof colour !== "string" || !/^#[0-9a-f]{6}$/.test(colour)) fail("a segment has no colour");
 }
 
-/// Signs that turn the direction of what follows would let a name rewrite the text around it.
-/// Command lines keep them: they must name the file.
+/// Characters that change the text direction would let a name disguise the text around it. Command
+/// lines keep them, because they must name the file.
 function readable(value: unknown, key = ""): unknown {
   if (key === "command") return value;
   if (typeof value === "string") return value.replace(/[\u202a-\u202e\u2066-\u2069]/g, "\ufffd");
@@ -178,12 +178,12 @@ export function reportOf(payload: Payload): Report {
   };
 }
 
-/// Whether simplices are those of a triangulation of the points.
+/// True if the simplices belong to a triangulation of the points.
 function isTriangulated({ provenance }: Meta): boolean {
   return ["alpha", "delaunay-cech", "delaunay-rips"].includes(provenance.complex ?? "");
 }
 
-/// Positions relative to the least coordinates: those of a map do not fit float32.
+/// Positions relative to the least coordinates, because map coordinates do not fit float32.
 function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | undefined {
   if (!block || block.values.length === 0) return undefined;
   const dims = block.shape[1] ?? 1,
@@ -217,7 +217,7 @@ function imageOf(block: Block | undefined, meta: Meta): Image | undefined {
   return { shape, values: decoded(block), shift: meta.image?.construction === "cells" ? -1 : 0 };
 }
 
-/// When each voxel enters: at its value, or, in superlevel sets, at minus that. NaN: never.
+/// The value at which each voxel enters: its own, or minus its own for superlevel sets. NaN: never.
 function birthsOf({ values }: Image, meta: Meta): Numbers {
   if (!meta.value.negated) return values;
   const births = roomForNegated(values);

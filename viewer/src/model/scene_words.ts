@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What the program said of the segments and surfaces of a scene, in words.
+// Describes the segments and surfaces of a scene in words.
 import { counted, short } from "../common/number_format";
 import { listed } from "./words";
 import type { SceneMeta, SegmentMeta } from "./meta";
 
-/// "support 1": what a surface is called; its number is that of `--surfaces` and of the JSON.
+/// "support 1": the name of a surface; its number is the same as in `--surfaces` and in the JSON.
 export function nameOfSurface({ surfaces }: SceneMeta, number: number): string {
   const role = surfaces[number - 1]?.role;
   return `${role === "support" || role === "wall" ? role : "surface"} ${number}`;
 }
 
-/// "on support 1", "on 3"; of what is not seen to stand on anything its role.
+/// "on support 1", "on 3"; the role of a segment that does not visibly stand on anything.
 export function standing(scene: SceneMeta, segment: SegmentMeta): string {
   if (segment.on_surface) return `on ${nameOfSurface(scene, segment.on_surface)}`;
   if (segment.on_segment) return `on ${segment.on_segment}`;
@@ -30,7 +30,7 @@ export function factsOf(scene: SceneMeta, segment: SegmentMeta): string {
   return `${role}${on === role ? "" : ` ${on}`}, ${confidence}`;
 }
 
-/// "1 support and 2 walls"; empty without any.
+/// "1 support and 2 walls"; empty if there are none.
 export function surfacesInWords({ surfaces }: SceneMeta): string {
   const count = (role: string) => surfaces.filter((s) => s.role === role).length;
   const words = ["support", "wall"].filter((role) => count(role) > 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the reader is looking at: one state for all views. A view changes it through the methods
-// here and draws again when it hears of a change; no view knows another one.
+// The state of the page, shared by all views. A view changes it through the methods here and
+// redraws when it is notified of a change; no view knows another.
 import { findingOf, type Finding } from "./finding";
 import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, fromHex, hex, numberOfColour, segmentColour, themeOf, type Rgb, type Theme } from "../common/palette";
@@ -24,14 +24,14 @@ export type Change =
   | "theme"
   | "view";
 
-/// What the pointer or the keyboard is on.
+/// The item under the pointer or the keyboard focus.
 export interface Focus {
   bar: number; // -1: none
   segment: number; // 0: none
   element: number; // -1: none
 }
 const kNoTints = new Map<number, string>();
-const kMostTinted = 200, // segments whose bars have their colours
+const kMostTinted = 200, // number of segments whose bars have their colours
   kMostNumbered = 30;
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
@@ -45,7 +45,7 @@ export class Session {
   cutValue: number;
   cut: Cut | undefined;
   segmentColours: Rgb[] = [];
-  beside = false; // ground truth beside
+  beside = false; // show ground truth beside the data
   scale: number | undefined; // filtration value up to which the complex is shown
   sliceAxis = 0;
   slice = 0;
@@ -66,7 +66,7 @@ export class Session {
     this.finding = findingOf(report);
     this.select(this.finding.bars);
   }
-  /// All but the theme as it was at first.
+  /// Resets everything except the theme.
   startAgain(): void {
     const { report } = this;
     this.focus = kNothing;
@@ -91,7 +91,7 @@ export class Session {
   onChange(listener: (changes: Set<Change>) => void): void {
     this.listeners.push(listener);
   }
-  /// Tells the views once a frame, however many changes there are.
+  /// Notifies the views once per frame, however many changes there are.
   changed(...changes: Change[]): void {
     if (this.pending.size === 0) requestAnimationFrame(() => this.flush());
     for (const change of changes) this.pending.add(change);
@@ -103,7 +103,7 @@ export class Session {
     for (const listener of this.listeners) listener(changes);
     if (changes.has("cut")) this.shown(this.cutMilliseconds + performance.now() - start);
   }
-  /// Hears how long a cut took until every view was told.
+  /// Receives the time from a cut until every view was notified.
   onShown(listener: (milliseconds: number) => void): void {
     this.shown = listener;
   }
@@ -124,7 +124,7 @@ export class Session {
     if (this.colour === "grey") this.tints = undefined;
     this.changed("selection");
   }
-  /// Whether just the bars of the finding are selected, as at first.
+  /// True if exactly the bars of the finding are selected, as at the start.
   get selectsTheFinding(): boolean {
     const { bars } = this.finding;
     return this.selection.length === bars.length && bars.every((bar) => this.isSelected(bar));
@@ -158,16 +158,16 @@ export class Session {
 
   // The cut.
 
-  /// Whether the segments are the program's own answer, of which the report says more.
+  /// True if the segments are the program's own answer, about which the report knows more.
   get isAnswer(): boolean {
     const tree = this.report.tree;
     return !!tree?.arrays.answer && this.cutValue === this.report.meta.tree!.cut;
   }
-  /// What the program said of a segment of its answer.
+  /// The program's description of a segment of its answer.
   saidOf(label: number): SegmentMeta | undefined {
     return this.isAnswer ? this.report.meta.scene!.segments[label - 1] : undefined;
   }
-  /// What a segment is called: as in the files that the program wrote, or by its size.
+  /// The name of a segment: as in the files that the program wrote, or by its size.
   numberOf(label: number): number {
     return this.saidOf(label)?.number ?? label;
   }
@@ -197,7 +197,7 @@ export class Session {
       touching[a - 1]!.add(b - 1);
       touching[b - 1]!.add(a - 1);
     }
-    // A segment keeps the colour that its oldest leaf had before.
+    // A segment keeps the previous colour of its oldest leaf.
     const wish = cut.segments.map((s) => this.leafColours[s.oldestLeaf] ?? -1);
     const choice = coloursApart(touching, wish);
     cut.segments.forEach((s, i) => (this.leafColours[s.oldestLeaf] = choice[i]!));
@@ -207,7 +207,7 @@ export class Session {
   private touchingLeaves(): Numbers {
     const { tree, elements, image, cloud } = this.report;
     if (tree!.arrays.touching) return tree!.arrays.touching;
-    // Of very many leaves each is a speck, whose colour says nothing.
+    // With very many leaves, each is a speck whose colour carries no information.
     const few = elements?.leaf && tree!.leaves <= 20_000;
     this.touching ??= !few
       ? new Uint32Array()
@@ -221,7 +221,7 @@ export class Session {
     return tree && suggestedCut(tree, meta.tree?.from ?? 0, meta.tree?.to ?? Infinity);
   }
 
-  // What belongs to what.
+  // Relations between elements, segments, surfaces and bars.
 
   leafOf(element: number): number {
     const leaf = this.report.elements?.leaf?.[element] ?? kNone;
@@ -231,13 +231,13 @@ export class Session {
     const leaf = this.leafOf(element);
     return leaf < 0 ? 0 : (this.cut?.labelOfLeaf[leaf] ?? 0);
   }
-  /// The surface that an element is on; 0: none.
+  /// The surface on which an element lies; 0: none.
   surfaceOf(element: number): number {
     const leaf = this.leafOf(element);
     if (leaf < 0) return this.report.elements?.surface?.[element] ?? 0;
     return this.cut?.surfaceOfLeaf[leaf] ?? 0;
   }
-  /// How many elements are on each surface.
+  /// The number of elements on each surface.
   pointsOfSurfaces(): number[] {
     const { meta, elements } = this.report;
     const points = new Array<number>(meta.scene?.surfaces.length ?? 0).fill(0);
@@ -248,8 +248,8 @@ export class Session {
     }
     return points;
   }
-  /// The bar of the branch that an element belongs to; without a tree, of the most persistent
-  /// representative through it. -1: none.
+  /// The bar of the branch that an element belongs to; without a tree, the bar of the most
+  /// persistent representative through it. -1: none.
   barOf(element: number): number {
     const leaf = this.leafOf(element);
     if (leaf >= 0) {
@@ -266,7 +266,7 @@ export class Session {
     const bar = tree.barOf[tree.branchAt(segment.oldestLeaf, this.cutValue)]!;
     return bar === kNone ? -1 : bar;
   }
-  /// The leaves to bring out, as a mask; undefined: none in particular.
+  /// The leaves to highlight, as a mask; undefined: none in particular.
   highlightedLeaves(): Uint8Array | undefined {
     const tree = this.report.tree;
     if (!tree) return undefined;
@@ -287,8 +287,8 @@ export class Session {
     return any ? mask : undefined;
   }
   private tints: Map<number, string> | undefined;
-  /// The bars of the largest segments with the colours that these have in the data, if they have
-  /// them there; else none. A grey image has those of the selected ones.
+  /// The bars of the largest segments with their colours in the data, if the data show them;
+  /// otherwise none. A grey image shows the colours of selected segments.
   tintedBars(): Map<number, string> {
     const isGrey = this.colour === "grey";
     if ((this.colour !== "segment" && !isGrey) || !this.cut) return kNoTints;
@@ -300,8 +300,7 @@ export class Session {
     );
     return this.tints;
   }
-  /// Labels of the segments that have a number in every view: the largest of those with a colour, by
-  /// bar.
+  /// Labels, by bar, of the segments that have a number in every view: the largest coloured ones.
   numbers(): Map<number, number> {
     const numbers = new Map<number, number>();
     const tints = this.tintedBars();
@@ -313,12 +312,12 @@ export class Session {
     }
     return numbers;
   }
-  /// What a bar is drawn with.
+  /// The colour of a bar.
   colourOfBar(bar: number): string {
     return this.tintedBars().get(bar) ?? this.colourOfDim(this.report.bars.dim[bar]!);
   }
-  /// What bars are drawn with that have no colour of their own: where segments have some those of H0
-  /// are grey, as in the tree.
+  /// The colour of bars without their own colour: if segments have colours, bars of H0 are grey, as
+  /// in the tree.
   colourOfDim(dim: number): string {
     const grey = dim === 0 && this.colour === "segment";
     return grey ? this.theme.faint : dimColour(dim, this.theme);
@@ -335,7 +334,7 @@ export class Session {
   }
 
   private through: Map<number, number> | undefined;
-  /// By vertices as the input numbers them, some of which may not be shown.
+  /// By the vertex numbers of the input; some vertices may not be shown.
   private barsThrough(): Map<number, number> {
     if (this.through) return this.through;
     this.through = new Map();
@@ -350,7 +349,7 @@ export class Session {
     return this.through;
   }
 
-  /// The ways to colour that this report has, the default first.
+  /// The colour modes of this report, the default first.
   colourModes(): [ColourMode, string][] {
     this.modes ??= colourModesOf(this.report);
     return this.modes;

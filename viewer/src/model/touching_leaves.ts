@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which leaves touch, where the program did not say: neighbouring voxels, or points in the same or
-// in neighbouring cubes of a coarse grid.
+// Finds touching leaves if the program did not state them: leaves with neighbouring voxels, or with
+// points in the same or neighbouring cubes of a coarse grid.
 import type { Numbers } from "./payload";
 
-const kCubes = 96; // along the longest side
+const kCubes = 96; // cubes along the longest side
 
 export function touchingInImage(leaf: Numbers, shape: number[], leaves: number): Uint32Array {
   const pairs = new Set<number>();

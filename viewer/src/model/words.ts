@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Holes and intervals in words. Of superlevel sets a report holds minus the values; what a reader
-// sees are the values themselves, which fall from birth to death.
+// Describes holes and intervals in words. For superlevel sets, a report holds minus the values;
+// readers see the values themselves, which fall from birth to death.
 import { digitsFor, grouped, homology, short } from "../common/number_format";
 import type { Meta } from "./meta";
 import type { Report } from "./report";
 
-/// "loop", "loops": what a bar of a dimension is.
+/// "loop", "loops": the noun for a bar of a dimension.
 export function holes(dim: number, count = 1): string {
   const many = count !== 1;
   if (dim > 2) return `${homology(dim)} class${many ? "es" : ""}`;
@@ -35,18 +35,18 @@ export function listed(words: string[], last = "and"): string {
   return `${words.slice(0, -1).join(", ")} ${last} ${words.at(-1)}`;
 }
 
-/// What a part of the cut is called.
+/// The noun for a part of the cut.
 export function kindOfSegment(meta: Meta): string {
   return meta.tree?.what ?? "segment";
 }
 
-/// A filtration value as a reader knows it.
+/// A filtration value in the reader's terms.
 export function shownValue(meta: Meta, value: number): number {
   return meta.value.negated ? 0 - value : value;
 }
 
-/// Birth and death of a bar, in as many digits as tell them apart; those of bars that never end, as
-/// tell values of the report apart.
+/// Birth and death of a bar, with enough digits to distinguish them; for bars that never end,
+/// enough to distinguish values of the report.
 export function endsOf({ meta, bars }: Report, bar: number, least = 4): [string, string] {
   const ends = [bars.birth[bar]!, bars.death[bar]!];
   const size = Math.max(...ends.map(Math.abs).filter(Number.isFinite));
@@ -55,7 +55,7 @@ export function endsOf({ meta, bars }: Report, bar: number, least = 4): [string,
   return ends.map((v) => short(shownValue(meta, v), Math.max(least, digits))) as [string, string];
 }
 
-/// "[0.184, 1.465)"; of superlevel sets from the larger value to the smaller one.
+/// "[0.184, 1.465)"; for superlevel sets, from the larger value to the smaller one.
 export function intervalText(report: Report, bar: number): string {
   return `[${endsOf(report, bar).join(", ")})`;
 }

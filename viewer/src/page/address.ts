@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of the page in its address, so that a link shows the same.
+// Stores the state of the page in its address, so that a link shows the same view.
 import type { DataView } from "../scene/data_view";
 import { exact } from "../common/number_format";
 import { prefersDark, themeOf } from "../common/palette";
@@ -49,7 +49,7 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }
 
-/// What is not named is as at first; what is not understood is passed over.
+/// State that is not named takes its default; unknown parts are ignored.
 export function goTo(address: string, session: Session, data: DataView | undefined): void {
   const { report } = session;
   const parts = new Map(
@@ -92,7 +92,7 @@ export function goTo(address: string, session: Session, data: DataView | undefin
   const isDark = parts.has("theme") ? parts.get("theme") === "dark" : prefersDark();
   session.set("theme", themeOf(isDark), "theme");
   if (parts.has("bars")) session.select(fromRuns(parts.get("bars")!, report.bars.size));
-  data?.face(); // before the view, not after it
+  data?.face(); // must come before the view
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");
   else data?.stage?.reset();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be taken along: the page as a picture, the selection as numbers.
+// Exports the page as a picture, and the selection as numbers.
 import { commandLine } from "../model/command_line";
 import type { DataView } from "../scene/data_view";
 import type { Chart } from "../charts/chart";
@@ -13,7 +13,7 @@ export interface Views {
   charts: [title: string, chart: Chart][];
 }
 
-/// All views as they stand on the page, charts as lines and text, the cloud as an image.
+/// All views as laid out on the page, with charts as lines and text, and the cloud as an image.
 export function pictureSvg(session: Session, views: Views, page: HTMLElement): string {
   const {
     theme,
@@ -77,7 +77,7 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
   return pen.document(width, height, meta.title, commandLine(session));
 }
 
-/// What of the legend is in view: its swatches and its words where they stand.
+/// The visible part of the legend: its swatches and words in their places.
 function drawLegend(
   pen: SvgPen,
   legend: Element,
@@ -98,7 +98,7 @@ function drawLegend(
   }
 }
 
-/// The same as pixels, two a unit.
+/// The same in pixels, two per unit.
 export async function picturePng(svgText: string): Promise<Blob> {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText)}`;
@@ -112,8 +112,8 @@ export async function picturePng(svgText: string): Promise<Blob> {
   );
 }
 
-/// `dim,birth,death` as the programs write it, with the barcode before it where there are two. What
-/// is selected, or all that is shown.
+/// `dim,birth,death` as the programs write it, preceded by the barcode if there are two. It holds
+/// the selected bars, or else all shown bars.
 export function selectionCsv(session: Session): string {
   const { bars, meta } = session.report;
   const two = meta.barcodes.length > 1;
@@ -124,14 +124,14 @@ export function selectionCsv(session: Session): string {
   return [two ? "barcode,dim,birth,death" : "dim,birth,death", ...lines, ""].join("\n");
 }
 
-/// A barcode file as ph-barcode writes it and reads it back, with what the page shows besides. Sets
-/// of voxels are not in it.
+/// A barcode file that ph-barcode can read, with the further data that the page shows, except sets
+/// of voxels.
 export function selectionJson(session: Session): string {
   const { report, cut, cutValue } = session;
   const { chains, meta } = report;
   const { input, complex, field, max_dim, threshold, filtration, engine, timings, peak_memory } =
     meta.provenance;
-  const isComputed = complex !== undefined && field !== undefined; // else the program says neither
+  const isComputed = complex !== undefined && field !== undefined; // else the program writes neither
   const selected = selectedOrShown(session);
   const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));
   return (
@@ -166,7 +166,7 @@ export function selectionJson(session: Session): string {
   );
 }
 
-/// What the program's own JSON says of a segment of its answer, by the same names.
+/// The program's JSON for a segment of its answer, with the same names.
 function saidInJson(session: Session, label: number): object {
   const said = session.saidOf(label);
   if (!said) return {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Panels that say nothing about these data are folded away: their title stays, and a button that
-// opens them.
+// Folds away panels that say nothing about these data: their title and a button that opens them
+// remain.
 import { button } from "../common/dom";
 import type { Session } from "../model/session";
 
-/// Adds the button. @param folded how the panel begins.
-/// @return opens it, unless the reader has decided.
+/// Adds the button. @param folded true if the panel starts folded.
+/// @return a function that opens the panel, unless the reader has decided.
 export function foldable(panel: HTMLElement, title: string, folded: boolean): () => void {
   let isDecided = false;
   const act = () => {
@@ -26,9 +26,9 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): ()
   };
 }
 
-/// Whether a cut of the tree says something: there are components that stand out, or the data begin
-/// with the colours of several segments and another cut has other ones.
-/// @param counts of segments at cuts all along the slider.
+/// True if a cut of the tree is informative: some components stand out, or the data start with the
+/// colours of several segments and another cut has different ones.
+/// @param counts numbers of segments at cuts along the slider.
 export function cutSays(session: Session, counts: number[]): boolean {
   const { tree } = session.report;
   if (!tree || tree.merges === 0) return false;

@@ -45,7 +45,7 @@ async function start(app: HTMLElement): Promise<void> {
       foldable(cut.panel, "Cut", folded),
       foldable(tree.panel, "Merge tree", folded),
     ];
-    // Who asks for the colours of a cut, or for another cut, wants to see it.
+    // A reader who asks for the colours of a cut, or for another cut, wants to see it.
     session.onChange((changes) => {
       const ofCut = session.colour === "segment" || session.colour === "persistence";
       const other = session.cutValue !== report.meta.tree!.cut;
@@ -91,7 +91,7 @@ function followTheme(session: Session): void {
   show();
 }
 
-/// What stands out, in one sentence; a click selects it again.
+/// The finding in one sentence; a click selects its bars again.
 function findingLine(session: Session, diagram: Diagram): HTMLElement {
   const { sentence, bars } = session.finding;
   const select = () => {
@@ -125,7 +125,7 @@ function statusLine(session: Session): HTMLElement {
 }
 
 function keepAddress(session: Session, data: DataView | undefined): void {
-  if (location.protocol === "about:") return; // in a frame of a notebook there is no address
+  if (location.protocol === "about:") return; // a frame in a notebook has no address
   goTo(location.hash, session, data);
   let timer = 0;
   session.onChange((changes) => {

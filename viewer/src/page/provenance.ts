@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the page comes from: everything needed to make it again.
+// Shows the origin of the page: everything needed to make it again.
 import { commandLine } from "../model/command_line";
 import { button, el } from "../common/dom";
 import { bytes, counted, exact, grouped, homology, seconds, short } from "../common/number_format";
@@ -86,14 +86,14 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   return dialog;
 }
 
-/// A name, or numbers, of what is said of the values.
+/// A name, or numbers, from the description of the values.
 function ofValues(provenance: Meta["provenance"], name: string): string | undefined {
   const said = provenance.filtration?.[name];
   if (Array.isArray(said)) return said.join(", ");
   return typeof said === "string" ? said : undefined;
 }
 
-/// "H₁ bottleneck 0.05", one a dimension.
+/// "H₁ bottleneck 0.05", one per dimension.
 export function distancesOf(meta: Meta): string[] {
   return (meta.distances ?? []).map(
     ({ dim, bottleneck }) => `${homology(dim)} bottleneck ${short(bottleneck ?? Infinity)}`,

@@ -5,7 +5,7 @@ import { factsOf, nameOfSurface } from "../model/scene_words";
 import { kindOfSegment } from "../model/words";
 import type { Session } from "../model/session";
 
-/// What is under the pointer, in words.
+/// Describes the item under the pointer in words.
 export function readingOf(session: Session): string {
   const { focus, cut } = session;
   const words: string[] = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line above the views: what this is, dimensions to show and hide, export, theme, help.
+// The line above the views: title, dimensions to show and hide, export, theme, help.
 import { commandLine } from "../model/command_line";
 import { button, download, el, svg } from "../common/dom";
 import { pictureSvg, picturePng, selectionCsv, selectionJson, type Views } from "./exports";

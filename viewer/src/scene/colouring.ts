@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A colour for each point or voxel, by what the reader asked for. What is not brought out fades.
+// The colour of each point or voxel in the chosen mode. Elements that are not highlighted fade.
 import { dimColour, fromHex, greyOf, kSurfaces, ramp, segmentColour, type Rgb } from "../common/palette";
 import { barsInView } from "./representatives";
 import { runsOf } from "../geometry/voxel_sets";
@@ -10,15 +10,15 @@ import type { Session } from "../model/session";
 export interface Range {
   low: number;
   high: number;
-  clipped?: boolean; // some values lie beyond its ends
+  clipped?: boolean; // true if some values lie beyond its ends
 }
 
-/// Red in the lowest byte, as the bytes of a texture are read.
+/// Red is in the lowest byte, as textures are read.
 function packed([r, g, b]: Rgb): number {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-/// `part` of 256 parts of one colour, the rest of another.
+/// Mixes `part` of 256 parts of one colour with the rest of another.
 function mixed(a: number, b: number, part: number): number {
   const channel = (shift: number) =>
     ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
@@ -26,14 +26,14 @@ function mixed(a: number, b: number, part: number): number {
 }
 
 export class Colouring {
-  /// Red, green, blue, 255 of each element.
+  /// Red, green, blue, 255 for each element.
   readonly rgba: Uint8Array;
-  private readonly shown: Uint32Array; // the same numbers
+  private readonly shown: Uint32Array; // the same numbers as 32-bit words
   private readonly base: Uint32Array; // without highlights
   private readonly ranges = new Map<ColourMode, Range>();
-  private mode: ColourMode = "plain"; // of what was painted last
+  private mode: ColourMode = "plain"; // state of the last painting
   private baseKey = "";
-  private key = ""; // of what is brought out
+  private key = ""; // state of the highlight
   private selection: number[] = [];
 
   constructor(private readonly session: Session) {
@@ -51,13 +51,13 @@ export class Colouring {
     return range;
   }
 
-  /// @return whether any colour may have changed: a pointer moves much inside one segment.
+  /// @return true if any colour may have changed, because a pointer moves much inside one segment.
   update(mode: ColourMode = this.session.colour): boolean {
     const { session } = this;
     this.mode = mode;
     const painted = this.paintBase(mode);
     const { segment, bar } = session.focus;
-    // Where bars have sets of voxels those are seen, whichever segment is brought out.
+    // If bars have sets of voxels, these are shown, whichever segment is highlighted.
     const anyBar = segment > 0 && !session.report.voxels;
     const basins = mode === "grey" ? session.cutValue : 0;
     const key = [segment, anyBar ? -1 : bar, session.scale ?? "all", basins].join();
@@ -72,7 +72,7 @@ export class Colouring {
   private fade(): void {
     const { session } = this;
     const { leaf, birth, count } = session.report.elements!;
-    // A grey picture stays as it is: what is brought out is coloured in it.
+    // A grey picture does not change, except that highlighted elements are coloured.
     const isGrey = this.mode === "grey";
     const leaves = leaf && !isGrey ? session.highlightedLeaves() : undefined;
     const limit = birth ? session.scale : undefined;
@@ -87,7 +87,8 @@ export class Colouring {
     }
   }
 
-  /// Basins of the bars in view, up to where they meet what the cut keeps apart from them.
+  /// Basins of the bars in view, up to the value at which they meet parts that the cut keeps
+  /// separate.
   private tintBasins(): void {
     const { session } = this;
     const { elements, tree, voxels } = session.report;
@@ -104,7 +105,7 @@ export class Colouring {
       const leaves: number[] = [];
       if (branch === undefined) continue;
       const limit = tree.markBasin(branch, session.cutValue, (b) => leaves.push(b));
-      if (limit === Infinity) continue; // the only basin: all of the picture is no part of it
+      if (limit === Infinity) continue; // the only basin: the whole picture is not a part
       any = true;
       for (const b of leaves) {
         colours[b] = packed(session.segmentColours[session.cut!.labelOfLeaf[b]! - 1] ?? [0, 0, 0]);
@@ -117,7 +118,7 @@ export class Colouring {
         this.shown[i] = mixed(colours[leaf[i]!]!, this.base[i]!, 144);
   }
 
-  /// The voxels of the bars in view, those of less persistent bars over the others.
+  /// The voxels of the bars in view; less persistent bars are drawn over the others.
   private tintSets(): void {
     const { session } = this;
     const { voxels, bars } = session.report;
@@ -189,7 +190,7 @@ export class Colouring {
         const { low, high } = this.range(mode)!,
           span = high - low || 1,
           map = mode === "grey" ? greyOf : ramp;
-        // What is not there is drawn as nothing, not as a value.
+        // Absent voxels are not drawn as a value.
         const absent = session.report.image ? 0 : none;
         return (i) => (Number.isFinite(value(i)) ? packed(map((value(i) - low) / span)) : absent);
       }
@@ -197,7 +198,8 @@ export class Colouring {
   }
 
   private shades: Uint8Array | undefined;
-  /// What the camera saw, or the image: a quarter of it, so that a segment is not flat.
+  /// Adds a quarter of the camera's brightness, or of the image, so that a segment does not look
+  /// flat.
   private grey(): Uint8Array | undefined {
     const { elements, image } = this.session.report;
     const { rgb, count } = elements!;
@@ -221,7 +223,7 @@ export class Colouring {
     }
     return ofLeaf;
   }
-  /// By number; that of 0 is of what is on none.
+  /// By number; 0 is the colour of elements on no surface.
   private surfaceColours(none: number): number[] {
     const surfaces = this.session.report.meta.scene?.surfaces ?? [];
     return [none, ...surfaces.map(({ role }) => packed(fromHex(kSurfaces[role] ?? kSurfaces.support)))];
@@ -261,15 +263,14 @@ export class Colouring {
     }
     if (mode === "depth") return rangeOf(elements!.count, this.depths(cloud!.positions));
     const values = this.session.report.image?.values ?? elements!.birth!;
-    // Bytes are grey values by themselves.
+    // Bytes are used directly as grey values.
     if (mode === "grey" && values instanceof Uint8Array) return { low: 0, high: 255 };
     const whole = rangeOf(elements!.count, (i) => values[i]!);
     return mode === "grey" ? withoutOutermost(values, whole) : whole;
   }
 }
 
-/// Of every hundred values the half that lies farthest out at each end, where they would take most of
-/// the greys.
+/// Half a percent of the values at each end are outliers, which would take most of the greys.
 export const kOutermost = 0.005;
 
 function withoutOutermost(values: Numbers, whole: Range): Range {
@@ -298,7 +299,7 @@ function rangeOf(count: number, value: (i: number) => number, least = Infinity):
   return high < low ? { low: 0, high: 1 } : { low, high };
 }
 
-/// Two numbers of an octahedron, -127 … 127; -128: no normal.
+/// Decodes the two numbers of an octahedral normal, -127 … 127; -128: no normal.
 function normalOf(u: number, v: number): [number, number, number] | undefined {
   if (u === -128) return undefined;
   let x = u / 127,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rows beneath the data: which slice of a volume, and up to which value the complex is shown.
+// The rows beneath the data, which select the slice of a volume and the value up to which the
+// complex is shown.
 import { el, select } from "../common/dom";
 import { axisNames } from "../model/volume_axes";
 import type { Session } from "../model/session";
@@ -54,7 +55,7 @@ export function scrubber(session: Session, reading: HTMLOutputElement): HTMLElem
   };
   session.onChange((changes) => changes.has("scale") && show());
   show();
-  // The reading changes after the slider.
+  // The displayed value changes after the slider.
   const say = () => slider.setAttribute("aria-valuetext", reading.textContent ?? "");
   new MutationObserver(say).observe(reading, { childList: true, characterData: true, subtree: true });
   return el("div", { class: "row scrubber" }, el("span", {}, label), slider, reading);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data: cloud, image or volume, coloured, with what is selected drawn on it.
+// Shows the data: a coloured cloud, image or volume, with the selection drawn on it.
 import { Colouring } from "./colouring";
 import { scrubber, sliceControls } from "./data_controls";
 import { button, el, isOfBrowser, onResize, select } from "../common/dom";
@@ -33,15 +33,15 @@ export class DataView {
   private readonly still: StaticPicture | undefined;
   private readonly complex: ShownComplex;
   private readonly complexGroup = new Group();
-  private complexShape: Shape | undefined; // of the still picture
-  private outside: Uint32Array | undefined; // vertices of a mesh that lie in no triangle
+  private complexShape: Shape | undefined; // for the still picture
+  private outside: Uint32Array | undefined; // vertices of a mesh that belong to no triangle
   private readonly head: HTMLElement;
   private readonly body = el("div", { class: "data-body" });
   private readonly canvasHost = el("div", { class: "stage" });
   private readonly legend: Legend;
   private readonly reading = el("output", { class: "reading" });
   private facing: number; // the axis of the slice that the eye looks along
-  private left: Uint8Array | undefined; // points of surfaces that are switched off
+  private left: Uint8Array | undefined; // points of hidden surfaces
   private pressedAt: [number, number] | undefined;
 
   constructor(private readonly session: Session) {
@@ -116,7 +116,7 @@ export class DataView {
       this.cloud?.resize(size.height, stage.renderer.getPixelRatio(), stage.largestMark);
       stage.render(); // at once: a resized canvas is empty
     });
-    addEventListener("beforeprint", () => stage.render()); // what was drawn before is gone
+    addEventListener("beforeprint", () => stage.render()); // the previous drawing is gone
     stage.turned = () => this.session.changed("view");
     canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
     canvas.addEventListener("pointerleave", () => this.session.setFocus({}));
@@ -166,7 +166,7 @@ export class DataView {
       this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
   }
 
-  /// Sees the slice from the front.
+  /// Shows the slice from the front.
   face(): void {
     const { report, sliceAxis } = this.session;
     if (this.facing === sliceAxis) return;
@@ -223,7 +223,7 @@ export class DataView {
     }
     stage.resize(stage.size);
   }
-  /// Far points fade where no camera saw them: there is nothing else that says how far they are.
+  /// Far points fade if no camera saw them, because nothing else shows their distance.
   private showAir(): void {
     const { report, theme, colour } = this.session;
     const part = report.cloud?.dims !== 3 || report.meta.cloud?.viewpoint || colour === "rgb" ? 0 : 0.6;
@@ -236,7 +236,7 @@ export class DataView {
       this.complexGroup.remove(child);
     }
     this.complexShape = undefined;
-    // A mesh is seen as one; of a Rips complex all edges would hide everything.
+    // A mesh is shown as a surface; all edges of a Rips complex would hide everything.
     const shown = scale ?? (report.isMesh ? Infinity : undefined);
     const value = scale === undefined ? "all" : short(shownValue(report.meta, scale), 3);
     if (shown === undefined) {
@@ -248,7 +248,7 @@ export class DataView {
       const part = this.complex.upTo(shown);
       const corners = part.corners ?? new Uint32Array();
       this.mesh?.show(corners.length / 3);
-      // Its vertices and edges are seen where there are no triangles, or none yet.
+      // Vertices and edges are visible where there are no triangles, or none yet.
       if (this.mesh) this.cloud!.showOnly(scale === undefined ? this.outside : undefined);
       if (!this.mesh || scale !== undefined)
         this.complexGroup.add(thinLines(this.complex.places(part.ends), theme.ink));
@@ -271,7 +271,7 @@ export class DataView {
     const x = event.clientX - box.left,
       y = event.clientY - box.top;
     const stage = this.stage!;
-    // What lies behind a surface is not under the pointer.
+    // Elements behind a surface are not under the pointer.
     const corner = this.mesh?.at(stage, x, y) ?? -1;
     if (corner >= 0) return corner;
     return this.cloud?.at(stage, x, y) ?? this.slice?.at(stage, x, y) ?? -1;
@@ -287,7 +287,7 @@ export class DataView {
   }
   private click(event: MouseEvent): void {
     const [x, y] = this.pressedAt ?? [event.clientX, event.clientY];
-    if (Math.hypot(event.clientX - x, event.clientY - y) > 4) return; // the picture was turned
+    if (Math.hypot(event.clientX - x, event.clientY - y) > 4) return; // the picture was rotated
     const element = this.elementAt(event),
       bar = element < 0 ? -1 : this.session.barOf(element);
     const more = event.shiftKey || event.ctrlKey || event.metaKey;

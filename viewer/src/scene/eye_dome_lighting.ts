@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Points of a surface as a surface: pinholes between their marks are filled, a pixel is darker the
-// farther it lies behind what is around it (after the eye-dome lighting of Christian Boucheny, 2009),
-// and the surface is lit from the eye.
+// Makes the points of a surface look like one: pinholes between their marks are filled, a pixel is
+// the darker the farther it lies behind its surroundings (after the eye-dome lighting of Christian
+// Boucheny, 2009), and the surface is lit from the eye.
 import {
   DepthTexture,
   Mesh,
@@ -86,11 +86,11 @@ void main() {
 }`;
 
 export class EyeDome {
-  readonly scene = new Scene(); // what is drawn so
-  /// How large the marks of points are, in space or as an angle: within a mark all is even.
+  readonly scene = new Scene(); // objects that are drawn this way
+  /// The size of the marks of points, in space or as an angle: within a mark, shading is uniform.
   mark = 0;
   isAngle = false;
-  lamp = true; // what has no shades of its own is lit from the eye
+  lamp = true; // objects without their own shades are lit from the eye
   private readonly target = new WebGLRenderTarget(1, 1, {
     depthTexture: new DepthTexture(1, 1),
     magFilter: NearestFilter,
@@ -118,7 +118,7 @@ export class EyeDome {
     this.screen.add(sheet);
   }
 
-  /// Draws the scene into what the renderer draws to at present, whose viewport is this large.
+  /// Draws the scene into the renderer's current target, whose viewport has this size.
   render(renderer: WebGLRenderer, camera: PerspectiveCamera, width: number, height: number): void {
     const ratio = renderer.getPixelRatio();
     const w = Math.max(1, Math.round(width * ratio)),

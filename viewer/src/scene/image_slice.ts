@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One slice of an image or a volume on the stage.
+// Shows one slice of an image or a volume on the stage.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -31,7 +31,7 @@ export class ImageSlice {
     this.object.frustumCulled = false;
   }
 
-  /// The edges of a volume; nothing of an image.
+  /// The edges of a volume; empty for an image.
   outline(): number[] {
     const [planes, rows, columns] = this.shape as [number, number, number];
     if (planes === 1) return [];
@@ -60,7 +60,7 @@ export class ImageSlice {
     this.object.geometry.computeBoundingSphere();
     this.recolour();
   }
-  /// Where its corners are: the first pixel's, that of the last column, the last pixel's, that of
+  /// The positions of its corners: at the first pixel, at the last column, at the last pixel, at
   /// the last row.
   corners(): number[] {
     const [v, u] = this.sides();

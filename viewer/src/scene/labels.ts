@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Words on the data: the numbers of segments, which bars, dots and branches have, too; the names of
-// the axes of a volume.
+// Draws text on the data: the numbers of segments, which bars, dots and branches share, and the
+// names of the axes of a volume.
 import { placeInImage } from "../geometry/cell_geometry";
 import { svg } from "../common/dom";
 import { axisNames } from "../model/volume_axes";
@@ -11,9 +11,9 @@ import type { Session } from "../model/session";
 import type { Stage } from "./stage";
 
 const kPatience = 60, // milliseconds after the last change
-  kSize = 12, // of the text, pixels
-  kBehind = 1.02, // of the distance of what hides it
-  kPlaces = 48; // of a segment, of which one may be seen where its middle is hidden
+  kSize = 12, // text size in pixels
+  kBehind = 1.02, // share of the distance of the hiding point
+  kPlaces = 48; // candidate places of a segment, for when its middle is hidden
 
 type Place = [number, number, number];
 interface Label {
@@ -33,7 +33,7 @@ export class Labels {
     private readonly stage: Stage,
     private readonly cloud: PointCloud | undefined,
   ) {
-    // On voxels or a surface letters are dark with a light edge, whatever the colours of the page.
+    // On voxels or a surface, letters are dark with a light edge, whatever the colours of the page.
     const { report } = session;
     const isOnData = report.isMesh || !!cloud?.isSurface || report.image?.shape[0] === 1;
     this.element.classList.toggle("on-data", isOnData);
@@ -44,7 +44,7 @@ export class Labels {
     this.find();
   }
 
-  /// A moving cut does not wait for it.
+  /// Moving a cut does not wait for this.
   private find(): void {
     clearTimeout(this.finding);
     this.finding = window.setTimeout(() => {
@@ -52,7 +52,8 @@ export class Labels {
       this.look();
     }, kPatience);
   }
-  /// To where the picture has their places. What hides some of them is found when it stands still.
+  /// Moves the labels to their places in the picture. Hidden labels are determined when the picture
+  /// stands still.
   place(): void {
     this.show();
     clearTimeout(this.looking);
@@ -74,7 +75,7 @@ export class Labels {
       }),
     );
   }
-  /// Finds for each the first place with no other points before it.
+  /// Finds for each label the first place without other points in front of it.
   private look(): void {
     const { cloud, stage } = this;
     this.seen.clear();
@@ -117,8 +118,9 @@ function placeOf({ image, cloud }: Report, element: number): Place {
   return [0, 1, 2].map((k) => cloud!.positions[3 * element + k]!) as Place;
 }
 
-/// The element of each segment that is nearest to its middle, then some others, the nearest first: the
-/// number lies on one of them. In an image a segment is its basin up to where it meets another one.
+/// For each segment, the element nearest to its middle, then some others, the nearest first; the
+/// number is placed on one of them. In an image, a segment is its basin up to the value at which it
+/// meets another one.
 function middles(session: Session, numbers: Map<number, number>): Map<number, number[]> {
   const { elements, image, cloud, tree } = session.report;
   const { count, birth, leaf } = elements!;

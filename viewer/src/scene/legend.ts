@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the colours mean: segments with their counts, a scale for a continuous colour, the marks of
-// a selection.
+// The legend of the colours: segments with their counts, a scale for a continuous colour, the marks
+// of a selection.
 import { kOutermost, type Colouring, type Range } from "./colouring";
 import { el, svg } from "../common/dom";
 import { counted, grouped, homology, inRange } from "../common/number_format";
@@ -17,7 +17,7 @@ export class Legend {
   private readonly colours = el("div", { class: "colours" });
   private readonly marks = el("div", { class: "marks" });
   private rows: HTMLButtonElement[] = [];
-  private switches: HTMLInputElement[] = []; // of the surfaces
+  private switches: HTMLInputElement[] = []; // switches of the surfaces
 
   constructor(
     private readonly session: Session,
@@ -178,13 +178,13 @@ export class Legend {
     if (shown.some((bar) => bars.cell(bar, 0).length > 0)) mark(kBirthColour, "birth cell");
     if (shown.some((bar) => bars.cell(bar, 1).length > 0)) mark(kDeathColour, "death cell");
     const note = (text: string) => {
-      // The name of an option breaks at no hyphen of its own.
+      // The name of an option is not broken at its hyphens.
       const parts = text.split(/(--\w+)/).map((part, i) => (i % 2 === 0 ? part : unbroken(part)));
       rows.push(el("p", { class: "note" }, ...parts));
     };
     if (shown.some((bar) => isWholeMesh(session.report, bar)))
       note("The cycle of this bar is the whole mesh.");
-    // A cell or two say where a bar begins and ends, not what it goes around.
+    // One or two cells show where a bar begins and ends, but not its hole.
     const isAsked = meta.barcodes[0]!.representatives !== undefined;
     if (!isAsked && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
       note(noteOf(shown.length, session.report.image ? "voxels" : "cycles"));
@@ -194,8 +194,9 @@ export class Legend {
 
 const kSteps = 50;
 
-/// From the colour of the largest value, above, to that of the least one. Each goes down to the
-/// end, the next on it: colours that only met would have stripes where they meet within a pixel.
+/// Draws from the colour of the largest value, at the top, to that of the least one. Each colour
+/// extends to the end, and the next is drawn over it, because colours that only touch would leave
+/// stripes where they meet within a pixel.
 function steps(map: (part: number) => Rgb): SVGElement[] {
   return Array.from({ length: kSteps }, (_, i) => {
     const y = (100 * i) / kSteps;
@@ -204,7 +205,7 @@ function steps(map: (part: number) => Rgb): SVGElement[] {
   });
 }
 
-/// How to see more of the bars than where they begin and end.
+/// A hint on how to see more of the bars than where they begin and end.
 function noteOf(count: number, kind: "voxels" | "cycles"): string {
   const bars = count === 1 ? "this bar" : "these bars";
   if (kind === "voxels")

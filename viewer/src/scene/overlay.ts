@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes on the stage: wide lines, translucent triangles, dots. They are seen through the data.
+// Shapes on the stage: wide lines, translucent triangles, dots. They are visible through the data.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -60,7 +60,7 @@ export class Overlay {
   }
 }
 
-/// Many make no solid black: as much ink as `some` of them have.
+/// Many lines must not turn solid black: they get as much ink as `some` of them.
 function faintest(opacity: number, count: number, some: number): number {
   return Math.max(0.015, opacity * Math.min(1, (some / count) ** 0.75));
 }
@@ -100,7 +100,7 @@ function flat(coordinates: ArrayLike<number>): BufferGeometry {
   return geometry;
 }
 
-/// Marks: seen through everything.
+/// Marks, visible through everything.
 function filled(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[] {
   const look = { color: colour, transparent: true, opacity, side: DoubleSide };
   return [new Mesh(geometry, new MeshBasicMaterial({ ...look, depthTest: false }))];
@@ -112,7 +112,7 @@ void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
 }`;
-// Triangles of a cycle have no common side: the light falls on the side that is seen.
+// Triangles of a cycle have no consistent orientation: the visible side is lit.
 const kFragment = `
 uniform vec3 colour;
 uniform float opacity;
@@ -124,8 +124,8 @@ void main() {
   gl_FragColor = vec4(min(colour * light, 1.0), opacity);
 }`;
 
-/// A surface: all of it faintly, also behind the data, then what is seen of it, shaded. For that its
-/// depth is drawn before its colours.
+/// Draws a surface: all of it faintly, even behind the data, then its visible part, shaded. For
+/// this, its depth is drawn before its colours.
 function shaded(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[] {
   const layer = (order: number, part: number, depthWrite: boolean) => {
     const material = new ShaderMaterial({
@@ -137,7 +137,7 @@ function shaded(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[
       depthWrite,
       depthTest: order > 0,
       colorWrite: part > 0,
-      polygonOffset: true, // its edges lie before it
+      polygonOffset: true, // its edges lie in front of it
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
     });

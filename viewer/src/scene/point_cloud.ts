@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The points of a cloud on the stage, and which of them is under the pointer. Where points are many
-// enough to be a surface their marks are as large as the gaps between them; else they are dots.
+// Shows the points of a cloud on the stage, and finds the point under the pointer. If there are
+// enough points for a surface, their marks are as large as the gaps between them; otherwise they
+// are dots.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -17,8 +18,8 @@ import type { Stage } from "./stage";
 
 const kReach = 6, // pixels
   kCell = 6,
-  kSurface = 3000, // points; fewer make no surface
-  kCover = 1.5; // spacings that a mark covers: neighbours in a row of any direction meet
+  kSurface = 3000, // number of points; fewer do not form a surface
+  kCover = 1.5; // spacings that a mark covers, so that neighbours in any direction touch
 
 const kVertex = `
 attribute vec3 tint;
@@ -56,10 +57,10 @@ export class PointCloud {
   readonly object: Points;
   readonly tint: BufferAttribute;
   private readonly material: ShaderMaterial;
-  readonly isSurface: boolean; // what is behind its points is hidden
-  private left: Uint8Array | undefined; // that are left out
+  readonly isSurface: boolean; // true if its points hide what is behind them
+  private left: Uint8Array | undefined; // points that are left out
 
-  /// @param eye where the sensor stood, in the space of the positions, if that is known.
+  /// @param eye position of the sensor in the space of the positions, if known.
   constructor(
     readonly positions: Float32Array,
     rgba: Uint8Array,
@@ -94,7 +95,7 @@ export class PointCloud {
     this.object.frustumCulled = false;
   }
 
-  /// How large its marks are, in space or as an angle.
+  /// The size of its marks, in space or as an angle.
   get mark(): { mark: number; isAngle: boolean } {
     const { spacing, seen } = this.material.uniforms;
     return {
@@ -102,12 +103,12 @@ export class PointCloud {
       isAngle: seen!.value as boolean,
     };
   }
-  /// Draws only some of its points; undefined: all.
+  /// Draws only some of its points; undefined: all of them.
   showOnly(elements: Uint32Array | undefined): void {
     this.object.geometry.setIndex(elements ? new BufferAttribute(elements, 1) : null);
     this.object.visible = elements?.length !== 0;
   }
-  /// Leaves some of its points out: not drawn, not under the pointer, hiding nothing.
+  /// Leaves out some of its points: they are not drawn, not under the pointer, and hide nothing.
   leaveOut(mask: Uint8Array | undefined): void {
     this.left = mask;
     const rest: number[] = [];
@@ -117,15 +118,16 @@ export class PointCloud {
   recolour(): void {
     this.tint.needsUpdate = true;
   }
-  /// What is far fades into this colour, by `part` at most; true colours stay what they are.
+  /// Far points fade into this colour, by at most `part`; true colours do not change.
   setAir(colour: string, part: number): void {
     const { r, g, b } = new Color(colour);
     this.material.uniforms["air"]!.value = [r, g, b, part];
   }
-  /// @param largest mark that the graphics card draws, device pixels.
+  /// @param largest size of a mark that the graphics card draws, device pixels.
   resize(height: number, pixelRatio: number, largest: number): void {
     const { scale, limits } = this.material.uniforms;
-    // Near the eye the marks of a surface are as large as can be: smaller ones would tear it.
+    // Near the eye, the marks of a surface are as large as possible, because smaller ones would
+    // leave holes.
     const [least, most] = this.isSurface ? [2, largest / pixelRatio] : this.positions.length > 60000 ? [1.5, 14] : [5, 14];
     scale!.value = 0.5 * height * pixelRatio;
     (limits!.value as Vector2).set(least! * pixelRatio, most! * pixelRatio);
@@ -153,7 +155,7 @@ export class PointCloud {
       if (dx > rx || dx < -rx) continue;
       const dy = (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w - py;
       if (dy > ry || dy < -ry) continue;
-      // A point right under the pointer goes before one that is a little nearer to the eye.
+      // A point exactly under the pointer is preferred to one that is slightly nearer to the eye.
       const depth =
         (m[2]! * a + m[6]! * b + m[10]! * c + m[14]!) / w +
         0.002 * ((dx / rx) ** 2 + (dy / ry) ** 2);
@@ -161,13 +163,14 @@ export class PointCloud {
     }
     return best;
   }
-  /// How far the nearest point to the eye is around each of some pixels; Infinity: there is none.
+  /// The distance of the nearest point to the eye around each of some pixels; Infinity if there is
+  /// none.
   depthsAt(stage: Stage, pixels: ([number, number] | undefined)[]): Float64Array {
     const { width, height } = stage.shown;
     const depths = new Float64Array(pixels.length).fill(Infinity);
     const columns = Math.ceil(width / kCell),
       rows = Math.ceil(height / kCell);
-    const cells = new Int32Array(columns * rows).fill(-1); // which of the pixels is in each
+    const cells = new Int32Array(columns * rows).fill(-1); // the pixel in each cell
     const cellOf = (x: number, y: number) =>
       x >= 0 && x < width && y >= 0 && y < height
         ? Math.floor(y / kCell) * columns + Math.floor(x / kCell)
@@ -183,7 +186,7 @@ export class PointCloud {
       const a = p[i]!,
         b = p[i + 1]!,
         c = p[i + 2]!;
-      const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!; // in perspective its depth
+      const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!; // its depth in perspective
       if (w <= 0 || this.left?.[i / 3]) continue;
       const x = ((m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w + 1) * (width / 2),
         y = (1 - (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w) * (height / 2);

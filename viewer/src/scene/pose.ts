@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From where the data are seen first: from where the sensor stood, if that is known.
+// The initial view of the data: from the position of the sensor, if known.
 import { Vector3 } from "three";
 import { placeInImage } from "../geometry/cell_geometry";
 import { sliceView } from "./slice_view";
@@ -11,11 +11,11 @@ export interface Pose {
   centre: Vector3;
   towards: Vector3; // unit, from the centre to the eye
   up: Vector3;
-  flat: boolean; // a plane, seen from above
-  /// Half of what is seen: to the side, upwards, towards the eye.
+  flat: boolean; // true for a plane, seen from above
+  /// Half the visible extent: to the side, upwards, towards the eye.
   half: { width: number; height: number; depth: number };
   radius: number;
-  /// Where the sensor stood, from the centre: what it saw is seen, by its angle of view.
+  /// Position of the sensor relative to the centre: the view has its angle.
   distance: number | undefined;
 }
 
@@ -47,14 +47,15 @@ export function firstPose(report: Report, axis = 0): Pose {
   return distance > 0.3 * around.radius ? poseOfSensor(sample, sensor, around) : around;
 }
 
-const kBase = 0.01, // of an extent
-  kLeastOnBase = 0.02, // of the points
+const kBase = 0.01, // share of an extent
+  kLeastOnBase = 0.02, // share of the points
   kMoreThanElsewhere = 4,
-  kFlat = 1 / 3; // of both other extents
+  kFlat = 1 / 3; // share of both other extents
 
-/// Upwards where nothing says so: away from a flat base, which has many points right at one end of
-/// an axis and at no other. If there is none, z; of a mesh y, as in OBJ, glTF and most scans that
-/// are passed on as OFF or PLY, but z of a relief, which is flat along it.
+/// The upward direction if the data do not state it: away from a flat base, which has many points
+/// exactly at one end of one axis only. Without a base it is z; for a mesh it is y, as in OBJ, glTF
+/// and most scans distributed as OFF or PLY, except that it is z for a relief, which is flat along
+/// z.
 function standing(sample: number[], isMesh: boolean): Vector3 {
   const count = sample.length / 3;
   const extents: number[] = [];
@@ -85,8 +86,8 @@ function standing(sample: number[], isMesh: boolean): Vector3 {
   return up;
 }
 
-/// Towards an eye that sees the largest horizontal spread from the side, a little from above; what
-/// is flat, more.
+/// The direction to an eye that sees the largest horizontal spread from the side and slightly from
+/// above; for flat data, more from above.
 function broadside(sample: number[], up: Vector3): Vector3 {
   const parts = up.toArray().map(Math.abs);
   const first = new Vector3().setComponent(parts.indexOf(Math.min(...parts)), 1);
@@ -111,7 +112,7 @@ function broadside(sample: number[], up: Vector3): Vector3 {
   }
   const height = extentAlong(sample, up),
     width = Math.max(extentAlong(sample, a), extentAlong(sample, b));
-  // The angle of the longer axis; the eye stands a quarter from it, and some degrees aside.
+  // The angle of the longer axis; the eye is a quarter turn away from it, plus some degrees.
   const along = 0.5 * Math.atan2(2 * ab, aa - bb);
   const eye = along - Math.PI / 2 + 0.35;
   return new Vector3()
@@ -125,7 +126,7 @@ function extentAlong(sample: number[], axis: Vector3): number {
   return high - low;
 }
 
-/// The sensor looks at the middle of what it saw; sizes are those at the distance of the centre.
+/// The sensor looks at the middle of its view; sizes refer to the distance of the centre.
 function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pose {
   const distance = sensor.distanceTo(around.centre);
   const towards = sensor.clone().sub(around.centre).normalize();
@@ -154,7 +155,7 @@ function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pos
   };
 }
 
-/// All but a few outermost ones: a speck far away must not make the rest small.
+/// All points except a few outermost ones: a distant speck must not make the rest small.
 function ends(
   coordinates: number[],
   value: (x: number, y: number, z: number) => number,

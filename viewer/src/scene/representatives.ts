@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the selected bars are: their representatives and the cells of their birth and death.
+// Shows the location of the selected bars: their representatives and the cells of their birth and
+// death.
 import { CellGeometry, emptyGeometry, type Geometry } from "../geometry/cell_geometry";
 import { dimColour } from "../common/palette";
 import type { Report } from "../model/report";
@@ -9,18 +10,18 @@ import { surfaceOfBar } from "../geometry/voxel_sets";
 export interface Shape {
   geometry: { [kind in keyof Geometry]: ArrayLike<number> };
   colour: string;
-  width: number; // of its segments, pixels
-  opacity: number; // of its triangles
-  surface: boolean; // its triangles are shaded by how they lie, and what is behind them is hidden
+  width: number; // width of its segments in pixels
+  opacity: number; // opacity of its triangles
+  surface: boolean; // true if its triangles are shaded and hide what is behind them
 }
 
 const kMostChains = 100,
   kMostCells = 400_000,
-  kMostCorners = 1_200_000, // of the surfaces around voxels
-  kMostOutlined = 4000; // cells of a surface: the edges of more are a tangle
+  kMostCorners = 1_200_000, // opacity of the surfaces around voxels
+  kMostOutlined = 4000; // number of cells of a surface; the edges of more would be a tangle
 
-// No other colours of the page are close to that of the births: neither those of values, which are
-// drawn on the same surface, nor those of segments or dimensions.
+// No other colour of the page is close to the colour of births: neither the colours of values,
+// which are drawn on the same surface, nor those of segments or dimensions.
 export const kBirthColour = "#e6007e",
   kDeathColour = "#cc79a7";
 
@@ -36,8 +37,8 @@ export function barsInView(session: Session): number[] {
   return found;
 }
 
-/// Whether the representative of a bar is the entire mesh, as of the void of a closed surface:
-/// drawn it would hide the data and show nothing.
+/// True if the representative of a bar is the entire mesh, as for the void of a closed surface:
+/// drawing it would hide the data and show nothing.
 export function isWholeMesh({ chains, triangles, bars }: Report, bar: number): boolean {
   const chain = chains?.ofBar.get(bar);
   if (chain === undefined || !triangles || bars.dim[bar] !== 2) return false;
@@ -78,7 +79,7 @@ export function shapesOf(session: Session): Shape[] {
     )
       cells.add(geometry, chains.cells, at, arity);
   }
-  const outline = { ...deaths, triangles: [] }; // filled it would lie on what is seen
+  const outline = { ...deaths, triangles: [] }; // filled, it would cover the visible data
   return [
     ...hulls,
     ...[...byDim].map(([dim, geometry]) =>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From where a slice across each axis of a volume is seen upright.
+// The viewing direction from which a slice across each axis of a volume appears upright.
 import { Vector3 } from "three";
 import type { Meta } from "../model/meta";
 
@@ -9,7 +9,7 @@ interface View {
   up: Triple;
 }
 
-// In the space of placeInImage: columns to the right, rows down, planes to the reader.
+// In the space of placeInImage: columns go to the right, rows down, planes towards the reader.
 const kOfArrays: View[] = [
     { towards: [0, 0, 1], up: [0, 1, 0] }, // columns to the right, rows down
     { towards: [0, -1, 0], up: [0, 0, 1] }, // columns to the right, planes up
@@ -21,13 +21,13 @@ const kOfArrays: View[] = [
     { towards: [1, 0, 0], up: [0, -1, 0] }, // across z: x to the right, y up
   ];
 
-/// Axes with names lie in space, x to the right and z up; without them an array is seen as it is
-/// printed.
+/// Named axes lie in space, with x to the right and z up; otherwise an array is shown as it would
+/// be printed.
 export function sliceView(meta: Meta, axis: number): { towards: Vector3; up: Vector3 } {
   const view = (meta.image?.axes ? kOfSpace : kOfArrays)[axis]!;
   const towards = new Vector3(...view.towards),
     up = new Vector3(...view.up);
   const right = new Vector3().crossVectors(up, towards);
-  // A little from the side: it is a volume.
+  // Slightly from the side, to show that it is a volume.
   return { towards: towards.addScaledVector(right, 0.4).addScaledVector(up, 0.3), up };
 }

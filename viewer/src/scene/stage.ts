@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The three-dimensional picture: renderer, camera and controls. Draws when something changed, not
-// all the time.
+// The three-dimensional picture: renderer, camera and controls. Draws only when something changed.
 import {
   ColorManagement,
   LinearSRGBColorSpace,
@@ -15,13 +14,14 @@ import { el, type Size } from "../common/dom";
 import { EyeDome } from "./eye_dome_lighting";
 import type { Pose } from "./pose";
 
-// Colours are what the screen shows; nothing is lit.
+// Colours go to the screen unchanged; there is no lighting.
 ColorManagement.enabled = false;
 
 const kFieldOfView = 40,
   kMargin = 1.08;
 
-/// Nothing without WebGL. The renderer would write to the console that there is none.
+/// Undefined without WebGL; checked first, because the renderer would write an error to the
+/// console.
 export function rendererOf(): WebGLRenderer | undefined {
   const canvas = el("canvas");
   const context = canvas.getContext("webgl2", { antialias: true, alpha: true });
@@ -33,18 +33,18 @@ export class Stage {
   readonly camera: PerspectiveCamera | OrthographicCamera;
   controls: OrbitControls;
   size: Size = { width: 0, height: 0 };
-  moved = false; // by the reader
-  /// Called before each of two pictures side by side; undefined: one picture.
+  moved = false; // moved by the reader
+  /// Called before each of two pictures side by side; undefined for a single picture.
   besides: ((side: 0 | 1) => void) | undefined;
-  /// Called after each picture: what lies over it follows.
+  /// Called after each picture, so that overlays follow.
   rendered: (() => void) | undefined;
-  turned: (() => void) | undefined; // by the reader
-  /// What is solid and seen in perspective has its depth brought out.
+  turned: (() => void) | undefined; // moved by the reader
+  /// Solid data in perspective get depth shading.
   readonly dome: EyeDome | undefined;
   private held = false;
   private scheduled = false;
 
-  /// @param solid the data have a depth that is worth being brought out: points, a surface.
+  /// @param solid true if the data have a depth worth shading: points, a surface.
   constructor(
     private pose: Pose,
     solid: boolean,
@@ -80,11 +80,11 @@ export class Stage {
     });
     return controls;
   }
-  /// Where the data go, beneath all that is drawn over them.
+  /// The group for the data, beneath everything that is drawn over them.
   get data(): Scene {
     return this.dome?.scene ?? this.scene;
   }
-  /// Looks from elsewhere. The controls keep the direction that was upwards when they were made.
+  /// Changes the viewpoint. The controls keep the upward direction of their creation.
   face(pose: Pose): void {
     this.pose = pose;
     this.camera.up.copy(pose.up);
@@ -92,7 +92,7 @@ export class Stage {
     this.controls = this.makeControls();
     this.reset();
   }
-  /// Everything in view.
+  /// Fits everything into the view.
   reset(): void {
     const { centre, towards } = this.pose;
     this.camera.zoom = 1;
@@ -111,9 +111,9 @@ export class Stage {
     else this.reset();
     this.invalidate();
   }
-  /// What is seen from where the eye stood at first, in a picture of this shape, whatever the reader
-  /// has done: an address has the place of the eye and the zoom only.
-  /// @return how far the eye stood at first.
+  /// Restores the initial view for a picture of this shape, whatever the reader has done, because
+  /// an address stores only the position of the eye and the zoom.
+  /// @return the initial distance of the eye.
   private fit(): number {
     const { camera } = this,
       aspect = this.aspect();
@@ -158,28 +158,29 @@ export class Stage {
     }
     this.rendered?.();
   }
-  /// The size of the picture, of the left one of two.
+  /// The size of the picture, or of the left one of two.
   get shown(): Size {
     const { width, height } = this.size;
     return { width: this.besides ? width / 2 : width, height };
   }
-  /// How far a place is from the eye, along its view.
+  /// The distance of a place from the eye along the line of sight.
   depthOf(x: number, y: number, z: number): number {
     return -new Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse).z;
   }
-  /// From pixels to -1 … 1, in the picture that holds them.
+  /// Converts pixels to -1 … 1, in the picture that contains them.
   normalised(x: number, y: number): [number, number] {
     const { width } = this.shown;
     return [2 * ((x % width) / width) - 1, 1 - (2 * y) / this.size.height];
   }
-  /// Where in the picture, in pixels, a place is; in the left one of two. undefined: behind the eye.
+  /// The position of a place in the picture, in pixels (in the left one of two). undefined: behind
+  /// the eye.
   pixelOf(x: number, y: number, z: number): [number, number] | undefined {
     const at = new Vector3(x, y, z).project(this.camera);
     if (at.z > 1 || at.z < -1) return undefined;
     const { width } = this.shown;
     return [(width * (at.x + 1)) / 2, (this.size.height * (1 - at.y)) / 2];
   }
-  /// Turns (3-D) or moves (flat) the picture by the keyboard; `zoom` as a factor.
+  /// Rotates (3-D) or moves (flat) the picture by the keyboard; `zoom` is a factor.
   nudge(dx: number, dy: number, zoom: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     if (this.pose.flat) {
@@ -200,7 +201,7 @@ export class Stage {
     this.moved = true;
     this.invalidate();
   }
-  /// Where the eye is, for the address of the page.
+  /// The position of the eye, for the address of the page.
   get view(): number[] {
     const { position } = this.camera,
       { target } = this.controls;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Without WebGL: a still picture of the cloud or the slice as SVG, coloured like the live one.
+// Draws a still picture of the cloud or the slice as SVG if there is no WebGL, coloured like the
+// live one.
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { svg } from "../common/dom";
 import { axesOf } from "./labels";
@@ -9,7 +10,7 @@ import type { Shape } from "./representatives";
 import type { Pose } from "./pose";
 
 const kMostPoints = 6000,
-  kMostMarks = 4000, // of one kind
+  kMostMarks = 4000, // number of shapes of one kind
   kSide = 600;
 const kBox = { colour: "#7d8794", width: 1, opacity: 1, surface: false };
 
@@ -34,10 +35,10 @@ export class StaticPicture {
   }
 
   face({ centre, radius, towards, up, flat, half, distance: ofSensor }: Pose): void {
-    const margin = this.isVolume ? 1.2 : 1.05; // the names of its axes lie outside
+    const margin = this.isVolume ? 1.2 : 1.05; // room for the names of the axes, which lie outside
     const fitting = margin * Math.max(half.width, half.height);
     const distance = ofSensor ?? (flat ? 4 * radius : 2.7 * fitting + half.depth);
-    // SVG draws a slice as a parallelogram: there is no perspective.
+    // SVG draws a slice as a parallelogram, because it has no perspective.
     this.camera = flat || this.slice
       ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, distance + 4 * radius)
       : new PerspectiveCamera(
@@ -79,7 +80,8 @@ export class StaticPicture {
     }
     return seen.sort((a, b) => b.depth - a.depth).map(({ dot }) => dot);
   }
-  // Of very many triangles or lines every so many are drawn: the shape is seen by them.
+  // If there are very many triangles or lines, only every n-th is drawn, which is enough to show
+  // the shape.
 
   /// The farthest first.
   private triangles(shape: Shape): SVGElement[] {

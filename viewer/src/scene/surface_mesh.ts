@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a mesh as a surface, with the colours of its vertices.
+// Shows the triangles of a mesh as a surface, with the colours of its vertices.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -21,7 +21,7 @@ void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
 }`;
-// The light falls on the side that is seen, so that no triangle is black.
+// The visible side is lit, so that no triangle is black.
 const kFragment = `
 varying vec3 colour;
 varying vec3 place;
@@ -35,7 +35,7 @@ void main() {
 export class SurfaceMesh {
   readonly object: Mesh<BufferGeometry, ShaderMaterial>;
 
-  /// @param corners places in `positions`, three a triangle.
+  /// @param corners indices into `positions`, three per triangle.
   constructor(positions: Float32Array, tint: BufferAttribute, corners: Uint32Array) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
@@ -45,7 +45,7 @@ export class SurfaceMesh {
       vertexShader: kVertex,
       fragmentShader: kFragment,
       side: DoubleSide,
-      polygonOffset: true, // edges lie before it
+      polygonOffset: true, // edges lie in front of it
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
     });
@@ -53,7 +53,7 @@ export class SurfaceMesh {
     this.object.frustumCulled = false;
   }
 
-  /// The corner that is nearest to what is seen of the surface at these pixels; -1: nothing is.
+  /// The corner nearest to the visible point of the surface at these pixels; -1 if there is none.
   at(stage: Stage, x: number, y: number): number {
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2(...stage.normalised(x, y)), stage.camera);
@@ -66,7 +66,7 @@ export class SurfaceMesh {
     const { a, b, c } = hit.face;
     return [b, c].reduce((best, i) => (far(i) < far(best) ? i : best), a);
   }
-  /// Only the first of its triangles.
+  /// Draws only the first of its triangles.
   show(triangles: number): void {
     this.object.geometry.setDrawRange(0, 3 * triangles);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page of a report in headless Chromium, opened as a file, with what went wrong in it.
+// A page of a report in headless Chromium, opened as a file, with a list of its problems.
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -19,7 +19,8 @@ export function template() {
   return (read ??= readFileSync(built, "utf8"));
 }
 
-/// WebGL is drawn by software, and so are pages, which the software that draws WebGL does slowly.
+/// WebGL is rendered by software, and so are pages, because the software renderer of WebGL draws
+/// them slowly.
 const optionsOf = (webgl) => ({
   executablePath: executable,
   args: [
@@ -36,8 +37,9 @@ const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 let written = 0;
 
-// A process for each page takes longer than most tests: what a test closes the next one opens.
-// A page behind another draws a frame a second: that which was opened last is in front.
+// Starting a process for each page would take longer than most tests: the next test reuses the page
+// that a test closes. A page behind another draws one frame per second; therefore the page opened
+// last is in front.
 const pagesOf = new WeakMap();
 
 async function pageOf(browser, scripts, touch) {
@@ -62,7 +64,8 @@ async function release(browser, page) {
   await opened.at(-1)?.bringToFront();
 }
 
-/// Opens a report. `problems` collects console errors, page errors, and every request but the file.
+/// Opens a report. `problems` collects console errors, page errors, and every request except the
+/// file itself.
 export async function open(
   browser,
   report,
@@ -120,8 +123,8 @@ export async function open(
   };
 }
 
-/// Opens a report in a browser of its own, which can zoom it as a reader does: what a page is told of
-/// an emulated screen is less. `zoom` says whether the browser could.
+/// Opens a report in a separate browser, which can zoom like a reader, because an emulated screen
+/// reports less to the page. `zoom` returns true if the browser could.
 export async function openZoomable({ meta, arrays }) {
   const options = { ...optionsOf(true), viewport: null };
   const context = await chromium.launchPersistentContext(join(folder, "profile"), options);
@@ -146,7 +149,7 @@ export async function openZoomable({ meta, arrays }) {
 }
 
 /// The pixels of an element, four bytes each, with their `width` and `height`.
-/// @param part of it, in parts of its sides: [left, top, right, bottom].
+/// @param part of it, as fractions of its sides: [left, top, right, bottom].
 export async function pixelsOf(page, selector, part = [0, 0, 1, 1]) {
   const box = await page.locator(selector).first().boundingBox();
   const clip = {
@@ -166,7 +169,7 @@ export async function allPixelsOf(page, selectors) {
   return boxes.map((box) => cropped(whole, box));
 }
 
-/// How many colours pixels have: an empty view has one.
+/// The number of colours of pixels; an empty view has one.
 export const colourCount = (pixels) => new Set(new Uint32Array(pixels.buffer)).size;
 
 export const coloursOf = async (page, selector) => colourCount(await pixelsOf(page, selector));
@@ -174,8 +177,8 @@ export const coloursOf = async (page, selector) => colourCount(await pixelsOf(pa
 const hueOf = (r, g, b) =>
   (Math.atan2(Math.sqrt(3) * (g - b), 2 * r - g - b) * (180 / Math.PI) + 360) % 360;
 
-/// How many pixels are far from grey; with a colour, how many of these have its hue, whatever the
-/// light on it.
+/// The number of pixels far from grey; with a colour, the number of these with its hue, whatever
+/// the lighting.
 export function vividPixels(pixels, spread, colour) {
   const wanted = colour && hueOf(...colour);
   let count = 0;
@@ -224,7 +227,7 @@ export async function setSlider(page, selector, value) {
   await frame(page);
 }
 
-/// What an item of the menu hands out.
+/// The file that an item of the menu offers.
 export async function downloaded(page, label) {
   await page.click("summary");
   const [file] = await Promise.all([

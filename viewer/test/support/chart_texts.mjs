@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The words of a chart and where they stand: charts are drawn on a canvas, which forgets them.
+// Records the words of a chart and their places, because a canvas does not keep them.
 import { frame } from "./browser.mjs";
 
-/// Draws the charts anew. @return of each text of a chart, both canvases: `text` and its box, CSS
-/// pixels, from the upper left corner of the chart; and the `width` and `height` of the chart.
+/// Redraws the charts. @return for each text of a chart, on both canvases, `text` and its box in
+/// CSS pixels from the upper left corner of the chart; and the `width` and `height` of the chart.
 export async function textsOf(page, chart) {
   await page.evaluate(() => {
     if (window.written) return;
@@ -44,7 +44,7 @@ const meet = (a, b) =>
   Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 &&
   Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
 
-/// The texts of a chart that are cut off, and pairs that lie on each other.
+/// The texts of a chart that are cut off, and pairs that overlap.
 export function illegible({ texts, width, height }) {
   const isOut = ({ left, right, top, bottom }) =>
     left < -0.5 || top < -0.5 || right > width + 0.5 || bottom > height + 0.5;

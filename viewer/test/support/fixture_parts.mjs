@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What made-up reports are put together from.
+// The parts of synthetic reports.
 
 export const kNone = 0xffffffff;
 
 /// @param bars [dim, birth, death] each.
 export function barArrays(bars, prefix = "bars") {
   const columns = [Uint8Array, Float64Array, Float64Array].map((Type, k) => {
-    const column = new Type(bars.length); // of a million bars: an iterator takes its time
+    const column = new Type(bars.length); // for a million bars an iterator is slow
     for (let i = 0; i < bars.length; ++i) column[i] = bars[i][k];
     return column;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports that try a page: nothing, one point, hostile names, a million bars, ties.
+// Unusual reports that test a page: nothing, one point, hostile names, a million bars, ties.
 import { barArrays, byOrder, metaOf } from "./fixture_parts.mjs";
 import { clusters } from "./point_fixtures.mjs";
 import { contracted, mergeTree } from "./reference_tree.mjs";
@@ -143,7 +143,7 @@ export function manyBars(n = 1_000_000) {
   };
 }
 
-/// A tree of distances: no points are there.
+/// A tree of distances, without points.
 export function treeOnly() {
   const { meta, arrays } = clusters(200);
   const { cloud, ...rest } = meta;

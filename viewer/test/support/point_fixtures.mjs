@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports of made-up points: each function gives the metadata and the arrays of one.
+// Reports of synthetic points: each function returns the metadata and the arrays of one.
 import { barArrays, byOrder, metaOf } from "./fixture_parts.mjs";
 import { contracted, mergeTree } from "./reference_tree.mjs";
 import { random } from "./random.mjs";

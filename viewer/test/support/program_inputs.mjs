@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Inputs for the programs, made up.
+// Synthetic inputs for the programs.
 import { random } from "./random.mjs";
 
-/// Points on a sphere and a few far from it, "x,y,z" a line.
+/// Points on a sphere and a few far from it, "x,y,z" per line.
 export function spherePoints(count = 60) {
   const next = random(4),
     lines = ["x,y,z"];
@@ -16,7 +16,7 @@ export function spherePoints(count = 60) {
   return lines.join("\n");
 }
 
-/// A table top seen from above with two boxes that touch, "x y z" a line, metres.
+/// A table top seen from above with two boxes that touch, "x y z" per line, metres.
 export function tableScene() {
   const next = random(9),
     lines = [];

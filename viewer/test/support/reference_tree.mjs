@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The merge tree with every vertex, its cuts as the programs make them, and its contraction for a
-// report. Written after libph/src/facade/merge_tree.cpp and libsegment/src/objects/components.cpp,
-// not after the page.
+// report. It follows libph/src/facade/merge_tree.cpp and libsegment/src/objects/components.cpp, not
+// the page.
 
 class DisjointSets {
   constructor(size) {
@@ -48,7 +48,7 @@ export function mergeTree(births, edges) {
 }
 
 /// Points of each vertex, and a vertex of each point (0xffffffff: none).
-/// @param flat a component with a share of `least` of its vertices `on` a plane is no segment.
+/// @param flat a component with a share of `least` of its vertices `on` a plane is not a segment.
 export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1, flat }) {
   const n = tree.births.length,
     sets = new DisjointSets(n);
@@ -80,7 +80,7 @@ export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1
   };
 }
 
-/// What a report holds: merges that some cut leaves undone stay, all others are contracted.
+/// The tree of a report: merges that some cut leaves undone stay, and all others are contracted.
 /// @param from least cut. @param barOf the bar that a merge kills.
 export function contracted(
   tree,

@@ -16,7 +16,7 @@ function twoNearest(spots, x, y) {
   return [first, second];
 }
 
-/// What the program made of the parts of its cut: two pairs of them are one object each, and the
+/// The program's result for the parts of its cut: two pairs of them form one object each, and the
 /// second largest part is a wall. The table is the first surface.
 function answerOf(tree, vertexOfPoint, parts, leafOf, arrays) {
   const joined = new Map([[7, 3], [5, 10]]), // parts, by place
@@ -131,7 +131,8 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
     births.map((b, i) => (vertexOfPoint[i] === kNone ? Infinity : b)),
     edges,
   );
-  // Vertices that never enter are no leaves: give the tree those that do, under new numbers.
+  // Vertices that never enter are not leaves: the tree gets only those that enter, under new
+  // numbers.
   const entered = [...vertexOfPoint].filter((v) => v !== kNone);
   const number = new Map(entered.map((v, k) => [v, k]));
   const inner = {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes every made-up report to a folder, to be looked at: node test/support/write_fixtures.mjs [folder]
+// Writes every synthetic report to a folder for inspection: node test/support/write_fixtures.mjs
+// [folder]
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a report as docs/reference/report-format.md describes it: what the programs do in C++.
+// Writes a report as docs/reference/report-format.md describes it, like the programs do in C++.
 import { deflateSync } from "node:zlib";
 
 const kTypes = new Map([
