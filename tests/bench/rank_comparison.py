@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bench/parts/compare_ranks.py on a small volume, beside a program that is not ours."""
+"""bench/parts/compare_ranks.py on a small volume, compared with a foreign program."""
 import pathlib
 import shutil
 import subprocess

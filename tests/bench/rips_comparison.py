@@ -62,7 +62,7 @@ class RipsComparison(unittest.TestCase):
                                "--output-format", "ripser"], capture_output=True, text=True, check=True).stdout
         (self.folder / "bars.txt").write_text(ours)
         self.compare("--rows", ROW, "--peer", self.peer("right"), "--peer", self.peer("endless"), "--time-limit", "1")
-        # On its own: sanitizers reserve more than this limit.
+        # A separate test, because sanitizers reserve more than this limit.
         self.compare("--rows", ROW, "--peer", self.peer("greedy"), "--only", "greedy", "--memory-limit", "1GiB",
                      "--no-check")
         row, results = self.results()
@@ -120,7 +120,7 @@ class RipsLimit(unittest.TestCase):
         return run.stdout
 
     def test_edges_up_to_the_enclosing_radius(self):
-        # A path of three steps: the radius is 2, so the pair of its ends is no edge.
+        # A path of three steps: the radius is 2, so the pair of its ends is not an edge.
         points = self.run_limit("points", b"0,0\n1,0\n\n2 0\n3 0")
         self.assertTrue(points.startswith("4 points, 5 edges, sorted"), points)
         lower = struct.pack("<6f", 1, 2, 1, 3, 2, 1)

@@ -47,7 +47,7 @@ with open(output + ".csv", "w") as file:
 
 
 def table_scene(name):
-    """A table seen from above, and two boxes, of which the second counts as two parts."""
+    """A table seen from above with two boxes, the second of which counts as two parts."""
     truth = numpy.ones((240, 320), int)
     depth = numpy.full((240, 320), 1.0)
     for label, (rows, columns, z) in BOXES.items():
@@ -127,8 +127,8 @@ class Metrics(unittest.TestCase):
         self.assertEqual(metrics.supervoxel_scores(truth, halves + (truth == 1)), perfect)
         one = metrics.supervoxel_scores(truth, numpy.full(truth.shape, 7))
         self.assertEqual((one.supervoxels, one.boundary_recall), (1, 0))
-        self.assertEqual(one.under_segmentation, 1)  # of both objects all of the other one
-        for step, recall in ((2, 1), (3, 0)):  # the border moves by so many columns
+        self.assertEqual(one.under_segmentation, 1)  # for both objects, all of the other one
+        for step, recall in ((2, 1), (3, 0)):  # the border moves by this many columns
             moved = numpy.where(numpy.indices(truth.shape)[1] < 10 + step, 1, 2)
             found = metrics.supervoxel_scores(truth, moved)
             self.assertEqual(found.boundary_recall, recall)

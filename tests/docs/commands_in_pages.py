@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Runs the commands that pages show and compares what they print: commands_in_pages.py BIN… [-- PAGE…]
-Without a page: all that have some.
+"""Runs the commands that pages show and compares their output: commands_in_pages.py BIN… [-- PAGE…]
+Without a page: all pages with commands.
 
-In a block ```console, a line `$ command` is run in a folder of the page's own, with a copy of
-examples/, and with the programs of the folders BIN on the path; a backslash at its end continues it
-in the next line. The lines after it are what it prints. `…` stands for anything within a line, a
-line `…` for any number of lines. Commands that write a report are skipped, aloud, where the
-programs have no page, and commands that use jq where there is none.
+In a block ```console, a line `$ command` is run in a separate folder for the page, with a copy of
+examples/ and with the programs of the folders BIN on the path; a backslash at its end continues it
+in the next line. The lines after it are its output. `…` stands for anything within a line, a line
+`…` for any number of lines. Commands that write a report are skipped with a message if the programs
+have no page, and commands that use jq if there is none.
 
 A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write;
-docs/images/make.py copies it. It has to be the same, byte for byte.
+docs/images/make.py copies it. The two must be equal, byte for byte.
 """
 import os
 import pathlib
@@ -42,7 +42,7 @@ def commands_of(page):
 
 
 def pictures_of(page):
-    """Names of the pictures that its commands draw."""
+    """The names of the pictures that the page's commands draw."""
     return PICTURE.findall(page.read_text(encoding="utf-8"))
 
 
@@ -52,7 +52,7 @@ def matches(expected, printed):
 
 
 def why_left_out(command, path):
-    """If it writes a report, which its program cannot, or needs a program that is not there."""
+    """True if the command writes a report and its program cannot, or needs a missing program."""
     if "--report" in command and not has_page(shutil.which(command.split()[0], path=path)):
         return "reports are not built in"
     if "| jq " in command and not shutil.which("jq", path=path):
@@ -66,7 +66,8 @@ def pages_with_commands():
 
 
 def failures_of(page, path):
-    """Runs the commands of a page. @return how many there are, are skipped, and differ."""
+    """Runs the commands of a page. @return the numbers of commands, of skipped ones, and of
+    differences."""
     commands, skipped, failures = commands_of(page), 0, 0
     if not commands:
         print(f"{page}: found no command, expected a block ```console")

@@ -11,12 +11,12 @@ LINK = re.compile(r"\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\"")
 BLOCK = re.compile(r"```.*?```", re.DOTALL)
 SPAN = re.compile(r"`([^`\n]*)`")
 PATH = re.compile(r"((?:[\w.+-]+/)*)[\w.+-]+\.(\w+)")
-# A name that ends so is looked up without a folder, too. `ripser.h` is not ours.
+# A name with such an ending is looked up even without a folder. `ripser.h` is not ours.
 OURS = {"cpp", "hpp", "ipp"}
-# One that ends so is looked up with any folder.
+# A name with such an ending is looked up in any folder.
 SOURCES = OURS | {"c", "cmake", "h", "in", "md", "mjs", "py", "sh", "ts"}
 NOT_OURS = {"build", "node_modules", ".git", "violations"}
-# It may name files that are gone.
+# This page may name files that are gone.
 HISTORY = "CHANGELOG.md"
 
 
@@ -33,7 +33,7 @@ def endings_of(files, root):
 
 
 def anchors_of(text):
-    """As GitHub makes them of headings."""
+    """As GitHub makes anchors from headings."""
     found = set()
     for heading in re.findall(r"^#+ +(.*?)\s*$", BLOCK.sub("", text), re.MULTILINE):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
@@ -59,17 +59,18 @@ def dead_links(root, page):
 
 
 def is_of_source(word, root):
-    """A path of ours. `examples/data/stack.pcd` is one; `out/a.csv` may be an example."""
+    """True for a path in this repository. `examples/data/stack.pcd` is one; `out/a.csv` may be an
+    example."""
     match = PATH.fullmatch(word)
     if not match:
         return False
     folder, end = match.groups()
-    top = folder.split("/")[0]  # out: what scripts/demo.sh writes
+    top = folder.split("/")[0]  # out: the output of scripts/demo.sh
     return end in OURS or bool(folder) and (end in SOURCES or top != "out" and (root / top).is_dir())
 
 
 def dead_paths(root, page, endings):
-    """A path may be the end of a longer one, as `ph/rips.hpp`."""
+    """A path may be the end of a longer one, like `ph/rips.hpp`."""
     for span in SPAN.findall(BLOCK.sub("", page.read_text())):
         for word in span.split():
             if is_of_source(word, root) and word not in endings:

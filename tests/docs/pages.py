@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What each page keeps to: pages.py ROOT.
+"""Checks the rules for pages: pages.py ROOT.
 
 * It has one title, in its first line, and can be reached from docs/index.md by links.
 * Prose is at most 100 characters wide.
@@ -28,7 +28,7 @@ def pages_of(root):
 
 
 def without_code(text):
-    """Each block of code as empty lines."""
+    """Replaces each block of code by empty lines."""
     return FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
 
 
@@ -39,7 +39,7 @@ def title_faults(text):
 
 
 def is_prose(line):
-    """Tables, comments, and what cannot be broken may be wider."""
+    """Tables, comments and unbreakable text may be wider."""
     return not line.lstrip().startswith(("|", "<!--", "!", "[![")) and " " in line.strip()
 
 
@@ -56,7 +56,7 @@ def picture_faults(text):
 
 
 def runs(language, code, page, compiled):
-    """Whether a test runs the block: doctest, commands_in_pages.py, programs_in_pages.py."""
+    """True if a test runs the block: doctest, commands_in_pages.py, programs_in_pages.py."""
     if language == "python":
         return ">>> " in code
     if language == "console":
@@ -94,13 +94,13 @@ def reachable(start):
 
 
 def compiled_pages(root):
-    """Those of which CMake compiles the programs."""
+    """The pages whose programs CMake compiles."""
     lists = root / "tests/docs/CMakeLists.txt"
     return set(re.findall(r"^ph_page_programs\((\S+)", lists.read_text(), re.MULTILINE)) if lists.exists() else set()
 
 
 def missing_headers(root):
-    """Public headers to which no page of the reference leads; ph.hpp has others alone."""
+    """Public headers that no page of the reference links to; ph.hpp only includes others."""
     pages = " ".join(page.read_text(encoding="utf-8") for page in (root / "docs/reference/cpp").glob("*.md"))
     for folder in ("libph", "libsegment", "libsegment/pcl", "libreport"):
         for header in sorted((root / folder / "include/ph").rglob("*.h*")):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Programs that pages show: they compile, and print what the page says.
+"""Tests the programs that pages show: they compile and print what the page says.
 
     programs_in_pages.py write PAGE FOLDER COUNT     PAGE's programs as FOLDER/1.cpp, FOLDER/2.cpp, …
     programs_in_pages.py run PAGE NUMBER PROGRAM     runs what was made of one of them

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The site that was built, page by page, as a browser reads it: site.py FOLDER.
+"""Checks the built site, page by page, as a browser reads it: site.py FOLDER.
 
-* A link within the site leads to a file, and to an element of it if it says so. Other links are not tried.
+* A link within the site leads to a file, and to an element of it if it names one. Other links are
+not checked.
 * Nothing is loaded from elsewhere.
 * Each picture has an alternative text, each page a title and a heading.
 * index.html leads to each page.
-* No text is left of how it was written: entities, fields, and sentences that were cut.
+* No markup is left in the text: entities, fields, and sentences that were cut off.
 
 Exit code 77: there is no such folder.
 """
@@ -18,7 +19,7 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-# Made by other tools, and tested where they are made.
+# Made by other tools, and tested there.
 REPORTS = "reports/"
 LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 LEFTOVERS = {"an entity as text": r"&amp;#\w+;", "half a sentence": r"<p>\.\s[^<]{0,20}",
@@ -76,7 +77,7 @@ def is_file(path):
 
 
 def dead(file, link, pages, root):
-    """What is wrong with a link within the site, or None."""
+    """The fault of a link within the site, or None."""
     target = target_of(os.path.dirname(file), link)
     if target is None:
         return None
@@ -89,7 +90,7 @@ def dead(file, link, pages, root):
 
 
 def leftovers(text):
-    """What Doxygen, Breathe or napoleon misread. @param text the file."""
+    """Text that Doxygen, Breathe or napoleon misread. @param text the file."""
     for what, pattern in LEFTOVERS.items():
         for found in re.findall(pattern, text):
             yield f"{found}: found {what}"
@@ -132,7 +133,7 @@ def main():
     pages = {str(file): Page(file) for file in files}
     found = reached(pages, str(root))
     faults = [f"{file}: {fault}" for file, page in pages.items() for fault in faults_of(file, page, pages, str(root))]
-    # The field for searching leads to it, on each page.
+    # The search field of each page leads to it.
     faults += [f"{file}: index.html does not lead to it" for file in pages
                if file not in found and os.path.basename(file) != "search.html"]
     print("\n".join([*(fault.removeprefix(f"{root}{os.sep}") for fault in faults),

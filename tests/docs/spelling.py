@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Words of the pages that neither hunspell's British dictionary nor words.txt has: spelling.py ROOT.
-words.txt has terms and names, one on each line. Exit code 77: there is no hunspell, or it has no such
-dictionary."""
+"""Lists words of the pages that are neither in hunspell's British dictionary nor in words.txt:
+spelling.py ROOT. words.txt has terms and names, one per line. Exit code 77: there is no hunspell,
+or it has no such dictionary."""
 import re
 import shutil
 import subprocess
@@ -32,7 +32,7 @@ def words_of(page):
 
 
 def unknown(words):
-    """Those that the dictionary does not have."""
+    """The words that the dictionary does not have."""
     result = subprocess.run(["hunspell", "-d", "en_GB", "-i", "utf-8", "-l"], input="\n".join(sorted(words)),
                             capture_output=True, text=True, check=False)
     if result.returncode != 0 or "Can't open" in result.stderr:

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a forge is asked to run exists: workflows.py ROOT.
+"""Checks that everything that a forge is asked to run exists: workflows.py ROOT.
 
 ROOT/.github/workflows has YAML files. Each job says where it runs and has steps, and each step runs
-a command or uses an action of a stated version. A program is one of the image or a file of this
-repository that can be executed. Presets are those of CMakePresets.json, with a build and a test of
-that name where they are built and tested. Sets are those of scripts/setup.sh, platforms those of
-scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a body.
-Exit code 77: PyYAML is missing, or, as in an archive of the sources, there is no such folder.
+a command or uses an action of a stated version. A program must belong to the image or be an
+executable file of this repository. Presets must exist in CMakePresets.json, with a build and a test
+preset of that name if they are built and tested. Sets must exist in scripts/setup.sh, platforms in
+scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a
+body. Exit code 77: PyYAML is missing, or, as in an archive of the sources, there is no such folder.
 """
 import itertools
 import json
@@ -28,7 +28,7 @@ def names_of_presets(kind):
 
 
 def cases_of(script):
-    """The words that a script of ours takes: the patterns of the `case` that says what it expected."""
+    """The words that a script accepts: the patterns of the `case` that reports what it expected."""
     text = (SOURCE / script).read_text(encoding="utf-8")
     patterns = re.findall(r"^ +([a-z][\w|-]*)\)(?: |$)", text, re.MULTILINE)
     return {word for pattern in patterns for word in pattern.split("|")}

@@ -58,7 +58,7 @@ TEST(Extension, DiametersAreTheRipsFiltration) {
     const DistanceMatrix distances = random.distances(random.integer(2, 8), ties);
     const Diameters simplices(distances);
     check(simplices, 2, {field});
-    // With all simplices: the enclosing radius leaves out bars of length zero only.
+    // With all simplices, because the enclosing radius leaves out only bars of length zero.
     const Rips rips(distances, {.threshold = 10});
     const Options options{.max_dim = 2, .field = field};
     EXPECT_EQ(first_difference(persistence(simplices, options), persistence(rips, options)), "");

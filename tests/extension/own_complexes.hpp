@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Complexes with the bases of ph/custom.hpp and nothing beside what these ask for.
+// Complexes with the bases of ph/custom.hpp and only the functions that these require.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// Simplices from a list: what is not in it never enters.
+/// Simplices from a list: simplices that are not in it never enter.
 class LookedUp : public ph::SimplexFiltration<LookedUp, 3> {
  public:
   LookedUp(ph::Index vertices, const ph::SimplexList& simplices) : vertices_(vertices) {

@@ -5,8 +5,8 @@
 #include <ph/custom.hpp>
 #include <vector>
 
-/// A complex of somebody else: points joined in their order, the last to the first. Points enter at
-/// 0, sides at their length.
+/// A third-party complex: points joined in their order, the last to the first. Points enter at 0,
+/// sides at their length.
 class Polygon : public ph::CellFiltration<Polygon, 1, int> {
  public:
   explicit Polygon(ph::PointsView points) {
@@ -38,7 +38,7 @@ class Polygon : public ph::CellFiltration<Polygon, 1, int> {
     visit(next(side), 1);
   }
 
-  // Cells are named by corners; without this by their number.
+  // Names cells by corners; without this function, they are named by their number.
   ph::CellKind cell_kind() const { return ph::CellKind::vertices; }
   void append_input_cell(int dim, Cell cell, std::vector<ph::Index>& numbers) const {
     if (dim == 0) {

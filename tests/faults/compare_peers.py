@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""compare_peers.py PH_BARCODE PH_SEGMENT PEAK READ_WITH_PCL [-v]: the corpus of faults through other
-programs, where they read the format, and through ours. Writes the table of
-docs/explanation/reliability.md between its two markers. Run by hand: `-v` prints each run. Needs ripser and python3-gudhi."""
+"""compare_peers.py PH_BARCODE PH_SEGMENT PEAK READ_WITH_PCL [-v]: runs the corpus of faults through
+other programs that read the format, and through ours. Writes the table of
+docs/explanation/reliability.md between its two markers. Run by hand: `-v` prints each run. Needs
+ripser and python3-gudhi."""
 import collections
 import contextlib
 import dataclasses
@@ -32,7 +33,7 @@ GROUPS = {
     "PCD": ("pcd",), "PLY": ("ply",),
 }
 GROUP_OF_FORM = {form: group for group, forms in GROUPS.items() for form in forms}
-# Not its `binary`: Debian's build aborts on sound files of it.
+# Not its `binary` format: Debian's build aborts on sound files.
 RIPSER_FORMATS = {"points": "point-cloud", "distance": "distance", "lower-distance": "lower-distance",
                   "upper-distance": "upper-distance", "sparse": "sparse", "dipha": "dipha"}
 # Misuse that both command lines know: ours, Ripser's.
@@ -53,7 +54,7 @@ COMMANDS = [
 
 
 class Run:
-    """What became of a command: how it ended, and what it printed."""
+    """The outcome of a command: how it ended, and its output."""
     def __init__(self, peak, command, folder, options):
         report = os.path.join(folder, os.pardir, "report")
         open(report, "wb").close()
@@ -85,7 +86,7 @@ class Run:
             return ENDLESS
         if self.code < 0:
             return CRASH
-        # No result and a message is an error too, whatever the exit code.
+        # A message without a result is also an error, whatever the exit code.
         if self.code != 0 or (not result and self.err.strip() and expected is None):
             return CLEAN if expected is None else REFUSED
         return RIGHT if expected is not None and same(result, expected) else WRONG
@@ -129,9 +130,9 @@ def content_of(entry):
 
 
 def is_for_peers(entry):
-    """Whether what the entry asks for is no rule of ours alone: a file read as its format, without
-    options. Left out are lines that are too long for us, infinity as text, what follows the declared
-    data (what comes before it may be all that was meant), and files that are packed."""
+    """True if the entry tests more than a rule of our own: a file read as its format, without
+    options. Left out are lines that are too long for us, infinity as text, data after the declared
+    end (the data before it may be complete), and packed files."""
     options = set(entry.arguments[1:]) - {"--check", "--format", *FORMS[entry.form].options, entry.form}
     return (entry.row not in (8, 41) and not (entry.row in (10, 11) and entry.code == 0)
             and not content_of(entry).startswith(b"\x1f\x8b")
@@ -243,7 +244,7 @@ SOUND = {"points": ("points", "blank.txt"), "distance": ("distances", "full.txt"
 
 
 def calibrate(ours, peers, peak):
-    """A peer that fails on a sound file was asked in the wrong way: then no table is written."""
+    """A peer that fails on a sound file was called in the wrong way: then no table is written."""
     for form, place in SOUND.items():
         options = ("--labels", "-") if FORMS[form].program == "ph-segment" else ()
         if form == "perseus":
@@ -257,7 +258,7 @@ def calibrate(ours, peers, peak):
 
 
 def all_runs(ours, peers, peak):
-    """Yields group, name of the program, what was tried, its run, what became of it."""
+    """Yields group, name of the program, what was tried, its run, and the outcome."""
     for entry in corpus.ENTRIES:
         if entry.form in GROUP_OF_FORM:
             for peer in (ours, *(p for p in peers if p.takes(entry))):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: inputs that are made
-to take long, in sizes n, 2n and 4n. The CPU time must not grow faster than the class of the attack
-says. What may grow as the square or faster must end at a memory limit, or be foreseen by
---dry-run. `full`: larger sizes."""
+"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs inputs
+designed to take long, in sizes n, 2n and 4n. The CPU time must not grow faster than the class of
+the attack allows. Attacks that may grow quadratically or faster must end at a memory limit, or
+--dry-run must predict them. `full`: larger sizes."""
 import dataclasses
 import gzip
 import math
@@ -20,8 +20,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import part_files  # noqa: E402
 
 SLACK = 2         # a busy machine is not exact
-SMALLEST = 0.03   # seconds: less is the start of a program
-UNHEARD = 0.3     # seconds: less is never too long
+SMALLEST = 0.03   # seconds: a shorter time is the start of a program
+UNHEARD = 0.3     # seconds: a shorter time is never too long
 TRIES = 3
 LARGER = 4        # times as large in the full form
 SECONDS = 120
@@ -35,8 +35,8 @@ class Attack:
     size: int           # n
     power: float = 1.2  # time grows no faster than n to this power; 1.2: n log n
     codes: tuple = (0,)
-    stop: int = 0       # so many times n must meet a limit of 64 MiB
-    foresee: bool = False  # --dry-run must say that 16 times n takes much more than n does
+    stop: int = 0       # this many times n must reach a limit of 64 MiB
+    foresee: bool = False  # --dry-run must predict that 16 n takes much more than n
 
 
 def text(rows):
@@ -85,13 +85,15 @@ def two_far(n):
 
 
 def tiny_cluster(n):
-    """So near each other that squares of their distances underflow, beside one that is far."""
+    """Points so near each other that squares of their distances underflow, and one that is far
+    away."""
     seed = random.Random(3)
     return [[seed.random() * 1e-150 for _ in range(3)] for _ in range(n)] + [(1., 1., 1.)]
 
 
 def doubling(n):
-    """Each point is as far from the one before as that is from the first, many times over."""
+    """Each point is as far from its predecessor as the predecessor is from the first, many times
+    over."""
     return [(math.ldexp(1., i % 1000 - 500), float(i // 1000)) for i in range(n)]
 
 
@@ -186,7 +188,7 @@ def texts():
 
 
 ATTACKS = [
-    # The triangulation itself has so many simplices: it has to be made, and a limit stops it.
+    # The triangulation itself has so many simplices; it must be built, and a limit stops it.
     Attack("alpha: two skew lines", points(skew_lines), ALPHA, 250, 2.2, stop=64),
     Attack("alpha: the moment curve", points(moment_curve), ALPHA, 250, 2.4, stop=64),
     Attack("alpha: points of a sphere", points(sphere), ALPHA, 1500),
@@ -200,7 +202,7 @@ ATTACKS = [
     Attack("components: all equal", points(equal), H0, 20_000),
     Attack("components: a line", points(line), H0, 10_000),
     Attack("components: points of a circle", points(circle), H0, 5000),
-    # From one cluster to the other all distances are equal once they are rounded: each is looked at.
+    # All distances from one cluster to the other are equal after rounding: each is examined.
     Attack("components: two clusters that are far", points(two_far), H0, 3000, 2.2),
     Attack("components: a cluster of 1e-150", points(tiny_cluster), H0, 5000),
     Attack("components: distances that double", points(doubling), H0, 5000),
@@ -279,9 +281,9 @@ class Programs:
             return run.returncode, seconds, (run.stdout + run.stderr).decode("utf-8", "replace")
 
     def faults(self, attack, larger):
-        """@return what is wrong, and the seconds of each size."""
+        """@return the fault, and the seconds of each size."""
         n = attack.size * larger
-        for attempt in range(TRIES):  # a machine is slow now and then, an algorithm each time
+        for attempt in range(TRIES):  # a machine is slow now and then, an algorithm always
             seconds = []
             for size in (n, 2 * n, 4 * n):
                 code, taken, said = self.run(attack, size)
@@ -297,7 +299,7 @@ class Programs:
         return self.unbounded(attack, n // larger), seconds
 
     def unbounded(self, attack, n):
-        """What is wrong with the bounds of what grows fast."""
+        """The fault in the bounds of attacks that grow fast."""
         if attack.foresee:
             foreseen = [foreseen_bytes(self.run(attack, size, "--dry-run")[2]) for size in (n, 16 * n)]
             if not 0 < 64 * foreseen[0] < foreseen[1]:
@@ -311,7 +313,7 @@ class Programs:
 
 
 def foreseen_bytes(text_of_run):
-    """The most that --dry-run says; 0: it says nothing."""
+    """The largest prediction of --dry-run; 0 if there is none."""
     units = {"B": 1, "bytes": 1, "KiB": 2**10, "MiB": 2**20, "GiB": 2**30, "TiB": 2**40, "PiB": 2**50}
     for words in map(str.split, text_of_run.splitlines()):
         if words[:1] == ["memory"] and words[-1] in units:

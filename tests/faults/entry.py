@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""One line of the corpus: a faulty, or a strange but valid, use of a program and what must happen."""
+"""One line of the corpus: a faulty, or a strange but valid, use of a program, and the required
+outcome."""
 import contextlib
 import dataclasses
 import os
@@ -8,7 +9,7 @@ import typing
 
 import samples
 
-# What each row of the table of faults is about.
+# The subject of each row of the table of faults.
 ROWS = {
     1: "empty file", 2: "only blanks or comments", 3: "byte order mark", 4: "CRLF", 5: "UTF-16",
     6: "NUL bytes", 7: "binary given as text", 8: "everything on one line",
@@ -40,13 +41,14 @@ ROWS = {
     91: "organised cloud all NaN", 92: "one valid pixel", 93: "height 1", 94: "label already there",
     95: "rgb whose float is NaN", 96: "zero normals",
 }
-# Before anything is allocated: headers that lie, and what unpacks to more than it is worth.
+# To be refused before any allocation: headers that lie, and files that unpack to excessive sizes.
 FRUGAL_ROWS = range(31, 43)
 
 
 @dataclasses.dataclass(frozen=True)
 class Form:
-    """A format as a program takes it: the extension of its files, and the options that name it."""
+    """A format as a program accepts it: the extension of its files, and the options that select
+    it."""
     extension: str
     options: tuple = ()
     program: str = "ph-barcode"
@@ -93,25 +95,26 @@ class Entry:
     form: str = ""      # key of FORMS; empty: not about a file's content
     around: typing.Optional[typing.Callable] = None  # see `plain`
     after: typing.Optional[typing.Callable] = None   # after(folder): what is wrong then, or nothing
-    creates: tuple = ()                   # files that were not there before
-    unprivileged: bool = False            # of no use to root
+    creates: tuple = ()                   # files that did not exist before
+    unprivileged: bool = False            # useless as root
     frugal: typing.Optional[bool] = None  # held to the limits of a header that lies; None: by row
 
 
 class Unavailable(Exception):
-    """What an entry needs is not there: it is skipped, with this reason."""
+    """A requirement of an entry is missing: it is skipped, with this reason."""
 
 
 @contextlib.contextmanager
 def plain(_folder):
-    """What is around a run: prepares a folder, yields options of subprocess.Popen, cleans up."""
+    """The environment of a run: prepares a folder, yields options of subprocess.Popen, cleans
+    up."""
     yield {}
 
 
 @contextlib.contextmanager
 def set_up(entry):
-    """Yields a folder of the entry's own, with its files, and options of subprocess.Popen. What is
-    beside the folder goes with it."""
+    """Yields a separate folder for the entry, with its files, and options of subprocess.Popen.
+    Files beside the folder are removed with it."""
     with tempfile.TemporaryDirectory() as outer:
         folder = os.path.join(outer, "here")
         os.mkdir(folder)
@@ -131,7 +134,7 @@ def of_file(row, form, name, content, options, **others):
 
 
 def refused(row, form, name, content, message, *options, code=65, **others):
-    """A file that must not be taken."""
+    """A file that must be refused."""
     return of_file(row, form, name, content, options, code=code, message=message,
                    **{"named": "input" + FORMS[form].extension, **others})
 

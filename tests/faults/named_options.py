@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""named_options.py SOURCE_FOLDER PROGRAM…: each option that a message in the sources names is one of
-the program that prints it: a text in a folder of one program is that program's, and what all share
-names only what all have. Programs are ph-barcode, ph-segment and others."""
+"""named_options.py SOURCE_FOLDER PROGRAM…: checks that each option named in a message of the
+sources exists in the program that prints it. A text in a folder of one program belongs to that
+program; shared texts may name only options that all programs have. Programs are ph-barcode,
+ph-segment and others."""
 import os
 import re
 import sys
 
 from run_corpus import named_options, options_of
 
-# What ph-segment reads its inputs with, beside the folders of core/, metric/ and complex/.
+# The sources with which ph-segment reads its inputs, beside the folders core/, metric/ and
+# complex/.
 READERS_OF_CLOUDS = re.compile(
     r"io/(clouds/|bytes/(png|input|unpack|lzf|text_lines|binary_cursor|output_file))")
-# What ph-segment alone reads.
+# Sources for inputs that only ph-segment reads.
 DEPTH_AND_ARRAYS = re.compile(r"io/clouds/(depth|npy_cloud|camera)")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
@@ -34,7 +36,7 @@ def sources(folder):
 
 
 def programs_of(path):
-    """Which programs print what this file says."""
+    """The programs that print the texts of this file."""
     own = re.match(r"apps/(barcode|vectorise|distance)/", path)
     if own:
         return ("ph-" + own[1],)
@@ -44,7 +46,7 @@ def programs_of(path):
         return ("ph-barcode",)
     if path.startswith("apps/common/distances/"):
         return ("ph-distance",)
-    # Who draws pictures names their options.
+    # Code that draws pictures names their options.
     if path.startswith("apps/common/") and "plot" not in path:
         return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance")
     return ("ph-barcode", "ph-segment")

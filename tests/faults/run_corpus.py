@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: every entry of the corpus (whose name has the
-words) in a folder of its own, against the promise: the exit code, one line on stderr that names the
-file or the option, nothing on stdout, nothing written, no temporary file, within a second, within
-16 MiB and 50 ms where a header lies. PEAK is the program of peak.c."""
+"""run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: runs every entry of
+the corpus (whose name has the words) in a separate folder and checks the promise: the exit code,
+one line on stderr that names the file or the option, nothing on stdout, nothing written, no
+temporary file, within a second, and within 16 MiB and 50 ms if a header lies. PEAK is the program
+of peak.c."""
 import collections
 import os
 import pathlib
@@ -16,11 +17,11 @@ import time
 import corpus
 from entry import FRUGAL_ROWS, ROWS, Unavailable, set_up
 
-SECONDS = 1  # of CPU; on the clock a busy machine gives ten times as many
-TRIES = 3  # for times only: a loaded machine is slow now and then, a program is each time
+SECONDS = 1  # of CPU; a busy machine may take ten times as long on the clock
+TRIES = 3  # for times only: a loaded machine is slow now and then, a program always
 FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
 NOBODY = 65534
-PAGES = "README.md", "docs/explanation/reliability.md"  # they say how many entries there are
+PAGES = "README.md", "docs/explanation/reliability.md"  # they state the number of entries
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd", "ph-distance": "out.csv",
           "ph-vectorise": "out.csv"}
 
@@ -42,13 +43,13 @@ class Runner:
         self.options = {name: options_of(program) for name, program in self.programs.items()}
         with open(programs[0], "rb") as file:
             content = file.read()
-        # What a build adds to watch the program takes memory and time, too.
+        # Instrumentation in a build takes memory and time as well.
         self.is_watched = b"__asan_init" in content or b"__gcov_exit" in content
         self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 
     def let_nobody_in(self):
-        """What is tested may lie in a folder of root's: copies are where another user may start
-        them. @return why he may not; nothing if he may."""
+        """The programs may be in a folder of root's: copies are placed where another user may start
+        them. @return why the user may not; empty if they may."""
         self.copies = tempfile.TemporaryDirectory()  # as long as the runner
         os.chmod(self.copies.name, 0o755)
         self.programs = {name: shutil.copy(path, self.copies.name)
@@ -63,8 +64,8 @@ class Runner:
         return None
 
     def faults(self, entry):
-        """@return what the program did that it must not; nothing if all is well.
-        @throws Unavailable if it cannot be tried here."""
+        """@return a description of the violation; empty if all is well. @throws Unavailable if it
+        cannot be tested here."""
         if entry.unprivileged and self.obstacle:
             raise Unavailable(self.obstacle)
         for _ in range(TRIES):
@@ -74,7 +75,7 @@ class Runner:
         return fault
 
     def try_once(self, entry):
-        """@return what is wrong, and whether it is a matter of time only."""
+        """@return the fault, and whether it is only about time."""
         with set_up(entry) as (folder, options):
             if entry.unprivileged and os.geteuid() == 0:
                 os.chmod(os.path.dirname(folder), 0o755)
@@ -121,8 +122,8 @@ class Runner:
         return self.cost_fault(entry, seconds, kib, microseconds)
 
     def unknown_options(self, entry, message):
-        """Options that a message sends the user to and that the program has not; what the user
-        wrote himself may be anything."""
+        """Options that a message recommends and that the program lacks; text that the user typed
+        may be anything."""
         written = " ".join(map(os.fsdecode, entry.arguments))
         return [f"it names {option}, which {entry.program} has not: {message!r}"
                 for option in sorted(set(named_options(message)) - self.options[entry.program])

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""system_calls.py PH_BARCODE PH_SEGMENT [STEP]: each call of the system fails, each time it is made.
+"""system_calls.py PH_BARCODE PH_SEGMENT [STEP]: makes each system call fail, each time it is made.
 
-strace counts the calls of a run, then lets the first one fail, the second one, and so on, once with
-each error that it may have. Whatever fails: the run ends with an exit code of the documentation, in
-time. With 0 the outputs are those of the run in which nothing fails. Else there is one line of
-error, each output is whole or not there, and nothing else is left in the folder.
-STEP: only every STEP-th call."""
+strace counts the calls of a run, then makes the first one fail, the second one, and so on, once
+with each error that it may have. Whatever fails, the run ends in time with a documented exit code.
+With 0, the outputs equal those of a run without failures. Otherwise there is one error line, each
+output is complete or absent, and nothing else is left in the folder. STEP: only every STEP-th
+call."""
 import collections
 import os
 import pathlib
@@ -32,8 +32,8 @@ ERRORS = {
     "readlink": ("EACCES", "EINVAL"), "sched_getaffinity": ("EINVAL",), "mkdir": ("EACCES",),
     "getdents64": ("EIO",), "statfs": ("EIO",), "statx": ("ENOSYS",), "rt_sigaction": ("EINVAL",),
     "clock_gettime": ("EINVAL",), "clock_nanosleep": ("EINVAL", "EINTR"), "sigaltstack": ("EPERM",)}
-# Without these no program starts, or the C library ends it. A brk that fails returns the old end, not
-# an error: strace cannot say that; mmap stands for it.
+# Without these, no program starts, or the C library ends it. A failing brk returns the old end
+# instead of an error, which strace cannot imitate; mmap represents it.
 OF_LIBC = {"brk", "execve", "arch_prctl", "set_tid_address", "set_robust_list", "rseq", "futex", "exit_group", "exit",
            "rt_sigprocmask", "rt_sigreturn", "sched_yield", "gettid", "getpid", "tgkill", "uname", "getuid",
            "geteuid", "getgid", "getegid", "umask", "restart_syscall"}
@@ -50,7 +50,7 @@ def cloud():
                f"{x} {y} {z}\n" for x, y, z in rows)
 
 
-# Inputs, what is run before, the program with its arguments, outputs.
+# Inputs, commands to run before, the program with its arguments, outputs.
 Scene = collections.namedtuple("Scene", "name inputs before program arguments outputs")
 
 
@@ -103,14 +103,14 @@ class Run:
 
 
 def fault_of(run, whole, scene, name):
-    """What is wrong, or nothing."""
+    """The fault, or nothing."""
     if run.code == 127 and "loading shared libraries" in run.lines[-1]:
         return None  # the program did not begin
     if run.code not in CODES:
         return f"found exit {run.code}, expected one of {sorted(CODES)}"
     if run.left and name != "unlink":
         return f"found {run.left} in the folder"
-    # A batch says at last how many inputs failed.
+    # A batch reports at the end how many inputs failed.
     errors = [line for line in run.lines if line not in whole.lines and not line.endswith(" inputs failed")]
     for output in scene.outputs:
         content = run.files.get(output)
@@ -122,7 +122,7 @@ def fault_of(run, whole, scene, name):
             return f"found {output} {'missing' if content is None else 'other than it is'}"
     if run.code == 0:
         return None if run.out == whole.out else "found another standard output"
-    # What cannot be written to standard error is lost.
+    # Messages that cannot be written to standard error are lost.
     return None if len(errors) == 1 or name == "write" else f"found {run.lines}, expected one error"
 
 

@@ -10,8 +10,8 @@
 
 namespace ph::fuzz {
 
-/// What bytes choose. Numbers are any doubles, and such as lie near one another, near a grid or on
-/// it, or orders of magnitude apart.
+/// Choices made by bytes. Numbers are arbitrary doubles, or lie near one another, near or on a
+/// grid, or orders of magnitude apart.
 class ChosenNumbers {
  public:
   explicit ChosenNumbers(std::string_view bytes) : left_(bytes) {}
@@ -70,7 +70,7 @@ class ChosenNumbers {
 
  private:
   int signed_byte() { return static_cast<signed char>(byte()); }
-  /// The double so many places further.
+  /// The double this many steps further.
   static double moved(double x, int places) {
     const double result =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(places));

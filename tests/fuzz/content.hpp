@@ -11,10 +11,10 @@
 
 namespace ph::fuzz {
 
-/// What a reader gave, whatever its type, as rows of numbers: two readings are compared bit by bit,
-/// and the reading of a prefix row by row with that of the whole.
+/// The result of a reader, whatever its type, as rows of numbers. Two readings are compared bit by
+/// bit, and the reading of a prefix is compared row by row with that of the whole.
 struct Content {
-  std::string head;  ///< what is not in rows: sizes, names
+  std::string head;  ///< data outside rows: sizes, names
   std::vector<double> numbers;
   std::vector<std::size_t> ends;  ///< of each row, in `numbers`
 
@@ -33,7 +33,7 @@ struct Content {
   friend bool operator==(const Content& a, const Content& b);
 };
 
-// Each first checks what its type promises. Throws Violation if a promise is broken.
+// Each function first checks the promises of its type. Throws Violation if a promise is broken.
 Content content_of(const Points& points);             ///< a point a row, all finite
 Content content_of(const DistanceMatrix& distances);  ///< rows of the lower triangle
 Content content_of(const SparseDistances& sparse);    ///< u v d a row, ascending

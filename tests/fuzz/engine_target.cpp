@@ -9,7 +9,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// Choices made by bytes, one each; when they are used up, by counting.
+/// Choices made by bytes, one each; after the last byte, made by counting.
 class ByteChoices {
  public:
   explicit ByteChoices(std::string_view bytes) : bytes_(bytes) {}
@@ -33,7 +33,7 @@ int count_cells(const F& filtration, int top) {
   return count;
 }
 
-/// A part of the suite: the engines mostly, the parts that take longer now and then.
+/// A part of the suite: mostly the engines, and occasionally the slower parts.
 struct Suite {
   enum class Part { engines, contract, representatives };
   int max_dim;
@@ -58,7 +58,7 @@ struct Suite {
 
 using Choices = test::InputGenerator<ByteChoices>;
 
-/// A monotone map of the values 0 … 3 onto the extended numbers: what is filtered stays so.
+/// A monotone map of the values 0 … 3 to the extended numbers, which preserves filtrations.
 class Stretch {
  public:
   explicit Stretch(Choices& choices)
@@ -128,7 +128,7 @@ void check_graph(Choices& choices, bool ties, Suite suite) {
   suite(FilteredGraph::lower_star(births, edges));
 }
 
-/// A chain complex that is no simplicial complex, over Z/2.
+/// A chain complex over Z/2 that is not a simplicial complex.
 void check_boundary(Choices& choices, bool ties, Suite suite) {
   const Stretch stretch(choices);
   BoundaryMatrix m;

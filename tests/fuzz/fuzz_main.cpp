@@ -11,7 +11,7 @@ namespace {
 const ph::fuzz::Target* target = nullptr;
 }
 
-// Most inputs end in an exception, which makes these two the most of the time.
+// Most inputs end in an exception, so that these two functions would dominate the time.
 extern "C" const char* __asan_default_options() {
   return "detect_stack_use_after_return=0:malloc_context_size=4";
 }

@@ -4,15 +4,16 @@
 
 namespace ph::fuzz {
 
-/// Watches the memory that the calling thread takes while this object lives. Counts every malloc,
-/// also of libraries in C; it needs the address sanitizer to, and else sees nothing.
+/// Measures the memory that the calling thread takes while this object lives. It counts every
+/// malloc, including those in C libraries; this needs the address sanitizer, without which it sees
+/// nothing.
 class HeapMeter {
  public:
   HeapMeter();
   HeapMeter(const HeapMeter&) = delete;
   HeapMeter& operator=(const HeapMeter&) = delete;
   ~HeapMeter();
-  /// The most bytes that the thread held under its last meter, beyond what it had before.
+  /// The peak number of bytes that the thread held under its last meter, beyond its earlier memory.
   static std::size_t last_peak();
 };
 

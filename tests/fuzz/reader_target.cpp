@@ -13,7 +13,7 @@ namespace ph::fuzz {
 namespace {
 
 constexpr std::size_t kBudget = std::size_t{64} << 20;
-/// What a message, the input's name and other small things may take beyond it.
+/// Extra memory for a message, the input's name and other small things.
 constexpr std::size_t kFree = std::size_t{1} << 20;
 
 /// How an attempt to read ended.
@@ -40,7 +40,7 @@ Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions o
   context.memory.set_limit(kBudget);
   options.context = &context;
   const std::string name = name_of(reader);
-  // A copy of its own, so that a byte read beyond its end is seen.
+  // A separate copy, so that a read beyond its end is detected.
   const Input input = Input::hold({bytes.begin(), bytes.end(), &context.memory}, name, &context);
   Outcome outcome;
   try {
@@ -61,13 +61,13 @@ Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions o
 void run_reader(std::string_view name, std::string_view bytes) {
   const NamedReader& reader = *find_reader(name);
   const Outcome strict = attempt(reader, bytes, {});
-  // Exceptions take most of the time: not all is tried with each input.
+  // Exceptions take most of the time: not every check runs with each input.
   if (bytes.size() % 8 == 0)
     require(strict == attempt(reader, bytes, {}), "a reader gives two results for one file");
   if (!strict.content && bytes.size() % 2 != 0) return;
-  // What is taken strictly is taken leniently, and means the same.
+  // Strictly accepted bytes are accepted leniently with the same meaning.
   ReadOptions taking{.allow_empty = true, .nan = NanPolicy::drop};
-  // It says that a table is a matrix, so only who reads nothing else may be told so.
+  // It declares a table to be a matrix, and is only for readers that read nothing else.
   if (name == "distances" || name == "correlations" || name == "npy_distances")
     taking.symmetrise = Symmetrise::lower;
   const Outcome lenient = attempt(reader, bytes, taking);

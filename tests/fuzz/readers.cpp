@@ -43,7 +43,7 @@ Barcode barcode_of(const Input& input, const ReadOptions&) {
   return read_barcode(input, format);
 }
 
-/// A layout says the size: the input has to be as long.
+/// A layout determines the size: the input must have this length.
 Image raw(const Input& input, const ReadOptions& options) {
   return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
 }
@@ -54,13 +54,13 @@ segment::SceneTree tree(const Input& input, const ReadOptions&) {
   return segment::read_tree(input);
 }
 
-/// A file of values says what it belongs to by nothing but their number.
+/// Only the number of values tells what a file of values belongs to.
 constexpr std::size_t kValues = 6;
 std::vector<double> values(const Input& input, const ReadOptions& options) {
   return read_values(input, kValues, options);
 }
 
-/// All numbers of a camera; what it has no ray for is left out.
+/// All numbers of a camera; pixels without a ray are left out.
 std::vector<double> camera(const Input& input, const ReadOptions&) {
   const Camera c = read_camera(input);
   std::vector<double> numbers{c.intrinsics.fx,

@@ -20,7 +20,7 @@ std::string bytes_of(const fs::path& path) {
   return bytes.str();
 }
 
-/// Runs files through targets and tells what broke.
+/// Runs files through targets and reports failures.
 class Replay {
  public:
   void run(const ph::fuzz::Target& target, const fs::path& file) {

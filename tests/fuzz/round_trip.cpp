@@ -70,7 +70,7 @@ Cloud read_again(const std::string& bytes, PlyData) {
   return read_ply(Input::view(bytes, "written.ply"), kTakeEmpty);
 }
 
-/// What text keeps of a cloud: a NaN is a NaN, and a zero has no sign.
+/// The part of a cloud that text preserves: a NaN is a NaN, and a zero has no sign.
 Cloud as_text_has_it(Cloud cloud) {
   for (const CloudField& field : cloud.fields) {
     if (field.type != FieldType::float32 && field.type != FieldType::float64) continue;
@@ -90,7 +90,7 @@ Cloud as_text_has_it(Cloud cloud) {
   return cloud;
 }
 
-/// A name that is no word in a header is written as another one: names are not compared.
+/// A name that is not a word in a header is written differently: names are not compared.
 Content without_names(Cloud cloud) {
   for (CloudField& field : cloud.fields) field.name.clear();
   return content_of(cloud);
@@ -119,7 +119,7 @@ void write_and_read_again(const Barcode& barcode) {
 }
 
 void write_and_read_again(const Cloud& cloud) {
-  if (cloud.fields.empty()) return;  // points of which nothing is known
+  if (cloud.fields.empty()) return;  // points without known properties
   for (const PcdData data : {PcdData::binary, PcdData::binary_compressed}) {
     require(without_names(read_again(written(cloud, data), data)) == without_names(cloud),
             "a cloud changes through PCD");
@@ -131,7 +131,7 @@ void write_and_read_again(const Cloud& cloud) {
     return f.type == FieldType::int64 || f.type == FieldType::uint64;
   });
   if (wide) return;  // PLY has no such integers
-  // Fields are split and the organisation is lost, once; what was read of PLY stays.
+  // Fields are split and the organisation is lost once; data that came from PLY stay the same.
   const Cloud split = read_again(written(cloud, PlyData::little_endian), PlyData::little_endian);
   require(split.size() == cloud.size(), "points are lost in PLY");
   require(content_of(read_again(written(split, PlyData::little_endian), PlyData::little_endian)) ==

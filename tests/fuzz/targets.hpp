@@ -7,7 +7,7 @@
 
 namespace ph::fuzz {
 
-/// What libFuzzer and the replay run on any bytes.
+/// The targets that libFuzzer and the replay run on any bytes.
 struct Target {
   std::string name;
   /// Throws Violation, or anything else, if a property does not hold.
@@ -16,42 +16,43 @@ struct Target {
 
 /// All of them: a target for each reader (see readers.hpp), and the others.
 const std::vector<Target>& targets();
-/// Null if there is none of that name.
+/// Null if none has this name.
 const Target* find_target(std::string_view name);
 
-// Each is in a file of its own.
+// Each target is in a separate file.
 
 /// Reads some bytes, strictly and not; what can be written is written and read again.
 void run_reader(std::string_view reader, std::string_view bytes);
 /// Unpacks.
 void run_gzip(std::string_view bytes);
-/// A picture as it is and with the right checksums, and as a depth image.
+/// A picture, unchanged and with corrected checksums, and as a depth image.
 void run_png(std::string_view bytes);
-/// A stored tree as it is and with the right checksum.
+/// A stored tree, unchanged and with a corrected checksum.
 void run_tree(std::string_view bytes);
 /// The lines are the words of a command line.
 void run_barcode_arguments(std::string_view bytes);
 void run_distance_arguments(std::string_view bytes);
 void run_segment_arguments(std::string_view bytes);
 void run_vectorise_arguments(std::string_view bytes);
-/// What ph-distance --groups takes, after a digit: how many barcodes there are.
+/// The input of ph-distance --groups, after a digit: the number of barcodes.
 void run_distance_groups(std::string_view bytes);
-/// What ph-vectorise --fitted takes; it is written and read again.
+/// The input of ph-vectorise --fitted; it is written and read again.
 void run_vectorise_fit(std::string_view bytes);
-/// What a part of an image says, of a cloud, or of several inputs.
+/// Parts of an image, of a cloud, or of several inputs.
 void run_image_part(std::string_view bytes);
 void run_cloud_part(std::string_view bytes);
 void run_inputs_part(std::string_view bytes);
-/// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.
+/// Chooses a small filtration; all engines must agree with the oracle, and representatives must be
+/// valid.
 void run_engines(std::string_view bytes);
 /// Distances of small diagrams beside all matchings; vectors of them.
 void run_diagrams(std::string_view bytes);
-/// Arrays and metadata of a report's page: what is written is read back.
+/// Arrays and metadata of a report's page: written data must read back equal.
 void run_report(std::string_view bytes);
-// Where there is a C interface:
+// If there is a C interface:
 /// Calls beside the same calls of the C++ library; some have sizes and pointers that no input has.
 void run_c(std::string_view bytes);
-// Where there are alpha complexes:
+// If there are alpha complexes:
 /// Chooses points, of any doubles; bars and simplices must have the properties of an alpha complex.
 void run_alpha(std::string_view bytes);
 /// Chooses points; the signs and radii of their spheres must be those of exact numbers.

@@ -25,7 +25,7 @@ struct Sample {
   std::string reader, name;
   bool sized = false;  // the format says where it ends
   std::string bytes;
-  /// The path by which the reader is to open it: an archive of several arrays needs one named.
+  /// The path under which the reader opens it: an archive of several arrays needs the name of one.
   std::string opened(const fs::path& path) const {
     return path.string() + (name == "two.npz" ? ":points" : "");
   }
@@ -46,7 +46,7 @@ std::vector<Sample> samples() {
   return all;
 }
 
-// ---- what is there, by a reading of numbers that knows no format
+// ---- the data present, read as plain numbers without any format
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0;
@@ -55,7 +55,7 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-/// The cells of a text without comments and without lines of names; nothing if a cell is no number.
+/// The cells of a text without comments and header lines; empty if a cell is not a number.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
   std::vector<double> numbers;
   std::istringstream lines{std::string(text)};
@@ -81,7 +81,7 @@ std::optional<std::size_t> size_for(std::size_t count, bool square) {
   return std::nullopt;
 }
 
-/// The lower triangle that the numbers of a file are, if they are all of one.
+/// The lower triangle that the numbers of a file form, if they are complete.
 std::optional<std::vector<double>> triangle_of(const std::string& reader, std::string_view bytes) {
   std::optional<std::vector<double>> numbers;
   if (reader == "binary_distances") {
@@ -137,7 +137,7 @@ Rows without(const Rows& all, const Rows& some) {
   return left;
 }
 
-/// Whether a row ends in this number, or in its eight bytes.
+/// True if a row ends in this number, or in its eight bytes.
 bool ends_in(const std::vector<double>& row, double number) {
   if (row.back() == number) return true;
   unsigned char bytes[sizeof number];
@@ -229,7 +229,7 @@ class Prefixes {
     }
   }
 
-  /// All numbers that are there are those of a triangle.
+  /// All present numbers form a triangle.
   void check_triangle(std::string_view prefix, const Content& content) {
     const auto expected = triangle_of(sample_.reader, prefix);
     ASSERT_TRUE(expected) << "accepted, but no triangle";
@@ -240,8 +240,8 @@ class Prefixes {
     }
   }
 
-  /// The rows of the complete lines, and at most one more: a row of the whole or, in a line that
-  /// was cut, one that ends in the number as it was cut.
+  /// The rows of the complete lines, and at most one more: a row of the whole file or, in a line
+  /// that was cut, one that ends in the truncated number.
   void check_rows(std::string_view prefix, const Content& content) {
     const Rows rows = rows_of(content);
     EXPECT_TRUE(without(lines_, rows).empty()) << "a line is lost";
@@ -254,7 +254,7 @@ class Prefixes {
     EXPECT_TRUE(ends_in(*more.begin(), *number)) << *number;
   }
 
-  /// Where a member of a gzip file ends, so does a file of fewer members.
+  /// A prefix that ends with a gzip member is a file with fewer members.
   void check_members(const Content& content) {
     ++members_;
     EXPECT_EQ(members_, 1) << "the file has two";

@@ -5,8 +5,8 @@
 
 namespace ph::fuzz {
 
-/// A property that does not hold: what a fuzz target throws. Left alone it ends libFuzzer with the
-/// input; the replay reports it.
+/// Thrown by a fuzz target if a property does not hold. Uncaught, it ends libFuzzer with the input;
+/// the replay reports it.
 struct Violation : std::logic_error {
   using std::logic_error::logic_error;
 };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which room may include which, how large a folder may be, where tests lie, and that fmt::join has
-its header: layering.py ROOT.
+"""Checks which room may include which, how large a folder may be, where tests are, and that
+fmt::join has its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-# The rooms that each may look into, beside itself.
+# The rooms that each room may include, beside itself.
 MAY_INCLUDE = {
     "core": "",
     "metric": "core components",
@@ -67,13 +67,14 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
            ("apps/", None), ("python/", "python"))
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MAY_SHOW = {"pcl": "libsegment/pcl/", "CGAL": "libph/src/alpha/cgal/"}
-MOST_FILES = 40  # in a larger folder nobody finds a file by its name
-# Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
+MOST_FILES = 40  # in a larger folder, nobody finds a file by its name
+# Folders of public headers: headers that no user includes directly belong in ph/detail. No folder
+# may grow.
 MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 4,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
-# Folders of tests, and whose rooms theirs are.
+# Folders of tests, and the sources whose rooms they mirror.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
             "tests/apps": ("apps", "libreport")}
 
@@ -100,7 +101,7 @@ def room_of(file):
 
 
 def target_of(root, file, include):
-    """The file of ours that is meant, below ROOT; None if it is somebody else's."""
+    """The file below ROOT that is meant; None if it is a third-party file."""
     for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
                  Path("libsegment/pcl/include"), Path("libsegment/src"),
                  Path("libreport/include"), Path("libreport"), Path("apps"), Path("python/src")):
@@ -143,7 +144,7 @@ def too_large(root):
     tops = ("libph", "libsegment", "libreport", "apps", "bench", "python", "tests")
     for folder in sorted(p for top in tops for p in (root / top, *(root / top).rglob("*"))
                          if p.is_dir()):
-        # Seeds are as many as were found, and what Python caches is not ours.
+        # The number of seeds is not limited, and Python's caches are not ours.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue
         count = sum(p.is_file() and p.name != "py.typed" for p in folder.iterdir())
@@ -164,7 +165,7 @@ def misplaced_tests(root):
 
 
 def room_cycles():
-    """Rooms that may see one another."""
+    """Rooms that may include each other."""
     seen = {room: set(rooms.split()) for room, rooms in MAY_INCLUDE.items()}
     for via in seen:
         for rooms in seen.values():

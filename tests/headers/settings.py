@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether texts of the libraries speak of settings and not of options, and whether each setting is
+"""Checks that texts of the libraries mention settings instead of options, and that each setting is
 an option of a program: settings.py ROOT.
 
 A library knows no program: its messages mark a Setting of ph/error.hpp, which the programs write as
@@ -15,7 +15,7 @@ OPTION = re.compile(r"(?<![\w!-])--[a-z]")
 
 # Settings of C++ that no program has an option for.
 NO_OPTIONS = {"cell", "patience", "plane_guess"}
-# Settings whose options have other names, as apps/common/terminal/words.cpp says.
+# Settings whose options have other names, see apps/common/terminal/words.cpp.
 OTHER_NAMES = {"spacing": "supervoxels", "first_meeting": "explain"}
 
 

@@ -24,7 +24,7 @@
 #include <string_view>
 
 int main(int argc, char** argv) try {
-  // Their warnings are theirs: this conversion would stop our own build.
+  // Users choose their own warnings: this conversion would stop our own build.
   const int three = 3.5;
 #ifdef CORE_ALONE
   const ph::Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1.25}};

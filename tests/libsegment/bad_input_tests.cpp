@@ -49,7 +49,7 @@ std::vector<float> scaled(std::vector<float> xyz, double factor) {
   return xyz;
 }
 
-/// Points of the part of a sphere that the sensor sees: nothing of what lies behind its outline.
+/// Points of the visible part of a sphere, without anything behind its outline.
 std::vector<float> ball(double radius, int count) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -99,8 +99,8 @@ TEST_P(BadInput, NoPlane) {
 }
 
 TEST_P(BadInput, SeveralPlanes) {
-  // A shelf above the table: the plane with most points goes, the other is a segment. Its points
-  // are so near each other that their voxels touch.
+  // A shelf above the table: the plane with most points is removed, and the other is a segment. Its
+  // points are so near each other that their voxels touch.
   const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
                          2);
   const Segmentation s = segmented(scene.xyz());

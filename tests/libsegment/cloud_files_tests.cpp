@@ -151,7 +151,7 @@ TEST(CloudTerms, NormalsHaveTheNamesOfTheFormat) {
   EXPECT_EQ(names_in(ply), "x nx ny nz ");
   EXPECT_EQ(ply.data, one_point(pcd).data);
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, ply)), "x normal_x normal_y normal_z ");
-  // Two of three are something else, and names that are there are not given again.
+  // Two of the three labels mean something else, and existing names are not reused.
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point({{"nx", kSingle, 1}}))), "nx ");
   std::vector<Column> both = pcd;
   for (const char* name : {"nx", "ny", "nz"}) both.push_back({name, kSingle, 1});

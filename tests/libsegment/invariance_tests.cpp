@@ -64,7 +64,7 @@ TEST_P(Invariance, OrderOfThePoints) {
   }
 }
 
-// Method surface reckons with the noise of depth, which is not scaled along.
+// Method surface takes the noise of depth into account, which does not scale.
 TEST(Scaling, PowersOfTwo) {
   const std::vector<float> xyz = cluttered();
   const SegmentOptions o{.method = Method::paper};
@@ -107,8 +107,8 @@ TEST_P(Invariance, AllPointsEqual) {
   EXPECT_FALSE(s.plane);
 }
 
-// The pipeline runs on one thread, whatever is asked for: this holds it to that. What does use
-// threads is the homology of segments.
+// The pipeline runs on one thread, whatever number is requested; this test checks it. Only the
+// homology of segments uses threads.
 TEST_P(Invariance, Threads) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});

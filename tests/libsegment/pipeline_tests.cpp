@@ -29,7 +29,7 @@ TEST(Pipeline, TwoBoxesOnATable) {
   ASSERT_EQ(s.segments.size(), 2U);
   ASSERT_EQ(s.labels.size(), scene.truth().size());
 
-  // Exactly the points of the boxes that stand out of the plane by more than its thickness.
+  // Exactly the points of the boxes that rise above the plane by more than its thickness.
   std::array<Index, 3> points{};
   for (std::size_t i = 0; i < s.labels.size(); ++i) {
     const float* p = &scene.xyz()[3 * i];
@@ -73,7 +73,7 @@ TEST(Pipeline, StagesAndComplex) {
 }
 
 TEST(Pipeline, BoxesThatNearlyTouchAreOneSegmentBeyondTheirGap) {
-  // 40 mm apart: apart at 25 mm, one at 60 mm.
+  // 40 mm apart: separate at 25 mm, joined at 60 mm.
   const TableScene scene(
       {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, kPaper).segments.size(), 2U);
@@ -183,7 +183,7 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
             2U);
 }
 
-// Points of other numbers beside the coordinates are read where they are.
+// Points with other numbers beside the coordinates are read in place.
 TEST(Pipeline, AnyStride) {
   const TableScene scene = TableScene::two_boxes();
   const std::vector<float>& xyz = scene.xyz();
@@ -195,7 +195,7 @@ TEST(Pipeline, AnyStride) {
     CloudView cloud{std::span(wide).first(last), {}, TableScene::kWidth, TableScene::kHeight};
     cloud.stride = stride;
     EXPECT_EQ(segment(cloud).labels, expected.labels) << stride;
-    cloud.xyz = wide;  // what follows the last z is no part of it
+    cloud.xyz = wide;  // numbers after the last z do not belong to it
     ph::test::expect_error(ErrorKind::bad_data, "floats, expected", [&] { segment(cloud); });
   }
   CloudView cloud{xyz, {}};

@@ -75,7 +75,8 @@ TEST(PublicStructs, Clouds) {
                [&] { with_labels(cloud, std::vector<std::uint32_t>(1)); });
 }
 
-/// Each array of a scene and of its cut is needed; each is made shorter, and each number wrong.
+/// Each array of a scene and of its cut is needed: the test shortens each array and falsifies each
+/// number.
 TEST(PublicStructs, ScenesAndCuts) {
   const Segmentation right = segment(CloudView{TableScene::two_boxes().xyz(), {}});
   ASSERT_EQ(right.segments.size(), 2U);

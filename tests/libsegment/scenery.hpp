@@ -31,15 +31,15 @@ inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) 
   return cloud;
 }
 
-/// What one ray of a camera meets: a box whose axes are those of the table.
+/// An object that a ray may hit: a box aligned with the table.
 struct Block {
   Vec3 min, max;
 };
 
-/// A camera 1 m from a table, looking down at 45 degrees; the table's coordinates are x right,
-/// y away, z up, its middle at the origin. 320 x 240 pixels, the axes of the cloud are the camera's
-/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) are holes; so are those
-/// that graze the left and right side of a box, as with real sensors.
+/// A camera 1 m from a table, looking down at 45 degrees; the table's coordinates are x right, y
+/// away, z up, its middle at the origin. 320 x 240 pixels, the axes of the cloud are the camera's
+/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) become holes, as do rays
+/// that graze the left and right side of a box, like with real sensors.
 class TableScene {
  public:
   static constexpr Index kWidth = 320, kHeight = 240;

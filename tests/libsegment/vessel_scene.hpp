@@ -19,11 +19,11 @@ struct Vessel {
   bool has_lid = false;  ///< or is full
 };
 
-/// What a ray meets.
+/// The objects that a ray may hit.
 enum class Met { nothing, table, outside, inside, bottom, lid };
 
-/// Vessels without a bottom on a table z = 0, seen at 45 degrees from a metre away; what is seen of
-/// the table through an opening is what a thin bottom looks like.
+/// Vessels without a bottom on a table z = 0, seen at 45 degrees from a metre away; the part of the
+/// table visible through an opening looks like a thin bottom.
 class VesselScene {
  public:
   /// @param depth of the bottoms below the table, as a shiny one is seen.

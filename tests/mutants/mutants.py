@@ -13,7 +13,7 @@ COHOMOLOGY = "libph/include/ph/detail/reduction/cohomology_reduction.hpp"
 COLUMN = "libph/include/ph/detail/reduction/coboundary_column.hpp"
 NEAR_POINTS = "libph/src/metric/blocks/near_points.cpp"
 
-# name, file, text that occurs exactly once, what replaces it, test programs that must notice
+# name, file, text that occurs exactly once, its replacement, test programs that must notice
 MUTANTS = [
     ("voxels without points are infinite, not absent", "libph/src/complex/voxel_image.cpp",
      "if (masked) std::ranges::replace(values, kInfinity, std::numeric_limits<double>::quiet_NaN());", "",

@@ -5,10 +5,10 @@ of them.
 
     plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
-A mutant is killed if one of its test programs fails or runs into the time limit. It counts as a
-failure if the tests pass, if it does not compile, or if the text it replaces is not found exactly
-once: then the code has moved on and the mutant must follow. Exit code 0 if all were killed.
---check builds nothing and only sees whether each text is found, also those of program_mutants.py.
+A mutant is killed if one of its test programs fails or reaches the time limit. It counts as a
+failure if the tests pass, if the mutant does not compile, or if its text is not found exactly once:
+then the code has changed and the mutant must follow. Exit code 0 if all were killed. --check builds
+nothing and only checks that each text is found, including those of program_mutants.py.
 """
 import argparse
 import os
@@ -53,7 +53,7 @@ def flags_of(package):
 
 
 def write_build(tree, programs):
-    """A build with relative names only, so that a copy of the folder is as up to date as itself."""
+    """A build with relative names only, so that a copy of the folder is also up to date."""
     includes, libraries = [], []
     for package in ("eigen3", "fmt", "gtest_main"):
         found = flags_of(package)
@@ -86,7 +86,7 @@ def build(tree, programs, jobs):
 def passes(tree, program):
     """True or False; None if the time limit was reached."""
     try:
-        # Tests of speed and of stopping are not what mutants are for, and slow without optimisation.
+        # Tests of speed and of stopping do not concern mutants, and are slow without optimisation.
         command = [f"./{program}", "--gtest_fail_fast", "--gtest_brief=1",
                    "--gtest_filter=-RunContexts.*:*LinearTime*:*Duplicates*:*LongChains*:*WideCells*"]
         return subprocess.run(command, cwd=tree, capture_output=True, text=True,
@@ -109,7 +109,7 @@ def try_mutant(base, mutant):
     text = (base / file).read_text()
     tree = Path(tempfile.mkdtemp(prefix="mutant-", dir=base.parent))
     try:
-        shutil.copytree(base, tree, dirs_exist_ok=True)  # times too: only the mutant is built anew
+        shutil.copytree(base, tree, dirs_exist_ok=True)  # keeps times: only the mutant is rebuilt
         (tree / file).write_text(text.replace(old, new))
         for program in programs:
             if (result := build(tree, [program], 1)).returncode != 0:

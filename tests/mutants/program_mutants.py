@@ -3,8 +3,8 @@
 from distance_program_mutants import MUTANTS as OF_DISTANCE
 from file_mutants import MUTANTS as OF_FILES
 
-# name, file, text that occurs exactly once, what replaces it, targets to build, what must notice: a test program that is one
-# of the targets, or the name of a test
+# name, file, text that occurs exactly once, its replacement, targets to build, and the test that
+# must notice: a test program among the targets, or the name of a test
 MUTANTS = [
     ("parts: the age of the input plays no part", "apps/barcode/parts/part_files.cpp",
      "if (!error && changed <= written) continue;", "continue;", ["ph-barcode"], "ph_barcode_parts"),

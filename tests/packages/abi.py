@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The binary interface of libph_c.so is what programs were linked with: abi.py --library FILE.so.
+"""Checks that the binary interface of libph_c.so still fits programs that were linked with it:
+abi.py --library FILE.so.
 
-`abidiff` compares the library with ph_c.abi, which `abidw` wrote of an older one. Functions and
-enumerators may be added. ph_options may grow at its end, for ph_options_init says how much of it the caller knows. All
-else needs another PH_ABI_VERSION and a new ph_c.abi, which `abi.py --library FILE.so --write` writes;
-`ctest -R packages.abi -V` shows the name of the file.
+`abidiff` compares the library with ph_c.abi, which `abidw` wrote for an older one. Functions and
+enumerators may be added. ph_options may grow at its end, because ph_options_init tells how much of
+it the caller knows. Any other change needs a new PH_ABI_VERSION and a new ph_c.abi, which `abi.py
+--library FILE.so --write` writes; `ctest -R packages.abi -V` shows the name of the file.
 
---plant changes ph_c.abi, as if the library had been another one, and demands that what breaks
-programs is found, and what does not is let pass.
+--plant changes ph_c.abi, as if the library had been different, and requires that changes which
+break programs are found and other changes pass.
 """
 import argparse
 import re
@@ -57,7 +58,7 @@ def without_new_enumerators(now, before):
 
 
 def difference(before, now):
-    """@return what abidiff says, and whether it found a change that breaks programs."""
+    """@return the output of abidiff, and True if it found a change that breaks programs."""
     old, new = OPTIONS.search(before), OPTIONS.search(now)
     known = len(MEMBER.findall(old[0]))
     if len(MEMBER.findall(new[0])) > known and int(new[1]) > int(old[1]):

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which files an archive of the sources has: archive.py ROOT [ARCHIVE.tar.xz].
+"""Checks the files of an archive of the sources: archive.py ROOT [ARCHIVE.tar.xz].
 
-Without an archive: what `git archive` would put into one. Everything that git holds is in it, but for
-debian/ and hidden files of the root, and nothing that was built, but for the page of the reports and the files of
-npm packages that are in it. Names and times do not tell who made it. Exit code 77: no clone of git.
+Without an archive, it checks what `git archive` would contain. The archive has all files in git,
+except debian/ and hidden files of the root. It has no built files, except the page of the reports
+and the files of npm packages in it. Names and times do not reveal who made it. Exit code 77: not a
+git clone.
 """
 import io
 import re

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What scripts/sbom.py says is in the programs is what `nm` finds in them: check_sbom.py BUILD.
+"""Checks that the contents listed by scripts/sbom.py agree with the symbols that `nm` finds:
+check_sbom.py BUILD.
 
-The bill is made of the linker's maps and of dependencies. Here the symbols are looked at. Each symbol
-that a program defines has to be ours, or of an archive of a package that the bill names, by
-`dpkg -L`. Headers leave symbols in their namespaces, the font and the page leave their names. Then
-each package is taken out of the bill, and that must be noticed. The bill has the fields that SPDX 2.3
-asks for.
+The bill is made of the linker's maps and of dependencies. Here the symbols are looked at. Each
+symbol that a program defines has to be ours, or of an archive of a package that the bill names, by
+`dpkg -L`. Headers leave symbols in their namespaces; the font and the page leave their names. Then
+each package is removed from the bill, which must be noticed. The bill has the fields that SPDX 2.3
+requires.
 """
 import json
 import re
@@ -33,7 +34,7 @@ def output_of(*command):
 
 
 def symbols_of(*files):
-    """Those that others see, as the linker names them."""
+    """Exported symbols, as the linker names them."""
     found = set()
     for line in output_of("nm", "--defined-only", "--extern-only", "--quiet", *files).splitlines():
         words = line.split()
@@ -49,7 +50,7 @@ def archives_of(package):
 
 
 class Evidence:
-    """What is in the programs of a build, whoever says so."""
+    """The contents of the programs of a build, from any source."""
 
     def __init__(self, build):
         programs = [path.with_suffix("") for path in sorted(build.glob("apps/*/*.map"))]
@@ -59,7 +60,7 @@ class Evidence:
         ours = [path for path in build.rglob("*.a")] + list(build.glob("apps/*/CMakeFiles/*.dir/main.cpp.o"))
         own = symbols_of(*ours)
         self.symbols = symbols_of(*programs)
-        # The length before a name says where it ends.
+        # The length before a name tells where the name ends.
         self.namespaces = {match[2][:int(match[1])] for name in self.symbols & own
                            if (match := re.match(r"_ZNK?(\d+)(\w+)", name))}
         self.foreign = {name for name in self.symbols - own if not OF_THE_LINKER.fullmatch(name)}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Each component of an installation is whole, and together they are all of it: components.py BUILD FOLDER.
+"""Checks that each component of an installation is complete, and that together they are the whole:
+components.py BUILD FOLDER.
 
 A file that has no component, or two, would be in no package or in two.
 """
@@ -11,7 +12,7 @@ import sys
 from pathlib import Path
 
 DOC = "share/doc/libph(-doc)?"  # debian/rules has the longer name
-# What each has at least, and all that it may have, as regular expressions.
+# The least content of each component, and everything that it may contain, as regular expressions.
 HAS = {
     "c": ([r"lib/.*libph_c\.so\.1"], r"lib/([^/]+/)?libph_c\.so\.\d[\d.]*"),
     "dev": ([r"include/ph/ph\.hpp", r"include/ph/ph\.h", r".*/libph_core\.a", r".*/libph_c\.so",

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What is said in several places is said alike: facts.py ROOT, or facts.py --plant ROOT.
+"""Checks that facts stated in several places agree: facts.py ROOT, or facts.py --plant ROOT.
 
 * The version is that of project() in CMakeLists.txt, and the version of the C interface is one number.
-* debian/control asks for what CMake looks for, and for what scripts/setup.sh installs.
+* debian/control requires what CMake searches for and what scripts/setup.sh installs.
 * debian/copyright names the copyright of others: of files that state one, and of npm packages that
   are in the page. Its patterns match something. Its licence is LICENSE.
-* Each package of debian/control is what debian/rules makes of a component.
+* debian/rules makes each package of debian/control from a component.
 
---plant puts one fault after another into a copy and demands that it is found.
-Exit code 77: no debian/, as in an archive of the sources.
+--plant puts one fault after another into a copy and requires that it is found. Exit code 77: no
+debian/, as in an archive of the sources.
 """
 import fnmatch
 import json
@@ -19,7 +19,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What CMakeLists.txt look for, and the packages of Debian that have it.
+# The dependencies in CMakeLists.txt, and the Debian packages that have them.
 FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "PNG": "libpng-dev",
          "Freetype": "libfreetype-dev", "CLI11": "libcli11-dev", "pybind11": "pybind11-dev",
          "PCL": "libpcl-dev", "GTest": "libgtest-dev", "Python3": "python3-dev", "Threads": None,
@@ -27,7 +27,7 @@ FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "
          "benchmark": None, "MPI": None, "CUDAToolkit": None}  # off in debian/rules
 # Components that are in no package: each cluster has an MPI of its own.
 OF_NO_PACKAGE = {"licence", "mpi"}
-# Folders whose targets a package is not built of.
+# Folders whose targets belong to no package.
 NOT_PACKAGED = {"bench", "violations", "build", "install", "node_modules"}
 # Of debian/control alone, or of scripts/setup.sh alone: a compiler is always there.
 FOR_DEBIAN = {"debhelper-compat", "dh-sequence-python3"}

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Holds libph's barcodes against those of another program: compare.py ripser|gudhi CASES
+"""Compares libph's barcodes with those of another program: compare.py ripser|gudhi CASES
 
-Exits with 77 where that program is not installed.
+Exits with 77 if that program is not installed.
 """
 import json
 import math
@@ -29,8 +29,8 @@ def ripser_bars(case, folder):
         for i in range(1, case["points"]):
             file.write(",".join(f"{d:.0f}" for d in case["lower"][at:at + i]) + "\n")
             at += i
-    # Named, since without the option Debian's 1.2.1 reads another format than its help says; and it
-    # aborts on --dim 0.
+    # Named explicitly, because without the option Debian's 1.2.1 reads a different format than its
+    # help says; it also aborts on --dim 0.
     command = ["ripser", "--format", "lower-distance", "--dim", str(max(1, case["max_dim"]))]
     if case["threshold"] is not None:
         command += ["--threshold", str(case["threshold"])]

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Holds bars of alpha complexes against GUDHI's exact ones: compare_alpha.py CASES
+"""Compares bars of alpha complexes with GUDHI's exact ones: compare_alpha.py CASES
 
-Exits with 77 where GUDHI is not installed.
+Exits with 77 if GUDHI is not installed.
 """
 import json
 import math
@@ -38,7 +38,7 @@ def groups(first, second, least):
 
 
 def difference(case, ours, theirs):
-    """What is wrong, or None. Bars that rounding may have made do not count."""
+    """The fault, or None. Bars that rounding may have created do not count."""
     largest = max(abs(x) for row in case["points"] for x in row) ** 2
     least = 1e-15 * largest
     if case["weights"]:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Commands whose outputs are to be the same bytes wherever the programs were compiled.
+"""Commands whose outputs must be the same bytes wherever the programs were compiled.
 
 They read the files of examples/data, a sample of each format, random inputs of each kind of complex
-(those that tests/random_runs compares with the definition), and inputs whose values are rounded: what
-a compiler may not compute in another order, and what is not a sum of few digits.
+(those that tests/random_runs compares with the definition), and inputs whose values are rounded, so
+that a different order of computation would show.
 """
 import dataclasses
 import math
@@ -29,8 +29,8 @@ class Command:
     words: list
     inputs: dict = dataclasses.field(default_factory=dict)  # beside those of examples/data: bytes by name
     may_refuse: bool = False  # by exit code 64: the complex lacks what is asked for
-    # Values are those of exp, log, pow, hypot or sin of the C library, whose last bits depend on the
-    # processor: glibc has others for one without fused multiply-add.
+    # Values come from exp, log, pow, hypot or sin of the C library, whose last bits depend on the
+    # processor: glibc's differ on a processor without fused multiply-add.
     of_library: bool = False
 
 
@@ -80,7 +80,7 @@ PROGRAMS = {"ph-barcode": BARCODE, "ph-segment": SEGMENT}
 
 
 def of_samples():
-    """A file of each format. Barcodes are for programs that take them."""
+    """A file of each format. Barcodes are for programs that read them."""
     for sample in samples.SAMPLES:
         inputs = {sample.name: sample.content}
         for name in sample.needs:

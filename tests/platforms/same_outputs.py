@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether programs of two builds print and write the same bytes.
+"""Checks that the programs of two builds print and write the same bytes.
 
 same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…]. Compared are exit code, standard output and error,
 and each file that is written, but for times and memory, over the commands of commands.py, or each Nth
@@ -21,7 +21,8 @@ from pathlib import Path
 
 from commands import DATA, commands
 
-# Of a run, not of its result: times, and memory, which a forecast measures on a part of the input.
+# Properties of a run, not of its result: times, and memory, which a forecast measures on a part of
+# the input.
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
 TRIANGULATED = {"alpha", "delaunay-cech", "delaunay-rips"}
@@ -52,7 +53,7 @@ def without_measurements(content):
 
 
 def doubles_of(array):
-    """What is in an NPY file of doubles, and what stands before: None, if it is none."""
+    """The numbers of an NPY file of doubles, and the bytes before them; None for other files."""
     start = 10 + int.from_bytes(array[8:10], "little")
     if not array.startswith(b"\x93NUMPY\x01") or b"'<f8'" not in array[:start] or (len(array) - start) % 8:
         return None
@@ -65,7 +66,7 @@ def are_near(ours, theirs):
 
 
 def are_close(ours, theirs):
-    """Whether two texts, or arrays, are the same but for numbers that are nearly so."""
+    """True if two texts or arrays are equal, up to numbers that are nearly equal."""
     arrays = doubles_of(ours), doubles_of(theirs)
     if None not in arrays:
         return arrays[0][0] == arrays[1][0] and are_near(arrays[0][1], arrays[1][1])
@@ -74,13 +75,14 @@ def are_close(ours, theirs):
 
 
 def lacks_alpha(command, theirs):
-    """Whether it is refused because there is no CGAL."""
+    """True if the run was refused because there is no CGAL."""
     return b"CGAL" in theirs["standard error"] and theirs["exit code"] != b"0" and \
         not TRIANGULATED.isdisjoint(command.words)
 
 
 def compare(command, ours, theirs):
-    """@return what differs, a line each; how many outputs differ in last bits that may."""
+    """@return the differences, one per line, and the number of outputs with permitted differences
+    in last bits."""
     words = " ".join(command.words)
     faults, close = [], 0
     if ours["exit code"] not in ((b"0", b"64") if command.may_refuse else (b"0",)):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Whether a chain represents a bar, by the definitions of docs/reference/conventions.md. Takes
-filtrations as oracle.py makes them, and shares nothing with libph."""
+"""Checks that a chain represents a bar, by the definitions of docs/reference/conventions.md. Uses
+filtrations from oracle.py, and shares nothing with libph."""
 import math
 
 import oracle
@@ -28,9 +28,9 @@ def boundary(chain, boundary_of, prime):
 
 
 def sum_of_loops(loops, period, prime):
-    """The chain of edges that loops run through: simplices, or cubes of doubled coordinates.
-    @param loops pairs of vertices and a coefficient. @param period by axis, the length in doubled
-    coordinates after which it closes up; None: of simplices."""
+    """The chain of the edges of loops: simplices, or cubes in doubled coordinates. @param loops
+    pairs of vertices and a coefficient. @param period by axis, the length in doubled coordinates
+    after which it closes up; None: simplices."""
     chain = {}
     for vertices, coefficient in loops:
         for a, b in zip(vertices, vertices[1:] + vertices[:1]):
@@ -60,7 +60,7 @@ class Representatives:
         return self.filtration[cell][0]
 
     def is_boundary(self, chain, until):
-        """Whether it bounds a chain of cells of which `until` of their value holds."""
+        """True if it bounds a chain of cells for whose values `until` holds."""
         chain = {self.columns.place[c]: a for c, a in chain.items()}
         while chain:
             low = max(chain)
@@ -73,7 +73,7 @@ class Representatives:
         return True
 
     def chain(self, terms):
-        """@param terms cells and coefficients, as they are written."""
+        """@param terms cells and coefficients, as written in the file."""
         chain = {}
         for cell, coefficient in terms:
             if coefficient == 0 or abs(coefficient) * 2 > self.prime or (self.prime, coefficient) == (2, -1):

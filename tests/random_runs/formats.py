@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Files of random kinds with given contents, and barcodes read back: by the format's definition."""
+"""Files of random kinds with given contents, and barcodes read back, by the definition of each
+format."""
 import gzip
 import json
 import math
@@ -13,7 +14,7 @@ TYPES = {"float64": "f8", "float32": "f4", "int64": "i8", "int32": "i4", "uint32
 
 
 def fits(values, kind):
-    """Whether numbers are the same as a kind of NumPy's."""
+    """True if a NumPy type holds the numbers exactly."""
     if kind == "float64":
         return True
     if kind == "float32":
@@ -54,7 +55,7 @@ def npz(rng, shape, values):
 
 
 def indices(shape, reverse=False):
-    """All coordinates, the last axis fastest; turned around if asked for."""
+    """All coordinates, the last axis fastest; reversed on request."""
     found = [()]
     for n in shape:
         found = [at + (i,) for at in found for i in range(n)]
@@ -94,7 +95,7 @@ def table(rng, rows, separator=None):
 
 
 def zipped(rng, name, content):
-    """Packed now and then."""
+    """Compressed now and then."""
     return (name + ".gz", gzip.compress(content)) if rng.random() < 0.1 else (name, content)
 
 
@@ -204,7 +205,7 @@ def distances_file(rng, d):
 # Images: values in C order; NaN where a voxel is absent.
 
 def image_file(rng, shape, values, periodic):
-    """@return name, content, options, those of periodic axes among them."""
+    """@return name, content, options, including those for periodic axes."""
     def around(axes):
         axes = sorted(axes)
         return ["--periodic", "all" if len(axes) == len(shape) and rng.random() < 0.5 else

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random inputs with random options, and the bars that they must give by the definition."""
+"""Random inputs with random options, and the bars that they must give by definition."""
 import dataclasses
 import itertools
 import math
@@ -13,7 +13,7 @@ INF = math.inf
 
 @dataclasses.dataclass
 class Job:
-    """What is computed: files, options, and the bars of all dimensions up to `max_dim`."""
+    """A job: files, options, and the bars of all dimensions up to `max_dim`."""
     kind: str
     files: list
     options: list
@@ -22,11 +22,11 @@ class Job:
     max_dim: int
     tolerance: float = 0.0  # 0: every double as it is
     engines: tuple = ("standard", "twist")
-    has_parts: bool = False  # whether --part can be asked of it
-    name_of: object = tuple  # of a cell as the program names it: its name in the filtration
-    period: tuple = None  # of images, by axis: the length in doubled coordinates; None: it is open
-    has_cells: bool = True  # whether the filtration has the cells of the program
-    picture: Picture = None  # of images: what sets of voxels are checked against
+    has_parts: bool = False  # True if --part applies
+    name_of: object = tuple  # maps the program's name of a cell to its name in the filtration
+    period: tuple = None  # for images, by axis: period in doubled coordinates; None: none
+    has_cells: bool = True  # True if the filtration has the cells of the program
+    picture: Picture = None  # for images: the data for checking sets of voxels
 
 
 def coordinate(rng, style):
@@ -61,7 +61,7 @@ def field(rng):
 
 
 def some_threshold(rng, values):
-    """None, or one of the values, or what lies between two."""
+    """None, one of the values, or a number between two."""
     finite = sorted({v for v in values if math.isfinite(v)})
     if rng.random() < 0.6 or not finite:
         return None
@@ -80,8 +80,8 @@ def lost_rows(rng, rows):
 
 
 def odd_matrix(rng, matrix, finite):
-    """A file that says a distance matrix in another way: as correlations, by two entries for a pair, or
-    with NaN where a pair never joins. @return name, content, options."""
+    """A file that expresses a distance matrix differently: as correlations, with two entries for a
+    pair, or with NaN for pairs that never join. @return name, content, options."""
     n = len(matrix)
     way = rng.choice(["correlation", "twice"] if finite else ["nan"])
     if way == "correlation":

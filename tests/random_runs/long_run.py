@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """long_run.py PH_BARCODE PEAK [--minutes M] [--seed S] [--keep FOLDER]
 
-Runs random jobs for a long time, and disturbs them: signals at random moments, limits on memory, heap
-and file size, stops and goes. Whatever happens, the output is complete and that of the run nobody
-disturbed, or what was there before; the exit code says which; nothing else is left in the folder,
-unless the run was killed by SIGKILL; no run takes more memory than its limit and 32 MiB. If the Python
-package can be imported, one process of it goes through jobs as long, with limits, and its memory must
-not grow. PEAK is the program of tests/faults/peak.c. Exits 1 at the first fault, with the command; the
-files are kept in FOLDER."""
+Runs random jobs for a long time, and disturbs them by signals at random moments, limits on memory,
+heap and file size, and by stopping and continuing them. Whatever happens, the output is the
+complete output of the undisturbed run or the previous file, and the exit code tells which. Nothing
+else is left in the folder, unless SIGKILL ended the run. No run takes more memory than its limit
+plus 32 MiB. If the Python package can be imported, one process runs jobs for the same time, with
+limits, and its memory must not grow. PEAK is the program of tests/faults/peak.c. Exits 1 at the
+first fault, with the command; the files are kept in FOLDER."""
 import argparse
 import collections
 import json
@@ -28,7 +28,7 @@ sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
 import files  # noqa: E402
 
 MIB = 1 << 20
-BESIDE_LIMIT = 32 * MIB  # what the program promises to take at most beside its limit
+BESIDE_LIMIT = 32 * MIB  # the memory that the program may take beyond its limit
 REFUSED = {73, 74, 75}  # output, input or output, memory
 
 
@@ -62,7 +62,8 @@ def distances(rng):
 
 
 def lasting(name, content):
-    """What is the same in each run: JSON without times and memory. @return None if it is no whole file."""
+    """The reproducible part of the output: JSON without times and memory. @return None if the file
+    is incomplete."""
     if not name.endswith(".json"):
         return content
     try:
@@ -73,7 +74,7 @@ def lasting(name, content):
 
 
 class Job:
-    """An input in a folder of its own, and what the run that nobody disturbs makes of it."""
+    """An input in a separate folder, and the output of the undisturbed run."""
 
     def __init__(self, program, peak, rng, folder):
         self.folder, self.peak = folder, peak
@@ -95,7 +96,7 @@ class Job:
             self.expected[made] = lasting(made, pathlib.Path(folder, made).read_bytes())
 
     def disturb(self, rng):
-        """@return what was done, and how it ended."""
+        """@return the disturbance, and the outcome."""
         old = {name: b"before" for name in self.expected if rng.random() < 0.5}
         for name in self.expected:
             pathlib.Path(self.folder, name).unlink(missing_ok=True)
@@ -116,11 +117,11 @@ class Job:
             time.sleep(rng.uniform(0, 1.2 * self.seconds))
             number = {"kill": signal.SIGKILL, "stop": signal.SIGSTOP}.get(
                 way, rng.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]))
-            os.kill(process.pid, number)  # which does not wait for it, as send_signal does
+            os.kill(process.pid, number)  # which does not wait for the process, unlike send_signal
             if way == "stop":
                 time.sleep(rng.uniform(0, 0.05))
                 os.kill(process.pid, signal.SIGCONT)
-        said = process.stderr.read()  # it says little: the pipe holds it
+        said = process.stderr.read()  # it prints little: the pipe can hold it
         process.stderr.close()
         code = process.wait()
         self.check(way, command, code, number, said, old)
@@ -134,7 +135,7 @@ class Job:
 
     def check(self, way, command, code, number, said, old):
         where = f"{shlex.join(command)}\n  {way}, exit {code}: {said.decode(errors='replace')}"
-        # A signal may come before the program has begun to look for it.
+        # A signal may come before the program handles signals.
         ends = {"kill": {-signal.SIGKILL}, "signal": {128 + number, -number} if number else set(), "stop": set()}
         if code != 0 and code not in ends.get(way, REFUSED):
             raise Fault(f"{where}\n  found an end that this cannot have")
@@ -155,7 +156,7 @@ class Job:
 
 
 def in_one_process(rng, minutes):
-    """Jobs of the package in this process; its memory must stay what it was after the first ones."""
+    """Runs jobs of the package in this process; its memory must not grow after the first ones."""
     import numpy
     import libph
     rooms, kept, jobs, refused = [], {}, 0, 0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Many random runs: each has a seed, and a folder whose files are kept where it finds a difference."""
+"""Many random runs: each has a seed, and a folder whose files are kept if the run finds a
+difference."""
 import collections
 import os
 import pathlib
@@ -11,11 +12,11 @@ PIECE = 50  # runs of one process, one after the other
 
 
 class Difference(Exception):
-    """Something was found that is not what it must be; says what, and the command."""
+    """A result differs from the required one; the message names it and the command."""
 
 
 def add_options(parser, runs):
-    """@param runs how many, if nothing is said."""
+    """@param runs the default number."""
     parser.add_argument("--runs", type=int, default=runs)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -24,7 +25,7 @@ def add_options(parser, runs):
 
 
 def some_runs(one_run, first, count, keep):
-    """@return counts of what was run, differences."""
+    """@return counts of the kinds of runs, and differences."""
     counts, differences = collections.Counter(), []
     for seed in range(first, first + count):
         with tempfile.TemporaryDirectory() as folder:
@@ -43,9 +44,9 @@ def some_runs(one_run, first, count, keep):
 
 
 def run_all(one_run, options, name):
-    """Prints what was run, and exits 1 if there were differences.
-    @param one_run(seed, folder) what it was, for the counts; it can be pickled. @throws Difference
-    @param options those of add_options. @param name of the folders that are kept."""
+    """Prints the counts, and exits with 1 if there were differences. @param one_run(seed, folder)
+    returns the kind of run, for the counts; it can be pickled. @throws Difference @param options
+    from add_options. @param name of the kept folders."""
     counts, failures, end = collections.Counter(), [], options.seed + options.runs
     keep = os.path.join(options.keep, name)
     with ProcessPoolExecutor(options.jobs) as pool:

@@ -2,8 +2,8 @@
 """random_arrays.py [--runs N] [--seed S]
 
 Gives arrays of random types, shapes and layouts to libph and compares the bars with those by the
-definition (oracle.py), which reads the numbers one by one. NaN and what is no number must be
-refused in one line, and no array may be written to. Each run has a seed of its own: --seed S --runs 1
+definition (oracle.py), which reads the numbers one by one. NaN and other invalid entries must be
+refused in one line, and no array may be modified. Each run has its own seed: --seed S --runs 1
 repeats the run of seed S. Exits 1 at the first difference."""
 import argparse
 import collections
@@ -27,7 +27,7 @@ NO_NUMBERS = ["c8", "c16", "U4", "S4", "M8[s]", "m8[s]", "V4"]
 
 
 class HasArray:
-    """What other libraries' arrays look like."""
+    """Arrays in the form of other libraries."""
 
     def __init__(self, array):
         self.array = array
@@ -82,12 +82,12 @@ LAYOUTS = [with_gaps, unaligned, of_a_record, turned, read_only,
            lambda a, draw: np.asfortranarray(a),
            lambda a, draw: a.astype(a.dtype.newbyteorder()),
            lambda a, draw: a.view(Own)]
-# What is no array of NumPy any more comes last.
+# Steps that make something other than a NumPy array come last.
 WRAPPED = [lambda a: a] * 6 + [HasArray, lambda a: a.tolist(), np.ma.asarray]
 
 
 def plain_numbers(array):
-    """The numbers by their places, as Python's, each read by itself."""
+    """The numbers by position, as Python numbers, each read individually."""
     return {at: float(array[at]) for at in np.ndindex(*array.shape)}
 
 
@@ -157,12 +157,12 @@ def options_of(draw, task, array):
 
 
 def same(before, after):
-    """Whether two arrays hold the same, NaN included."""
+    """True if two arrays hold the same numbers, including NaN."""
     return before.dtype == after.dtype and before.tobytes() == after.tobytes()
 
 
 def run(seed):
-    """@return what came of it: bars, or what it was refused for."""
+    """@return the outcome: bars, or the reason for the refusal."""
     draw = random.Random(seed)
     task = draw.choice(["points", "distances", "image"])
     compute = ph.cubical if task == "image" else ph.rips
@@ -176,7 +176,7 @@ def run(seed):
     before = np.array(array, copy=True, order="C", subok=False)
     given = draw.choice(WRAPPED)(array)
     if isinstance(given, list) and array.size == 0:
-        is_number = True  # an empty list says nothing of what is not in it
+        is_number = True  # an empty list does not tell its element type
     what = f"seed {seed}: {task}, {array.dtype!r} {array.shape} {array.strides}, {type(given).__name__}, {options}"
     finite = is_number and all(np.isfinite(x) for x in plain_numbers(plain).values())
     try:

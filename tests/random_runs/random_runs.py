@@ -2,8 +2,8 @@
 """random_runs.py PH_BARCODE [--runs N] [--seed S] [--jobs J] [--keep FOLDER] [--only KIND]
 
 Runs the whole program with random options on random inputs of each kind and format, and compares
-what it writes with barcodes by the definition (oracle.py), which share no line with it. Each run has
-a seed of its own: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with
+its output with barcodes by the definition (oracle.py), which shares no code with it. Each run has
+its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with
 the commands; the files are kept in FOLDER (default: where the script is run)."""
 import argparse
 import dataclasses
@@ -31,8 +31,8 @@ EXTENSIONS = {"csv": "csv", "json": "json", "pers": "pers", "ripser": "txt", "di
 
 
 def match(found, expected, tolerance, scale, short):
-    """Whether two multisets of bars are the same, each end within the tolerance. A bar may lack a partner
-    if rounding decides whether it is longer than `short`."""
+    """True if two multisets of bars are equal, each end within the tolerance. A bar may lack a
+    partner if rounding decides whether it is longer than `short`."""
     if tolerance == 0:
         return found == expected
     slack = tolerance * scale
@@ -52,18 +52,18 @@ def match(found, expected, tolerance, scale, short):
 
 @dataclasses.dataclass
 class Output:
-    """Where the barcode goes, and which of its bars: those of dimension `low` and above that are longer
-    than `short`."""
+    """The destination of the barcode, and the bars to write: those of dimension `low` and above
+    that are longer than `short`."""
     form: str
     name: str = None
     low: int = 0
     short: float = 0.0
-    chains: str = None  # cycles, cocycles or voxels, where it has them
+    chains: str = None  # cycles, cocycles or voxels, if it has them
 
 
 def side_options(rng, job):
-    """Options that do not change the barcode, or leave out bars.
-    @return options, each with its value; the output; whether the program may refuse them."""
+    """Options that do not change the barcode, or leave out bars. @return options, each with its
+    value; the output; True if the program may refuse them."""
     options, output = [], Output(rng.choice(list(EXTENSIONS)))
     if rng.random() < 0.4:
         options.append(["--engine", rng.choice(job.engines)])
@@ -211,7 +211,7 @@ def check_chain(job, kind, bar, representatives):
     ends = ends_of(bar)
     born, killer = named(bar["birth_cell"]), named(bar["death_cell"])
     chain = representatives.chain([(named(cell), cell["coefficient"]) for cell in bar["representative"]])
-    by_value = job.has_cells and job.tolerance == 0  # else values are others in the last digits
+    by_value = job.has_cells and job.tolerance == 0  # otherwise values differ in the last digits
     if not by_value:
         if kind == "cycles" and chains.boundary(chain, oracle.simplex_boundary, job.prime):
             raise chains.Unfit("it has a boundary")
@@ -221,8 +221,8 @@ def check_chain(job, kind, bar, representatives):
         representatives.check_cocycle(chain, ends, born, killer)
     loops = [(list(map(tuple, content(loop))) if job.period else content(loop), loop["coefficient"])
              for loop in bar.get("loops", ())]
-    # What loops of one or two vertices mean that go around a periodic space, or which edge joins the two
-    # voxels of a periodic axis, the chain tells alone.
+    # Only the chain tells the meaning of loops with one or two vertices around a periodic space, or
+    # which edge joins the two voxels of a periodic axis.
     if not loops or any(len(vertices) < 3 for vertices, _ in loops) or job.period and 4 in job.period:
         return
     run_through = {job.name_of(edge): number
@@ -239,7 +239,7 @@ def in_parts(rng, program, job):
     names = [f"part{i + 1}.ph" for i in range(count)]
     order = list(range(count))
     rng.shuffle(order)
-    # Of components, and of pictures, these change nothing, and are refused.
+    # For components and for pictures, these options have no effect and are refused.
     options = [option for option in with_values(job.options)
                if option[0] not in ("--field", "--modulus", "--metric", "--collapse", "--complex")]
     options.append(["--complex", "rips" if job.kind.startswith("rips") else "cubical"])
@@ -279,7 +279,7 @@ def damaged(rng, content):
 
 
 def one_run(path, only, seed, folder):
-    """@return what it was, for the counts. @throws Difference"""
+    """@return the kind of run, for the counts. @throws Difference"""
     rng = random.Random(seed)
     job = jobs.KINDS[only or rng.choice(list(jobs.KINDS))](rng)
     is_damaged = rng.random() < 0.1
@@ -293,7 +293,7 @@ def one_run(path, only, seed, folder):
     rng.shuffle(words)
     code = program(words)
     if is_damaged:
-        # Whatever the bytes mean now: a barcode, or one refusal.
+        # Whatever the bytes mean now, the result is a barcode or one refusal.
         if code == 0:
             program.read(output)
         else:

@@ -2,8 +2,8 @@
 """random_tables.py [--runs N] [--seed S] [--jobs J] [--keep FOLDER]
 
 Writes tables of numbers as pandas, R, spreadsheets and programs do, reads them from Python, and
-compares the numbers with those that were written. A missing value must be refused, or leave its row
-out. Each run has a seed of its own: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first
+compares the numbers with the written ones. A missing value must be refused, or its row left out.
+Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first
 difference."""
 import argparse
 import os
@@ -28,7 +28,7 @@ COMMENTS = ["# a comment", "", "   ", "# 1, 2; 3", "#"]
 
 
 def quoted(text, separator, draw):
-    """As writers do: where they must, and sometimes where they need not."""
+    """Quotes as writers do: where they must, and sometimes where they need not."""
     needs = any(c in text for c in f",;\t#{separator}\"") or (separator == " " and not text)
     return f'"{text}"' if needs or draw.random() < 0.2 else text
 
@@ -57,7 +57,7 @@ class Table:
         self.missing = self.some_missing(0.15 if draw.random() < 0.4 else 0)
 
     def some_missing(self, share):
-        """Places of missing values; not all of a last column that no header has a name for."""
+        """Places of missing values; never a whole last column without a name in the header."""
         places = {(i, k) for i in range(len(self.values)) for k in range(len(self.values[0]))
                   if self.draw.random() < share}
         if not self.header or self.index == "of R":
@@ -81,7 +81,7 @@ class Table:
                 "levels": lambda: [quoted(name, self.separator, draw), str(i)]}[self.index]()
 
     def names(self):
-        """Names of the numbers' columns, and of that of words among them."""
+        """Names of the columns of numbers, and of the column of words among them."""
         columns = len(self.values[0]) + (self.words is not None)
         if self.years:
             return [str(2019 + k) if k != self.words else "town" for k in range(columns)]
@@ -120,7 +120,8 @@ class Table:
         return (b"\xef\xbb\xbf" if draw.random() < 0.1 else b"") + text.encode()
 
     def columns(self):
-        """What the option columns is given, by name or by number; None: all that is no index."""
+        """The value of the option columns, by name or by number; None: all columns except the
+        index."""
         draw = self.draw
         if self.words is None and not (self.years and self.index == "none") and draw.random() < 0.7:
             return None

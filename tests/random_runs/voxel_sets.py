@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether sets of voxels are those of their bars, by docs/reference/conventions.md: components and
+"""Checks that sets of voxels belong to their bars, by docs/reference/conventions.md: components and
 hollows, found by walking from voxel to voxel. Shares nothing with libph."""
 import itertools
 import math
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 class Unfit(Exception):
-    """A set that is not that of its bar, and why."""
+    """A set that does not belong to its bar, and the reason."""
 
 
 @dataclass
@@ -15,7 +15,7 @@ class Picture:
     """An image, as it is filtered: the value at which a voxel enters, math.inf: never."""
     shape: tuple
     entry: dict
-    cells: bool  # whether voxels are top cubes
+    cells: bool  # True if voxels are top-dimensional cubes
     periodic: set
     threshold: float
 
@@ -51,8 +51,8 @@ class Picture:
         return self.reached(filter(is_open, starts), is_open, across_corners=not self.cells)
 
     def open_hollows(self, voxels, birth):
-        """What a hollow may be that is never filled: with a voxel that never enters, or all that lies
-        towards an end of the one axis that has ends."""
+        """Possible hollows that are never filled: those with a voxel that never enters, or
+        everything towards one end of the only axis that is not periodic."""
         inside = self.hollow([min(voxels)], birth)
         if not all(map(self.enters, inside)):
             yield inside

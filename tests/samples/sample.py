@@ -13,7 +13,7 @@ class Sample:
     name: str       # with its extension, by which some formats are known
     reader: str     # the library's function without `read_`; correlations: distances, from_correlation
     content: bytes
-    sized: bool     # the format says where it ends: no shorter file is valid
+    sized: bool     # the format declares its end: no shorter file is valid
     arguments: tuple = ("{}",)  # of the program; {} is the file
     program: str = "ph-barcode"  # empty: no program reads it
-    needs: tuple = ()            # names of the samples that the arguments name too
+    needs: tuple = ()            # names of further samples in the arguments

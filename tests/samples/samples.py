@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """A small valid file of every input format and variant that the readers know.
 
-samples.py FOLDER writes each as FOLDER/<reader>/<name>, and FOLDER/manifest.txt: a line
-`reader name sized|open` for each. A `sized` file says itself where it ends, so that each of its
-prefixes is faulty but for a last line end; text formats of this kind end in a token of one character.
+samples.py FOLDER writes each as FOLDER/<reader>/<name>, and FOLDER/manifest.txt: a line `reader
+name sized|open` for each. A `sized` file declares its end, so that each of its prefixes is faulty,
+except without the last line end; text formats of this kind end in a token of one character.
 """
 import os
 import sys

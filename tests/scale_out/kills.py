@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""kills.py PH_BARCODE [KILLS [SEED]]: jobs of parts, and joins, that are killed at random times.
+"""kills.py PH_BARCODE [KILLS [SEED]]: kills jobs of parts, and joins, at random times.
 
-Whatever was killed: there is nothing under the name of an output, or all of it. The same commands
-again, with --resume, make the same bytes as a run that nobody disturbed. No process is left."""
+Whatever was killed, an output is either absent or complete. The same commands, repeated with
+--resume, make the same bytes as an undisturbed run. No process is left."""
 import os
 import pathlib
 import random

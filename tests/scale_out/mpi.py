@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: an image, or points, on 1 to 8 ranks of an
-MPI.
+"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: tests an image, or points, on 1 to 8
+ranks of an MPI.
 
-The bytes are those of one process. Ranks that are killed at random times end all others within
-seconds, with a code that is not 0 and no output; the same command with --resume then makes the same
-bytes. What cannot be computed is said, and ends all ranks."""
+The bytes equal those of one process. If a rank is killed at a random time, all others end within
+seconds, with a code other than 0 and without output; the same command with --resume then makes the
+same bytes. A job that cannot be computed is reported and ends all ranks."""
 import json
 import os
 import pathlib
@@ -20,7 +20,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from volume import volume  # noqa: E402
 
-# Nothing but our words on the standard error output: not that /sys is not mounted.
+# Only our own messages on standard error, not that /sys is not mounted.
 ENV = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
        "HWLOC_HIDE_ERRORS": "2"}
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
@@ -38,7 +38,8 @@ class Mpi:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def run(self, ranks, *arguments):
-        # On a busy machine the mpirun of MPICH may die of a broken pipe to a program that was quick.
+        # On a busy machine, MPICH's mpirun may die of a broken pipe to a program that ended
+        # quickly.
         for _ in range(3):
             process = self.start(ranks, *arguments)
             out, err = process.communicate(timeout=120)
@@ -47,12 +48,12 @@ class Mpi:
         return process.returncode, out, err
 
     def help(self, topic):
-        """What it prints without mpirun."""
+        """The output without mpirun."""
         return subprocess.run([self.program, "--help", topic], check=True, capture_output=True, text=True,
                               timeout=60).stdout
 
     def ranks(self, output):
-        """The processes that have the output among their arguments and are the program."""
+        """The processes of the program with the output among their arguments."""
         found = []
         for entry in pathlib.Path("/proc").iterdir():
             if not entry.name.isdigit():
@@ -89,7 +90,7 @@ def check_bytes(mpi, one_process):
 
 
 def points(path, count, axes, seed=1):
-    """Clusters of points, some of them twice, one a line."""
+    """Clusters of points, some of them duplicated, one per line."""
     rng = random.Random(seed)
     rows = [[rng.choice((0, 0, 5)) + rng.gauss(0, 1) for _ in range(axes)] for _ in range(count)]
     rows += rows[:count // 10]
@@ -120,7 +121,7 @@ def check_clouds(mpi, one_process):
             assert (code, err) == (0, ""), (code, err)
             assert out == expected, f"{ranks} ranks, {count} points: other bytes than one process"
             tried += 1
-    # JSON has cells, and says of how many ranks it is.
+    # JSON has cells, and states the number of ranks.
     code, out, err = mpi.run(3, "points.csv", *H0, "--output-format", "json", "--quiet")
     assert (code, err) == (0, ""), (code, err)
     ours, theirs = json.loads(out), json.loads(one_process("points.csv", *H0, "--output-format", "json"))
@@ -131,7 +132,7 @@ def check_clouds(mpi, one_process):
 
 
 def check_resumed_clouds(mpi, one_process):
-    """A part that is kept is taken; one that is damaged, or of other points, is computed anew."""
+    """A kept part is used; a part that is damaged or belongs to other points is computed anew."""
     points(mpi.folder / "points.csv", 300, 3)
     command = ["points.csv", *H0, "-o", "resumed.csv"]
     for part in (1, 2, 3):
@@ -156,7 +157,8 @@ def unequal(path):
 
 
 def check_sharing(mpi, one_process):
-    """Ranks share layers by what is in them, and say so. @return the runs with other layers."""
+    """Ranks distribute layers by their content, and report it. @return the runs with other
+    layers."""
     unequal(mpi.folder / "unequal.npy")
     tried = 0
     for options in ([], ["--construction", "cells", "--superlevel"], ["--periodic", "0"],
@@ -176,7 +178,7 @@ def check_sharing(mpi, one_process):
             assert sorted(set(first)) == first and float(said[2]) >= 2, said[0]
             assert err.count("sent ") == ranks, err
             tried += 1
-    # An image that is the same everywhere is cut into equal parts, and nothing is said.
+    # A uniform image is cut into equal parts, without a message.
     volume(mpi.folder / "image.npy", (24, 20, 16))
     code, _, err = mpi.run(3, "image.npy", "--verbose")
     assert code == 0 and "begin with" not in err, err
@@ -184,7 +186,7 @@ def check_sharing(mpi, one_process):
 
 
 def check_forecasts(mpi):
-    """--dry-run computes nothing, whatever the ranks are; lines of progress say whose they are."""
+    """--dry-run computes nothing, whatever the ranks; lines of progress name their rank."""
     volume(mpi.folder / "image.npy", (24, 20, 16))
     unequal(mpi.folder / "unequal.npy")
     for path, ranks, options, longest in (("image.npy", 3, [], "1.0"), ("image.npy", 30, [], ""),
@@ -213,7 +215,8 @@ def check_forecasts(mpi):
 
 
 def check_help(mpi):
-    """It comes without mpirun, its options are those that ranks take, and its examples run."""
+    """The help works without mpirun, its options are those that ranks accept, and its examples
+    run."""
     for topic in ("usual", "all", "man", "markdown"):
         text = mpi.help(topic)
         assert not re.search(r"--(representatives|report|join|keep-cells)\b", text), text
@@ -277,8 +280,8 @@ def check_kills(mpi, one_process, kills, seed):
         try:
             process.communicate(timeout=2 * MOST_SECONDS)
         except subprocess.TimeoutExpired:
-            # Open MPI 4.1.4: where a rank dies as it starts, one time in a hundred mpirun waits for a
-            # lock of its own (PMIx) after all ranks have ended.
+            # Open MPI 4.1.4: if a rank dies as it starts, mpirun waits, one time in a hundred, for
+            # its own lock (PMIx) after all ranks have ended.
             assert "openmpi" in mpi.mpirun and not mpi.ranks("killed.csv"), "ranks hang"
             process.kill()
             process.communicate()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""slurm.py PH_BARCODE: what docs/how-to/scale-out.md says of SLURM, as it stands there, on a SLURM of
-one machine that this test starts and ends. Exit code 77, with a word why, where there is none.
+"""slurm.py PH_BARCODE: tests the SLURM commands of docs/how-to/scale-out.md unchanged, on a SLURM
+of one machine that this test starts and ends. Exit code 77, with the reason, if there is no SLURM.
 
 The scripts of the page run as they are: an array of jobs, and one that waits for them. A job of the
-array is then run again, and a second array with one job that dies takes up what is there.
+array is then run again, and a second array with one job that dies reuses the existing parts.
 """
 import os
 import pathlib
@@ -66,7 +66,7 @@ def free_ports(count):
 
 
 class Slurm:
-    """A controller and one node, in a folder of their own."""
+    """A controller and one node, in a separate folder."""
 
     def __init__(self, folder):
         self.folder, self.daemons = folder, []
@@ -141,14 +141,14 @@ def main():
         assert len(bars.read_text().splitlines()) > 100
         written = {part.name: part.stat() for part in work.glob("part*.ph")}
         assert len(written) == 8, written
-        # A job that died half-way leaves nothing, or what is no part: the same command again.
+        # A job that died half-way leaves nothing, or an invalid part: run the same command again.
         (work / "part3.ph").unlink()
         (work / "part5.ph").write_bytes((work / "part5.ph").read_bytes()[:100])
         bars.unlink()
         run(submit)
         assert bars.read_bytes() == (work / "one.csv").read_bytes(), logs()
         again = {part.name: part.stat() for part in work.glob("part*.ph")}
-        # A file system may give the number of a file that is gone to the next one.
+        # A file system may reuse the number of a removed file.
         kept = sorted(name for name in again if os.path.samestat(again[name], written[name])
                       and again[name].st_mtime_ns == written[name].st_mtime_ns)
         assert kept == [f"part{i}.ph" for i in (1, 2, 4, 6, 7, 8)], kept

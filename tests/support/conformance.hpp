@@ -17,7 +17,7 @@
 
 namespace ph::test {
 
-/// A pair with its cells, zero-length ones included: what two engines must agree on.
+/// A pair with its cells, including zero-length pairs: two engines must agree on all of them.
 struct Pair {
   Bar bar;
   std::vector<Index> birth_cell, death_cell;
@@ -57,8 +57,7 @@ std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t fie
       Options{.max_dim = max_dim, .field = field, .engine = engine, .min_persistence = -1}));
 }
 
-/// What is left without the pairs of equal value; a class that never dies stays, whatever its
-/// birth.
+/// The pairs without those of equal value; a class that never dies stays, whatever its birth.
 inline std::vector<Pair> of_positive_length(std::vector<Pair> pairs) {
   std::erase_if(pairs,
                 [](const Pair& p) { return !p.death_cell.empty() && p.bar.death == p.bar.birth; });
@@ -76,7 +75,7 @@ std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
 }
 
 /// The cofacets of a cell by range: horizon after horizon, and the keys of cofacets one by one.
-/// They are to be those that a look at all cofacets finds, in the same order.
+/// They must equal the result of checking all cofacets, in the same order.
 template <RangeFiltration F>
 void check_ranges(const F& f, int dim, const typename F::Cell& cell) {
   using Key = decltype(f.key(cell));
@@ -177,8 +176,8 @@ void check_contract(const F& f, int top, std::int64_t field) {
   }
 }
 
-/// The apparent pairs as the filtration knows them and as a search of all facets and cofacets, over
-/// a view of the filtration that does not, finds them.
+/// Compares the apparent pairs that the filtration knows with a search of all facets and cofacets,
+/// over a view of the filtration that does not know them.
 template <Filtration F>
 struct WithoutApparent {
   using Cell = typename F::Cell;
@@ -216,7 +215,7 @@ void check_apparent_pairs(const F& f, int top) {
     }
     if (dim == 0) continue;
     std::reverse(unmatched.begin(), unmatched.end());
-    // In several calls, as engines do it.
+    // In several calls, like engines do it.
     auto cells = f.unmatched_cells(dim);
     for (std::size_t last = f.group_count(); last > 0; last -= std::min<std::size_t>(last, 3))
       cells.for_each(
@@ -226,7 +225,7 @@ void check_apparent_pairs(const F& f, int top) {
   }
 }
 
-/// At every value the alternating count of cells equals that of living bars (all dimensions).
+/// At every value, the alternating count of cells equals that of living bars (all dimensions).
 template <Filtration F>
 void check_euler(const F& f, const std::vector<Pair>& pairs) {
   std::map<double, long> change;
@@ -255,7 +254,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
     if (engine.can_run(f, Task{.max_dim = max_dim, .zero_length = true})) {
       EXPECT_EQ(pairs_of(f, max_dim, field, engine.id), oracle);
     }
-    // An engine may take another way where only some pairs are wanted.
+    // An engine may use another method if only some pairs are requested.
     if (engine.can_run(f, Task{.max_dim = max_dim})) {
       Options options{.max_dim = max_dim, .field = field, .engine = engine.id};
       const Barcode barcode = persistence(f, options);
@@ -285,7 +284,7 @@ void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields =
   }
 }
 
-/// The bars of positive length are the same with fewer edges.
+/// The bars of positive length stay the same with fewer edges.
 inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   const auto bars = [&](const Rips& of, Engine engine, Collapse collapse) {
     return persistence(

@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// As the sweep of edge links finds them on the ways that large inputs take.
+/// The pairs from the sweep of edge links, along the code paths of large inputs.
 template <class F>
 std::vector<Pair> pairs_of_edge_links(const F& f, int max_dim, std::int64_t field,
                                       SweepTuning tuning, double min_persistence) {

@@ -53,7 +53,7 @@ def npz(members, method=zipfile.ZIP_STORED):
 
 
 def gzipped(content):
-    """Without a time in its header: the same bytes each time."""
+    """Without a time in its header, so that the bytes are always the same."""
     packer = zlib.compressobj(9, zlib.DEFLATED, 31)
     return packer.compress(content) + packer.flush()
 

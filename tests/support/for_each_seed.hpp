@@ -17,7 +17,7 @@ inline int seeds(int count) {
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
 }
 
-/// Whether a random test has met more than `least` of what it is about. Few seeds promise nothing.
+/// True if a random test has met its subject more than `least` times. Few seeds guarantee nothing.
 template <class Count>
 bool is_enough(Count count, Count least) {
   return count > least || seeds(100) < 100;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Inputs from a sequence of choices, small and full of trouble: ties, duplicates, zeros, missing
-// edges.
+// Small, difficult inputs from a sequence of choices: ties, duplicates, zeros, missing edges.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -15,7 +14,7 @@
 
 namespace ph::test {
 
-/// Where the choices come from: a pseudorandom sequence.
+/// The source of the choices: a pseudorandom sequence.
 class RandomChoices {
  public:
   explicit RandomChoices(std::uint64_t seed) : engine_(seed) {}
@@ -35,7 +34,7 @@ class InputGenerator {
   int integer(int low, int high) { return choices_.integer(low, high); }
   bool coin() { return integer(0, 1) == 1; }
   double real() { return choices_.real(); }
-  /// A value that is one of few when `ties` is set.
+  /// A value from a small set if `ties` is true.
   double value(bool ties) { return ties ? integer(0, 3) : real(); }
 
   Points points(Index n, Index d, bool ties) {

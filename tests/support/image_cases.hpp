@@ -12,19 +12,19 @@
 
 namespace ph::test {
 
-/// An image with what is wanted of it in parts.
+/// An image with the requested results in parts.
 struct ImageCase {
   Image image;
   ImagePartOptions options;
-  int layers;  ///< so many parts there may be
+  int layers;  ///< largest number of parts
 };
 
-/// The axes of an image that parts know: an axis of one voxel is one of the T-construction's, if it
+/// The axes of an image that parts use: an axis of one voxel counts in the T-construction, if it
 /// has ends.
 struct KeptAxes {
   int count = 0, layers = 0;
-  int copies = 0;       ///< axes of one voxel that close up: each has a copy of every bar
-  bool closes = false;  ///< whether one of those that are kept closes up
+  int copies = 0;       ///< periodic axes of one voxel: each adds a copy of every bar
+  bool closes = false;  ///< True if one of the kept axes is periodic
 };
 inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOptions& options) {
   KeptAxes kept;
@@ -135,7 +135,7 @@ inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   return std::move(parts[0]);
 }
 
-/// The first layers of so many parts, of any sizes.
+/// The first layers of this many parts, of any sizes.
 inline std::vector<Index> random_first_layers(Generator& random, int layers, int parts) {
   std::vector<Index> first{0};
   for (int left = parts - 1; left > 0; --left) {
@@ -145,7 +145,7 @@ inline std::vector<Index> random_first_layers(Generator& random, int layers, int
   return first;
 }
 
-/// Whether a volume has bars of dimension 1, or what needs them, among all that are wanted.
+/// True if the requested results of a volume include bars of dimension 1 or need them.
 inline bool is_refused(const ImageCase& c) {
   try {
     ImagePart(c.image, 0, 1, c.options);

@@ -16,7 +16,7 @@
 
 namespace ph::test {
 
-using Simplices = std::vector<std::vector<Index>>;  // the largest ones; faces are understood
+using Simplices = std::vector<std::vector<Index>>;  // the largest simplices; faces are implied
 
 // ---- triangulations
 
@@ -152,7 +152,7 @@ inline double chord(Index n, Index steps) {
 /// with the largest difference of coordinates as distance, taken the shortest way round.
 struct FlatSurface {
   Index columns, rows;
-  bool reversed = false;  ///< once round the columns turns the rows upside down: a Klein bottle
+  bool reversed = false;  ///< once around the columns flips the rows: a Klein bottle
 
   Index size() const { return columns * rows; }
   double operator()(Index a, Index b) const {
@@ -170,7 +170,7 @@ struct FlatSurface {
 
 // ---- barcodes in words
 
-/// How many bars of each dimension 0 … top contain `value`.
+/// The number of bars of each dimension 0 … top that contain `value`.
 inline std::vector<int> betti_at(const Barcode& barcode, double value, int top) {
   std::vector<int> betti(static_cast<std::size_t>(top) + 1, 0);
   for (const Bar& bar : barcode)
@@ -178,7 +178,7 @@ inline std::vector<int> betti_at(const Barcode& barcode, double value, int top) 
       ++betti[static_cast<std::size_t>(bar.dim)];
   return betti;
 }
-/// How many bars of each dimension 0 … top never end.
+/// The number of bars of each dimension 0 … top that never end.
 inline std::vector<int> betti_at_the_end(const Barcode& barcode, int top) {
   std::vector<int> betti(static_cast<std::size_t>(top) + 1, 0);
   for (const Bar& bar : barcode)

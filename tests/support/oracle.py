@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Barcodes by the definition: filtrations cell by cell, columns reduced from left to right.
 
-Knows nothing of files, and shares nothing with libph. A filtration is a dictionary: a cell, with
-its value, its dimension and its boundary, as pairs (cell, coefficient)."""
+Does not read files, and shares nothing with libph. A filtration is a dictionary: a cell, with its
+value, its dimension and its boundary, as pairs (cell, coefficient)."""
 import itertools
 import math
 
@@ -150,9 +150,9 @@ def solve(matrix, right):
 
 
 def smallest_ball(points, weights=None):
-    """The square of the radius of the smallest ball around some points: the largest one of the
-    circumscribed balls of few of them, each of which is the smallest that holds the rest. With weights
-    squares of distances are less by these."""
+    """The squared radius of the smallest ball around some points: the largest among the
+    circumscribed balls of a few of them, each of which is the smallest that contains the rest.
+    Weights are subtracted from squared distances."""
     best = INF
     weight = dict(enumerate(weights or [0.0] * len(points)))
     dim = len(points[0])
@@ -198,9 +198,9 @@ def circumscribed(points):
 
 
 def periodic_alpha_filtration(points, period):
-    """The alpha complex of points in general position of a torus, cell by cell: a cell is a set of
-    images, pairs (point, periods), on an empty sphere, up to translation. Where points are few it is no
-    simplicial complex: cells are ordered by their images, an order that translations leave alone."""
+    """The alpha complex of points in general position on a torus, cell by cell: a cell is a set of
+    images, pairs (point, periods), on an empty sphere, up to translation. With few points it is not
+    a simplicial complex; cells are ordered by their images, which translations do not change."""
     dim = len(period)
     points = [[x % length for x, length in zip(point, period)] for point in points]
     reach = math.sqrt(sum(length * length for length in period))  # no empty ball is wider
@@ -243,8 +243,8 @@ def periodic_alpha_filtration(points, period):
 
 
 def distance(metric):
-    """A metric by its name, as options have it. Coordinates that are small multiples of a power of
-    two make exact sums, and a root is rounded once."""
+    """A metric by its name in the options. Coordinates that are small multiples of a power of two
+    make exact sums, and a root is rounded once."""
     def euclidean(a, b):
         return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)))
 
@@ -262,8 +262,8 @@ def distance(metric):
 
 
 def weighted_edge(exponent):
-    """When the balls of two points meet that are born at f and g, at distance d (Anai et al. 2019, all
-    values doubled)."""
+    """The value at which the balls of two points born at f and g, at distance d, meet (Anai et al.
+    2019, all values doubled)."""
     def joined(d, f, g):
         late = max(f, g)
         if exponent == "inf" or d == INF:
@@ -277,8 +277,8 @@ def weighted_edge(exponent):
 
 
 def farthest_points(count, d, n):
-    """Point 0, then the farthest from all that were chosen, the first of those that are as far; none
-    that is equal to one of them."""
+    """Point 0, then always the point farthest from all chosen ones, the first among equals, without
+    duplicates of chosen points."""
     chosen = [0]
     while len(chosen) < count:
         far = max(range(n), key=lambda i: (min(d(i, j) for j in chosen), -i))

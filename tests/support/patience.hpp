@@ -5,8 +5,8 @@
 
 namespace ph::test {
 
-/// A time that a test allows. The environment variable PH_TEST_PATIENCE multiplies it, as in 10
-/// where an emulator runs the tests.
+/// A time limit of a test. The environment variable PH_TEST_PATIENCE multiplies it, for example by
+/// 10 if an emulator runs the tests.
 inline std::chrono::duration<double> patience(double seconds) {
   const char* times = std::getenv("PH_TEST_PATIENCE");
   return std::chrono::duration<double>(times ? seconds * std::atof(times) : seconds);

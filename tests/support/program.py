@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs a program in a folder of its own; shared by the tests that drive programs."""
+"""Runs a program in a separate folder; shared by the tests that drive programs."""
 import os
 import re
 import subprocess
@@ -16,7 +16,7 @@ SQUARE_CSV = ("dim,birth,death\n0,0,1\n0,0,1\n0,0,1.0307764064044151\n0,0,inf\n"
 
 
 def has_page(program):
-    """Whether the page of --report is built in; else the option ends with exit code 69."""
+    """True if the page of --report is built in; otherwise the option ends with exit code 69."""
     said = subprocess.run([program, "--version", "--verbose"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
     return re.search("reports +built in", said) is not None
@@ -63,7 +63,7 @@ class ProgramTest(unittest.TestCase):
         return run
 
     def require_page(self):
-        """Skips what comes next, in a subtest or in all of the test, if reports are not built in."""
+        """Skips the rest of a subtest or test if reports are not built in."""
         if not has_page(PROGRAM):
             self.skipTest("reports are not built in")
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Checks of what represents the bars of one random image.
+// Checks the representatives of the bars of one random image.
 #include <limits>
 
 #include "support/generators.hpp"

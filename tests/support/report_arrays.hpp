@@ -11,7 +11,7 @@
 
 namespace ph::test {
 
-/// The bytes of base64 (RFC 4648). @throws std::runtime_error on a character that is none of it.
+/// Decodes base64 (RFC 4648). @throws std::runtime_error on an invalid character.
 inline std::vector<std::uint8_t> base64_decoded(std::string_view text) {
   constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// What makes a chain the representative of a bar, checked from the definitions.
+// Checks from the definitions that a chain represents a bar.
 #include "support/conformance.hpp"
 
 namespace ph::test {
@@ -53,7 +53,7 @@ class OrderedCells {
     }
     return result;
   }
-  /// Whether the chain of dimension `dim` bounds a chain of the first `cofaces` cells of dim + 1.
+  /// True if the chain of dimension `dim` bounds a chain of the first `cofaces` cells of dim + 1.
   bool is_boundary(PositionChain chain, int dim, std::size_t cofaces) const {
     std::map<std::size_t, PositionChain> reduced;  // by youngest cell
     const auto reduce = [&](PositionChain& c) {
@@ -131,8 +131,8 @@ void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_
   }
 }
 
-/// All representatives of all engines that give them, zero-length bars included; the bars are those
-/// of the oracle.
+/// All representatives of all engines that compute them, including zero-length bars; the bars must
+/// be those of the oracle.
 template <Filtration F>
 void check_representatives(const F& f, int max_dim, std::int64_t field) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));

@@ -11,7 +11,7 @@ namespace ph::test {
 /// All edges; each of several equal points is a vertex.
 inline const RipsGraph& all_edges(const Rips& rips) { return rips.graph(RipsForm::edges); }
 
-/// The graph that a computation of these options goes by.
+/// The graph that a computation with these options uses.
 inline const RipsGraph& planned_graph(const Rips& rips, const Options& options) {
   return rips.graph(*plan(rips, options).form);
 }
@@ -22,7 +22,7 @@ decltype(auto) with_all_edges(const Rips& rips, int max_dim, Use&& use) {
   return with_rips_filtration(all_edges(rips), max_dim, std::forward<Use>(use));
 }
 
-/// The same question where each of several equal points is a vertex.
+/// The same task with each of several equal points as a vertex.
 inline Rips without_merging(const Rips& rips) {
   RipsOptions options = rips.options();
   options.merge_equal_points = false;

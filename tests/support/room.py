@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A table with boxes before a wall, as a depth camera sees it: an organised PCD, made up."""
+"""A synthetic table with boxes in front of a wall, as a depth camera sees it: an organised PCD."""
 import math
 import random
 import struct

@@ -20,10 +20,11 @@
 
 namespace ph::test {
 
-/// What may become of a message.
+/// The possible fates of a message.
 enum class Mishap { none, lost, doubled, swapped, changed };
 
-/// Ranks that are threads of this process. Messages wait in queues; a schedule says who is late.
+/// Ranks that are threads of this process. Messages wait in queues; a schedule decides which rank
+/// is late.
 class ThreadRanks {
  public:
   using Bytes = std::vector<std::byte>;
@@ -39,7 +40,8 @@ class ThreadRanks {
   }
   bool has_happened() const { return has_happened_; }
 
-  /// Runs all ranks to their end. @throws what the first one threw; the others are told to stop.
+  /// Runs all ranks to their end. @throws the error of the first failing rank; the others are told
+  /// to stop.
   void run(const std::function<void(Transport&)>& rank) {
     std::vector<std::thread> threads;
     std::exception_ptr failure;
@@ -79,7 +81,7 @@ class ThreadRanks {
     const int rank_;
   };
 
-  /// A rank is late, by its own random numbers: threads do not share them.
+  /// Delays a rank by its own random numbers, because threads do not share them.
   void nap(int rank) {
     if (naps_.empty()) return;
     std::uint_fast32_t& state = naps_[static_cast<std::size_t>(rank)];
@@ -109,7 +111,7 @@ class ThreadRanks {
   Bytes take(int from, int to) {
     std::unique_lock lock(mutex_);
     std::deque<Bytes>& queue = queues_[{from, to}];
-    constexpr std::chrono::milliseconds patience(100);  // of what is lost nothing comes
+    constexpr std::chrono::milliseconds patience(100);  // a lost message never arrives
     const bool came =
         arrived_.wait_for(lock, mishap_ == Mishap::none ? std::chrono::minutes(1) : patience,
                           [&] { return is_over_ || !queue.empty(); });

@@ -34,7 +34,7 @@ class VoxelNeighbours {
     for (std::size_t k = 0; k < extents_.size(); ++k) count += has_axis(k) ? 1 : 0;
     return count;
   }
-  /// Whether there is a circle of one voxel.
+  /// True if there is a circle of one voxel.
   bool has_loop() const {
     for (std::size_t k = 0; k < extents_.size(); ++k)
       if (extents_[k] == 1 && periodic_[k]) return true;
@@ -47,8 +47,10 @@ class VoxelNeighbours {
     return result;
   }
 
-  /// What can be reached from a node, it included, by steps to nodes that are `open`.
-  /// @param wide whether voxels that share a corner are neighbours, else by facets.
+  /// The nodes that can be reached from a node, including itself, by steps to nodes that are
+  /// `open`.
+  /// @param wide true if voxels that share a corner are neighbours; otherwise they must share a
+  ///     facet.
   template <class IsOpen>
   PlaceSet flood(Place from, bool wide, IsOpen&& open) const {
     PlaceSet met;
@@ -111,8 +113,8 @@ class VoxelNeighbours {
   int open_axes_ = 0;
 };
 
-/// What represents each bar of an image when sets are asked for: which bars have a set, and what is
-/// in it; the others have a cycle.
+/// The representatives of an image's bars when sets are requested: which bars have a set, and its
+/// voxels; the others have a cycle.
 inline void check_voxel_sets(const Image& image, const CubicalOptions& options, const Barcode& bars,
                              std::int64_t field) {
   const VoxelNeighbours grid(image.extents, options.periodic, options.construction);
@@ -144,7 +146,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
       }));
       continue;
     }
-    // Of what surrounds something only what is never filled may surround no voxel.
+    // Among classes that surround something, only those that are never filled may surround no
+    // voxel.
     const bool may_be_hollow = !grid.has_loop() && bar.dim == grid.axes() - 1;
     if (!may_be_hollow || (bar.is_infinite() && has_chain)) {
       EXPECT_TRUE(found.empty());
@@ -156,8 +159,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
     const auto is_open = [&](Place p) {
       return p >= grid.size() || !enters(p) || value(p) > bar.birth;
     };
-    // A hollow that is never filled has something in it that has always been there: voxels that
-    // never enter, or what lies beyond one end of an axis; not what lies beyond the other.
+    // A hollow that is never filled contains voxels that never enter, or the outside beyond one end
+    // of an axis, but not the outside beyond the other end.
     const Place beyond = grid.outside(is_vertices), other = grid.outside(!is_vertices);
     const Place inside = bar.is_infinite() ? *found.begin() : grid.place(bars.death_voxel(i));
     PlaceSet filled = grid.flood(inside, is_vertices, is_open);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""--complex alpha: bars against lengths that are known and against GUDHI, weights and hidden points,
-surfaces as files, what is refused; without CGAL that it says so."""
+"""--complex alpha: bars against known lengths and against GUDHI, weights and hidden points,
+surfaces as files, refusals; without CGAL, the message that says so."""
 import json
 import math
 import os
@@ -68,7 +68,7 @@ def read_off(content):
 
 
 def volume(at, triangles):
-    """That a closed surface encloses, if it is counterclockwise from outside."""
+    """The volume that a closed surface encloses, if it is counterclockwise from outside."""
     total = 0
     for a, b, c in triangles:
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = at[a], at[b], at[c]
@@ -112,7 +112,7 @@ class Alpha(ProgramTest):
         self.write("triangle.txt", f"0 0\n2 0\n1 {math.sqrt(3)!r}\n")
         found = self.bars("triangle.txt", "--complex", "alpha")[-1]
         self.assertAlmostEqual(found[2], 2 / math.sqrt(3), places=15)
-        # Each two of its balls meet at 1, up to the last place of its longest side.
+        # Any two of its balls meet at 1, up to the last digit of its longest side.
         self.assertFalse([bar for bar in self.bars("triangle.txt", "--complex", "delaunay-rips")
                           if bar[0] == 1 and bar[2] - bar[1] > 1e-15])
         # The threshold cuts; the highest dimension counts.
@@ -149,13 +149,13 @@ class Alpha(ProgramTest):
         done = self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt")
         # Balls of radius 1 and 2 touch; the third, between them, never comes out of the first.
         self.assertEqual(rows(done.stdout), [(0, -4, math.inf), (0, -1, 0)])
-        self.assertIn("1 point hidden by others", done.stderr)
+        self.assertIn("1 point hidden by points", done.stderr)
         self.assertIn("not in the complex: 2", done.stderr)
         self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt", "-o", "bars.json")
         document = json.loads(self.read("bars.json"))
         self.assertEqual((document["complex"], document["vertex_weights"], document["alpha"]),
                          ("alpha", "squared radii of balls, from a file", {"squared": True, "hidden": [2]}))
-        # What is known of it stays when the bars are written again.
+        # Its properties are kept when the bars are written again.
         self.expect(0, "bars.json", "-o", "again.json", "--quiet")
         self.assertEqual(json.loads(self.read("again.json"))["alpha"], document["alpha"])
 
@@ -224,7 +224,7 @@ class Alpha(ProgramTest):
         self.assertTrue(0 < volume(at, [t for t, m in zip(triangles, marks) if not m]) < 4.19)
         with open(self.path("none.ply"), "rb") as file:
             self.assertEqual(read_ply(file.read()), ([], [], [], []))
-        # A file that was written is a mesh, as any other.
+        # A written file is a mesh like any other.
         self.assertEqual(self.bars("hull.off", "--complex", "alpha", "--max-dim", "0")[-1][2], math.inf)
 
     def test_surfaces_of_a_batch(self):

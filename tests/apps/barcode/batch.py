@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Several inputs with an output folder: what becomes of each, and of the folder."""
+"""Several inputs with an output folder: the outcome for each, and for the folder."""
 import os
 import random
 import signal
@@ -90,7 +90,7 @@ class Batch(ProgramTest):
         self.write("pair.txt", "0 0\n3 4\n")
         both = ("square.txt", "pair.txt")
         self.batch(0, *both, "-o", "new/")
-        self.batch(0, *both, "-o", "new")  # it is there now
+        self.batch(0, *both, "-o", "new")  # it exists now
         self.assertEqual(self.outputs("new"), ["pair.csv", "square.csv"])
         for path in ("missing/deep/", "square.txt/", "/proc/no/"):
             if path.startswith("/proc") and not os.path.exists("/proc/self"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Many points in special position: right answers, in near-linear time."""
+"""Many points in special position give right answers in near-linear time."""
 import collections
 import json
 import os
@@ -25,7 +25,7 @@ class Degenerate(ProgramTest):
         return self.counts_again(*options)
 
     def counts_again(self, *options):
-        """@return the same, of the points that were written last."""
+        """@return the same for the points that were written last."""
         start = time.monotonic()
         run = self.expect(0, "points.txt", "--quiet", *options)
         self.assertLess(time.monotonic() - start, SECONDS)
@@ -58,7 +58,7 @@ class Degenerate(ProgramTest):
         line = [(0.5 * i, 0.25 * i, -0.5 * i) for i in range(n)]
         self.assertEqual(self.counts(line, "--max-dim", "0"),
                          {"0,0,0.75": n - 1, "0,0,inf": 1})
-        # Halves of halves: each pair of clusters is far apart beside its size.
+        # Halves of halves: the distance of each pair of clusters is large compared to their size.
         halves = [(sum(4.0 ** k for k in range(17) if i >> k & 1),) for i in range(2 ** 17)]
         bars = self.counts(halves, "--max-dim", "0")
         self.assertEqual(sum(bars.values()), 2 ** 17)
@@ -84,7 +84,7 @@ class Degenerate(ProgramTest):
                          {"0,0,0.75": 199999, "0,0,inf": 1})
 
     def test_grid(self):
-        side = 200  # each square is a class that its diagonals kill: none is left over
+        side = 200  # each square is a class that its diagonals kill: none remains
         points = [(float(i), float(j)) for i in range(side) for j in range(side)]
         self.assertEqual(self.counts(points, "--threshold", "1.5"),
                          {"0,0,1": side * side - 1, "0,0,inf": 1,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Descriptors, limits and streams that fail: what needs more around a run than the corpus of
-tests/faults gives it."""
+"""Failing descriptors, limits and streams: cases that need more setup than the corpus of
+tests/faults provides."""
 import json
 import os
 import random
@@ -15,7 +15,7 @@ import program  # noqa: E402
 from program import SQUARE, SQUARE_CSV, ProgramTest, main  # noqa: E402
 
 
-OTHER = 4321  # a user and a group that nobody is
+OTHER = 4321  # a user and a group that nobody has
 
 
 def limit(kind, amount):
@@ -55,7 +55,8 @@ class Outputs(ProgramTest):
         self.assertEqual((status.st_uid, status.st_gid), (OTHER, OTHER + 1))
 
     def refused_at_once(self, run):
-        """What no new file can replace: the old one stays, and nothing is computed in vain."""
+        """Outputs that no new file can replace: the old one stays, and nothing is computed in
+        vain."""
         self.assertEqual((run.returncode, self.read("out.csv")), (73, "old"), run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
         self.assertIn("out.csv: cannot create the output", run.stderr)

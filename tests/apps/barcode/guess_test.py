@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Holds H0 of what ph-barcode reads, and what it says of that, to the numbers before they became a
-file; shared by guesses.py and guesses_tables.py."""
+"""Compares H0 of the data that ph-barcode reads, and its notes about them, with the numbers before
+they became a file; shared by guesses.py and guesses_tables.py."""
 import math
 import os
 import sys
@@ -40,7 +40,7 @@ def flat(rows):
 
 class GuessTest(ProgramTest):
     def h0(self, *arguments, note="", silent=()):
-        """Deaths of H0; stderr must have the note, and none of what must not be said."""
+        """Deaths of H0; stderr must have the note, and none of the forbidden ones."""
         run = self.expect(0, *arguments, "--max-dim", "0")
         self.assertRegex(run.stderr, note or "^")
         for word in silent:

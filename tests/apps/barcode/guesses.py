@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What ph-barcode takes a matrix or an array for: never for something else in silence.
-The results are computed here again, from the numbers before they became a file."""
+"""How ph-barcode interprets a matrix or an array: it never misreads one silently. The results are
+recomputed here from the numbers before they became a file."""
 import math
 import os
 import random

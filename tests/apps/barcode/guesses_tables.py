@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What ph-barcode takes a table, values of vertices or a picture for: never for something else in
-silence. The results are computed here again, from the numbers before they became a file."""
+"""How ph-barcode interprets a table, values of vertices or a picture: it never misreads one
+silently. The results are recomputed here from the numbers before they became a file."""
 import os
 import random
 import struct
@@ -79,7 +79,7 @@ class Tables(GuessTest):
         self.write("empty.tsv", table.replace("\n", "\t\n").replace(f"\n3\t{self.points[3][0]!r}\t",
                                                                    "\n3\t\t"))
         self.refused(65, ["empty.tsv:5:3: empty cell", "--nan drop"], "empty.tsv")
-        # All rows lack the same column: none may take its place.
+        # All rows lack the same column: no other may take its place.
         self.write("column.tsv", "x\ty\tz\n" + "".join(f"{x!r}\t\t{y!r}\n" for x, y in self.points))
         self.refused(65, ["column.tsv:2:", "empty cell"], "column.tsv")
         self.check(self.pairs, "column.tsv", "--columns", "x,z")

@@ -35,7 +35,7 @@ class Loops(ProgramTest):
         (loop,) = bar["loops"]
         self.assertAlmostEqual(loop.pop("length"), 1 + 1 + math.dist((1, 1), (0, 1.25)) + 1.25)
         self.assertEqual(loop, {"vertices": [0, 1, 2, 3], "coefficient": 1, "tight": "shortest"})
-        # The chain stays what it was.
+        # The chain does not change.
         self.assertEqual(sorted(tuple(e["vertices"]) for e in bar["representative"]),
                          [(0, 1), (0, 3), (1, 2), (2, 3)])
 
@@ -77,7 +77,7 @@ class Loops(ProgramTest):
             run = self.expect(64, "ring.phat", "--format", "phat", *asked, choice)
             self.assertIn("vertices to walk along", run.stderr)
         self.expect(0, "ring.phat", "--format", "phat", *asked, "none")
-        # Nothing is said where nobody asked.
+        # There is no message if nobody asked for loops.
         self.expect(0, "square.txt", "--representatives", "cycles", "-o", "x.json")
 
     def test_numbers_are_those_of_the_input(self):
@@ -109,7 +109,7 @@ class Loops(ProgramTest):
             self.assertLess(max(bar["loops"][0]["vertices"]), 80)
 
     def test_noise_does_not_lengthen_the_loop(self):
-        """A thick ring, whose chain has detours: the loop is that of a search by hand."""
+        """A thick ring, whose chain has detours: the loop equals the result of a search by hand."""
         source = random.Random(3)
         points = [(r * math.cos(a), r * math.sin(a)) for r, a in
                   ((source.uniform(1, 1.6), source.uniform(0, 2 * math.pi)) for _ in range(150))]
@@ -162,7 +162,8 @@ class Loops(ProgramTest):
         self.assertEqual(bar["loops"], [{
             "grid": [[0, 0], [0, 2], [0, 4], [2, 4], [4, 4], [4, 2], [4, 0], [2, 0]],
             "coefficient": 1, "tight": "no"}])
-        # In the T-construction corners are the vertices: around the voxel in the middle.
+        # In the T-construction, corners are the vertices: the loop surrounds the voxel in the
+        # middle.
         (bar,) = self.loops("hole.npy", "--construction", "cells")
         for vertex in bar["loops"][0]["grid"]:
             self.assertTrue(all(x % 2 == 0 and 0 <= x <= 6 for x in vertex))
@@ -170,7 +171,7 @@ class Loops(ProgramTest):
         self.write("band.npy", files.array((2, 5), [1.0] * 5 + [3.0] * 5))
         bar = self.loops("band.npy", "--periodic", "1")[0]
         self.assertEqual(bar["loops"][0]["grid"], [[0, 0], [0, 2], [0, 4], [0, 6], [0, 8]])
-        # Sets of voxels have no loops, the cycles beside them have.
+        # Sets of voxels have no loops; the cycles beside them have loops.
         volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         bars = self.result(self.write("pipe.npy", volume), "--representatives", "voxels",

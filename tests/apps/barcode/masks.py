@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Absent voxels never enter: random images with a mask in each format that can have one.
+"""Absent voxels never enter: tests random images with a mask in each format that can have one.
 
-Files are written here and barcodes are computed by oracle.py, which never sees a file.
-More than the suite runs: masks.py PROGRAM --images 20000
+The script writes files, and oracle.py, which never sees a file, computes barcodes. For more images
+than in the suite: masks.py PROGRAM --images 20000
 """
 import gzip
 import itertools
@@ -44,7 +44,7 @@ def npz(shape, voxels):
 
 
 def nifti(descr, slope=0.0):
-    """With a slope the stored numbers are halves, which the reader doubles."""
+    """With a slope, the stored numbers are halved, and the reader doubles them."""
     def write(shape, voxels):
         numbers = numbers_of(voxels, first_axis_fastest(shape), slope or 1.0)
         return files.nifti(descr, shape, numbers, slope)
@@ -96,7 +96,7 @@ class Masks(ProgramTest):
         return [choose.randint(1, (0, 9, 4, 3)[axes]) for _ in range(axes)]
 
     def voxels(self, choose, shape, values):
-        """Some absent; where infinite values are legal, some are infinite."""
+        """Some voxels are absent; where infinite values are legal, some are infinite."""
         share = choose.choice((0.1, 0.3, 0.6))
         finite = [1.0, 2.0, 3.0, 5.0] if values in ("positive", "listed") else [-1.5, 0.0, 0.25, 1.0, 2.0]
         voxels = {}
@@ -131,7 +131,7 @@ class Masks(ProgramTest):
         for i in range(BATCH):
             shape = self.shape(choose, axes)
             if extension.startswith(".nii"):
-                shape[-1] += 1  # a last axis of one voxel is none there
+                shape[-1] += 1  # a last axis of one voxel does not count there
             voxels = self.voxels(choose, shape, values)
             self.write(f"{folder}/{i:02}{extension}", write(shape, voxels))
             expected[f"{i:02}"] = oracle.barcode(oracle.cubical_filtration(shape, voxels, **how))

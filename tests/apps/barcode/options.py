@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the options of ph-barcode do, against results made by hand."""
+"""The effects of ph-barcode's options, against results made by hand."""
 import json
 import math
 import os
@@ -57,7 +57,7 @@ class Options(ProgramTest):
         bars = json.loads(self.read("out.json"))["bars"]
         self.assertEqual([bar["p"] for bar in bars if bar["dim"] == 1], [p for _, _, p in loops])
         self.assertFalse([bar for bar in bars if bar["dim"] == 0 and "p" in bar])
-        # A bar that the threshold cuts has none. What was written is read again, without p.
+        # A bar that the threshold cuts has no p-value. Written bars can be read again, without p.
         self.expect(0, "circle.csv", "--significance", "--threshold", "0.8", "-o", "cut.csv")
         self.assertIn("inf,\n", self.read("cut.csv"))
         again = self.expect(0, "cut.csv")
@@ -338,7 +338,7 @@ class Options(ProgramTest):
                           self.expect(0, *options, "--dry-run").stdout)
         self.assertEqual(runs["on"].stdout, runs["off"].stdout)
         self.assertEqual(runs["auto"].stdout, runs["off"].stdout)
-        # H1 needs none, an image has no edges to collapse.
+        # H1 needs no collapse, and an image has no edges to collapse.
         self.assertIn("collapse off (", self.expect(0, "cloud.txt", "--verbose").stderr)
         self.write("image.npy", files.array((1, 3), [0, 2, 1]))
         self.assertNotIn("collapse", self.expect(0, "image.npy", "--verbose").stderr)
@@ -363,14 +363,14 @@ class Options(ProgramTest):
             self.assertIn(options[0], run.stderr, options)
         for options in (("--output-format", "json"), ("--field", "3"), ("--min-dim", "1")):
             self.assertRegex(self.expect(0, *dry, *options).stderr,
-                             f"nothing is done for {options[0]}.* but to estimate memory")
+                             f"nothing is done for {options[0]}.* except to estimate memory")
         for options in ((), ("--min-persistence=-1",)):
             self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
         self.write("row.npy", files.array((3,), [0, 2, 1]))
         self.assertNotIn("does nothing",
                          self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
         self.write("four.npy", files.array((2, 2, 2, 2), range(16)))
-        self.assertIn("--slab-layers does nothing: of four axes or more bars of dimensions between",
+        self.assertIn("--slab-layers does nothing: with four axes or more, bars of dimensions between",
                       self.expect(0, "four.npy", "--slab-layers", "1", "--dry-run").stderr)
         self.assertNotIn("does nothing", self.expect(0, "four.npy", "--slab-layers", "1",
                                                      "--max-dim", "0", "--dry-run").stderr)
@@ -399,7 +399,7 @@ class Options(ProgramTest):
             json.loads(line)
 
     def test_progress_is_heard_every_second(self):
-        """Also where nothing can be reported: here the program waits for its input."""
+        """Also if there is nothing to report: here the program waits for its input."""
         with subprocess.Popen([program.PROGRAM, "-", "--progress", "json", "--quiet"],
                               stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE) as run:
@@ -434,14 +434,14 @@ class Options(ProgramTest):
         self.assertRegex(stderr, rb"^(\r\x1b\[Kread 0)+\r\x1b\[K$")
 
     def test_no_bar_while_results_are_written(self):
-        """The reader of the results is in no hurry."""
+        """The reader of the results is slow."""
         random.seed(7)
         self.write("picture.pgm", b"P5 1200 1200 255\n" + random.randbytes(1200 * 1200))
         with subprocess.Popen([program.PROGRAM, "picture.pgm", "--engine", "twist", "--progress",
                                "bar", "--quiet"], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
             os.set_blocking(run.stderr.fileno(), False)
-            select.select([run.stdout], [], [], 60)  # the first page is there
+            select.select([run.stdout], [], [], 60)  # the first page has arrived
             before = run.stderr.read()
             self.assertRegex(before, rb"\] +\d+ %")
             self.assertTrue(before.endswith(b"\r\x1b[K"), before[-100:])

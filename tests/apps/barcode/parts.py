@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts that processes compute apart, and what --join makes of them, against one process."""
+"""Parts that separate processes compute, and the result of --join, against one process."""
 import csv
 import io
 import json
@@ -272,7 +272,7 @@ class Clouds(ProgramTest):
         self.assertIn("another part", self.expect(0, *again, "--threshold", "3").stderr)
         self.expect(0, *again[:-1], "--quiet")
         kept = self.read(cloud)
-        self.write(cloud, self.read(other))  # as many points, and older than the part
+        self.write(cloud, self.read(other))  # the same number of points, and older than the part
         os.utime(self.path(cloud), (old, old))
         self.assertIn("another part", self.expect(0, *again).stderr)
         self.write(cloud, kept)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots as PNG, and that they show what the SVG shows: plots.py PH-BARCODE"""
+"""Tests plots as PNG, which must show the same as the SVG: plots.py PH-BARCODE"""
 import os
 import random
 import shutil
@@ -70,7 +70,7 @@ def unfiltered(kind, line, above, step):
 
 
 def places(rows, colour):
-    """@return where a colour is, or nearly is."""
+    """@return where a pixel has a colour, exactly or nearly."""
     alike = {found for found in set().union(*rows)
              if max(abs(a - b) for a, b in zip(found, colour)) < 60}
     return {(x, y) for y, row in enumerate(rows) if not alike.isdisjoint(row)
@@ -123,7 +123,8 @@ class Png(ProgramTest):
 
     @unittest.skipUnless(shutil.which("rsvg-convert"), "rsvg-convert is not installed")
     def test_it_is_the_svg(self):
-        """Bars, points and curves are where another program puts those of the SVG."""
+        """Bars, points and curves are at the places where another program draws those of the
+        SVG."""
         number = random.Random(1).random
         self.write("points.txt", "".join(f"{number()} {number()}\n" for _ in range(150)))
         for kind in KINDS:

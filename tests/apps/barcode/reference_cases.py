@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""All reference cases through a built ph-barcode: reference_cases.py PROGRAM.
+"""Runs all reference cases through a built ph-barcode: reference_cases.py PROGRAM.
 
 The environment variable PH_TEST_DATA names the folder that has them."""
 import os

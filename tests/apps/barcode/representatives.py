@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""--representatives: all against the definitions of cycle and cocycle; those that the definitions
-leave no choice but of a factor and of the order of the cells also against files.
+"""--representatives: checks all against the definitions of cycle and cocycle. Representatives that
+the definitions determine up to a factor and the order of cells are also compared with files.
 
 representatives.py PROGRAM --update writes the files anew.
 """
@@ -121,7 +121,7 @@ class Representatives(ProgramTest):
         self.assertEqual(found[0, 3, 9]["birth_voxel"], [1, 5])
         self.assertEqual(found[1, 1, 7]["voxels"], [[14, 1]])
         self.assertEqual(found[1, 1, 7]["death_voxel"], [2, 2])
-        # A bar that has no set has a cycle: H1 of a volume.
+        # A bar without a set has a cycle: H1 of a volume.
         volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         for construction in ("vertices", "cells"):
@@ -133,7 +133,7 @@ class Representatives(ProgramTest):
             self.assertEqual({bar["dim"] for bar in bars}, {0, 1, 2})
 
     def test_voxels_of_points_with_holes(self):
-        """Cells of a grid have no numbers of points, though rows of the table are left out."""
+        """Cells of a grid have no point numbers, even if rows of the table are left out."""
         ring = ["0,0", "nan,1", "2,0", "4,0", "4,2", "4,4", ",7", "2,4", "0,4", "0,2", "9,9"]
         whole = [line for line in ring if line not in ("nan,1", ",7")]
         self.write("holes.csv", "\n".join(ring) + "\n")

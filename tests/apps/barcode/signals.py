@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Signals during a long run: it ends at once, with the shell's code, and leaves nothing behind."""
+"""Signals during a long run: the run ends at once, with the shell's code, and leaves nothing
+behind."""
 import math
 import os
 import random
@@ -12,8 +13,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
-# 0.2 s are promised; a busy machine of a test may take a little longer to notice, and longer still
-# when it is busy with something else: what was too slow is tried again.
+# 0.2 s are promised. A busy test machine may take a little longer to notice, and even longer if it
+# is busy with something else: runs that were too slow are repeated.
 PATIENCE = 0.2 + 0.3
 TRIES = 3
 
@@ -103,8 +104,9 @@ class Signals(ProgramTest):
 
 
 class RandomMoments(ProgramTest):
-    """A short run with a large result, met anywhere: reading, computing, writing, renaming."""
-    INTERRUPTS = 60  # each heeded while the run reads and computes, as one in three is
+    """A short run with a large result, interrupted anywhere: reading, computing, writing,
+    renaming."""
+    INTERRUPTS = 60  # signals arrive while the run reads and computes, as one in three does
     KILLS = 120
     ARGUMENTS = ("picture.pgm", "--quiet", "-o", "out.json")
 
@@ -113,7 +115,7 @@ class RandomMoments(ProgramTest):
         random.seed(4)
         self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
         times = []
-        for _ in range(5):  # the first takes longer: a signal would mostly come too late
+        for _ in range(5):  # the first run takes longer; a signal would mostly come too late
             start = time.monotonic()
             self.expect(0, *self.ARGUMENTS)
             times.append(time.monotonic() - start)
@@ -121,7 +123,7 @@ class RandomMoments(ProgramTest):
         self.complete = self.result()
 
     def result(self):
-        """What the file holds but for the timings."""
+        """The content of the file without timings."""
         return self.read("out.json").partition('"timings"')[0]
 
     def meet(self, number, delay=None):
@@ -141,7 +143,8 @@ class RandomMoments(ProgramTest):
         return code, seconds
 
     def meet_in_time(self, number):
-        """The same; what was too slow is tried again at that moment, as a disk may be busy."""
+        """The same, but runs that were too slow are repeated at that moment, because a disk may be
+        busy."""
         delay = random.uniform(0, 1.1 * self.seconds)
         for _ in range(TRIES):
             code, seconds = self.meet(number, delay)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode with barcodes that were computed earlier: drawn, converted, compared; and pictures of
-several inputs."""
+"""ph-barcode with stored barcodes: drawing, converting, comparing; and pictures of several
+inputs."""
 import json
 import math
 import os
@@ -18,7 +18,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 class Stored(ProgramTest):
     def texts(self, name):
-        """What stands in a picture."""
+        """The texts of a picture."""
         root = xml.etree.ElementTree.parse(self.path(name)).getroot()
         return [text.text for text in root.iter(SVG + "text")]
 
@@ -51,11 +51,11 @@ class Stored(ProgramTest):
             self.assertEqual(run.stdout, SQUARE_CSV)
             self.assertIn("a barcode, 5 bars", run.stderr)
         self.assertIn("a barcode, 5 bars", self.expect(0, "bars.ripser").stderr)
-        # Rows of numbers are points or an image as ever.
+        # Rows of numbers are still points or an image.
         self.write("rows.csv", "0,0,1\n1,0.5,2\n")
         self.assertIn("points in R^3", self.expect(0, "rows.csv").stderr)
         self.assertNotIn("a barcode", self.run_program("bars.npy").stderr)
-        # With a format of its own a file is what the user says.
+        # With an explicit format, a file is what the user says.
         self.assertNotIn("a barcode", self.run_program("bars.csv", "--format", "points").stderr)
 
     def test_converted(self):
@@ -87,7 +87,7 @@ class Stored(ProgramTest):
         for bar in kept["bars"]:
             bar.pop("loops", None)
         self.assertEqual(kept, members("b.json"))
-        # Other formats do not say what the bars are of.
+        # Other formats do not state the origin of the bars.
         self.expect(0, "b.csv", "-o", "c.json")
         self.assertEqual(members("c.json")["input"],
                          {"path": "b.csv", "description": "a barcode, 5 bars"})
@@ -148,7 +148,7 @@ class Stored(ProgramTest):
         self.assertIn("FOLDER/", self.expect(64, *both, "--plot", "x.svg").stderr)
         self.expect(0, *both, "-o", "named/*.pers")
         self.assertEqual(sorted(os.listdir(self.path("named"))), ["pair.pers", "square.pers"])
-        # Also one input has the name that a * stands for.
+        # A single input also has the name that a * stands for.
         self.expect(0, "pair.txt", "-o", "one/*.json", "--plot", "*-one.svg")
         self.assertEqual(os.listdir(self.path("one")), ["pair.json"])
         self.assertIn("pair-one.svg", self.files())
@@ -200,7 +200,7 @@ class Stored(ProgramTest):
         self.expect(0, "p.txt", "--threshold", "9", "-o", "same.json", "--quiet")
         self.expect(0, "p.txt", "--max-dim", "2", "--field", "3", "-o", "b.json", "--quiet")
         self.write("c.csv", "dim,birth,death\n0,0,1\n")
-        self.assertIn("b.json was not computed as a.json was: field 3, not 2; max_dim 2, not 1",
+        self.assertIn("b.json was not computed in the same way as a.json: field 3, not 2; max_dim 2, not 1",
                       self.expect(0, "--compare", "a.json", "b.json").stderr)
         for other in ("same.json", "c.csv"):
             self.assertNotIn("was not computed", self.expect(0, "--compare", "a.json", other).stderr)
@@ -209,13 +209,13 @@ class Stored(ProgramTest):
                                (["--complex", "cubical", "--voxel", "1"],
                                 "complex cubical, not rips; max_dim 2, not 1")):
             self.expect(0, "p.txt", *options, "-o", "o.json", "--quiet")
-            self.assertIn(f"o.json was not computed as a.json was: {words}\n",
+            self.assertIn(f"o.json was not computed in the same way as a.json: {words}\n",
                           self.expect(0, "--compare", "a.json", "o.json").stderr)
         self.write("m.npy", files.array((2, 3), [5, 1, 4, 1, 3, 2]))
         self.expect(0, "m.npy", "-o", "v.json", "--quiet")
         self.expect(0, "m.npy", "--construction", "cells", "--periodic", "0,1", "-o", "t.json",
                     "--quiet")
-        self.assertIn("t.json was not computed as v.json was: construction cells, not vertices; "
+        self.assertIn("t.json was not computed in the same way as v.json: construction cells, not vertices; "
                       "periodic axes 0, 1, not none\n",
                       self.expect(0, "--compare", "v.json", "t.json").stderr)
 

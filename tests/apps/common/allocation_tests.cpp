@@ -24,8 +24,7 @@
 
 namespace {
 
-// Allocations are counted while `armed`; the one with number `fail_at`, and all from `fail_from`
-// on, fail.
+// Allocations are counted while `armed`; number `fail_at` and all from `fail_from` on fail.
 std::atomic<bool> armed = false;
 std::atomic<long> calls = 0, live = 0;
 long fail_at = 0, fail_from = 0;
@@ -62,7 +61,8 @@ void* allocate_or_null(std::size_t size) noexcept {
 
 }  // namespace
 
-// All forms: a sanitizer brings those that are not here, and they do not call these.
+// All forms, because a sanitizer supplies any that is missing here, and its forms do not call
+// these.
 using Align = std::align_val_t;
 using NoThrow = std::nothrow_t;
 void* operator new(std::size_t size) { return allocate(size, 1); }
@@ -87,7 +87,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with small inputs; what the last run wrote into its folder "out".
+/// A folder with small inputs; its folder "out" has the files of the last run.
 class Allocation : public testing::Test {
  protected:
   using Files = std::map<std::string, std::string>;
@@ -112,7 +112,7 @@ class Allocation : public testing::Test {
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(in(name), std::ios::binary) << text;
   }
-  /// Takes what a run left behind.
+  /// Removes the files that a run left behind.
   Files outputs() const {
     Files files;
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
@@ -124,7 +124,7 @@ class Allocation : public testing::Test {
     return files;
   }
 
-  /// Runs with the allocations that fail as set. @return whether it came to its end.
+  /// Runs with the chosen allocations failing. @return true if the run finished.
   static bool survives(const std::function<void()>& run, long at, long from) {
     fail_at = at;
     fail_from = from;
@@ -148,16 +148,16 @@ class Allocation : public testing::Test {
     return done;
   }
 
-  /// Lets each allocation of a run fail, and each with all that follow.
+  /// Makes each allocation of a run fail, alone and with all later ones.
   void check(const std::function<void()>& run) {
-    run();  // whatever is made once in a process
+    run();  // objects that are created once per process
     outputs();
     ASSERT_TRUE(survives(run, 0, 0));
     const long total = calls;
     const Files want = outputs();
     ASSERT_GT(total, 10) << "the library allocates elsewhere";
     RecordProperty("allocations", static_cast<int>(total));
-    // Every one, as long as that is quick; else a step that shares no factor with loops of the
+    // Every allocation, if that is quick; otherwise a step that shares no factor with loops of the
     // code.
     const long step = total <= 4000 ? 1 : total / 2000 | 1;
     for (const bool once : {true, false}) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: what the programs write is what docs/reference/schemas
-says, and each member that they write is described there. Needs python3-jsonschema; without it the test is skipped."""
+"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: the JSON of the programs conforms
+to docs/reference/schemas, and each member that they write is described there. Needs
+python3-jsonschema; without it, the test is skipped."""
 import copy
 import json
 import subprocess
@@ -31,7 +32,7 @@ def closed(schema):
             if "properties" in part:
                 part.setdefault("additionalProperties", False)
             for key, inner in part.items():
-                if key not in ("if", "then", "else", "allOf"):  # which members need which others
+                if key not in ("if", "then", "else", "allOf"):  # dependencies between members
                     close(inner)
         elif isinstance(part, list):
             for inner in part:
@@ -112,7 +113,7 @@ def test_others(t):
     compared = t.run(t.barcode, "--compare", "a.json", "b.json", "--output-format", "json", "--quiet")
     t.check("ph-barcode-distances", compared.stdout, "--compare")
     noise = bytes((i * i * 2654435761 >> 7) & 255 for i in range(500 * 500))
-    (t.folder / "noise.raw").write_bytes(noise)  # slow enough that there is progress to tell
+    (t.folder / "noise.raw").write_bytes(noise)  # slow enough to report progress
     lines = t.run(t.barcode, "noise.raw", "--raw-shape", "500,500", "--engine", "standard", "--progress", "json",
                   "--quiet", "--output-format", "none").stderr.splitlines()
     if not lines:
@@ -173,7 +174,7 @@ def test_distances(t):
 
 
 def test_that_faults_are_seen(t):
-    """A schema that takes everything would be no test."""
+    """A schema that accepts everything would not test anything."""
     printed = t.run(t.barcode, "square.csv", "--representatives", "cycles", "--output-format", "json", "--quiet").stdout
     t.run(t.vectorise, DATA / "bars", "--kind", "image", "--fit", "fit.json", "-o", "x.npy", "--quiet")
     sliced = t.run(t.distance, DATA / "bars", "--distance", "sliced", "--output-format", "json", "--quiet").stdout

@@ -3,17 +3,17 @@
 input. It runs the program with and without the option; the option
 
 * changes the result (exit code, standard output, files), or
-* is obeyed in what is not the result: a message, a field of the JSON, how it is computed, or
+* affects something other than the result: a message, a field of the JSON, how it is computed, or
 * is refused (64) by name, or
-* is said on standard error to do nothing.
+* is reported on standard error to do nothing.
 
-Anything else is an option that was ignored without a word: SILENT, and the test fails. So is one
-whose input is then bad data without a word of what the option changed, and one that the program
-fails to obey. Of an option with choices (the help lists them as a|b|c) each choice is tried: it is
-refused by name, or its result is that of no other choice.
+Any other option was silently ignored (SILENT), and the test fails. The test also fails if the
+option turns the input into bad data without a message about the option, or if the program does not
+obey it. For an option with choices (the help lists them as a|b|c), each choice is tried: it is
+refused by name, or its result differs from that of every other choice.
 
-The options are those that --help all lists: one that has no row here fails, too. The table is written
-to TABLE.csv. OPTION...: only these."""
+The options are those that --help all lists; an option without a row here fails as well. The table
+is written to TABLE.csv. OPTION... restricts the test to these options."""
 import collections
 import concurrent.futures
 import csv
@@ -35,13 +35,13 @@ from program import has_page  # noqa: E402
 CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said", "SILENT"
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
 DOES_NOTHING = "does nothing|do nothing|nothing is done|not needed|is not used"
-TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU a frame"
-MEMORY = rb"(?m)^memory .*$"  # what a dry run says depends on the heap of the process
+TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU per frame"
+MEMORY = rb"(?m)^memory .*$"  # the output of a dry run depends on the heap of the process
 RUNS_AT_ONCE = 2
 
 
 class Row:
-    """How an option is tried.
+    """How to test an option.
 
     arguments: those that are the option; `@input` is the first file of the input.
     variant: of the input, where it has one: what makes the difference ("nan").
@@ -86,8 +86,8 @@ def options_of(program):
 
 
 def result_of(content):
-    """JSON, of a stream one a line, without what differs from run to run."""
-    if not content.startswith(b"{"):  # lines of numbers are JSON, too, and nothing in them differs
+    """JSON (for a stream, one per line) without the parts that differ from run to run."""
+    if not content.startswith(b"{"):  # lines of numbers are also JSON, and nothing in them differs
         return re.sub(MEMORY, b"", content) if b"memory " in content else content
     try:
         values = [json.loads(content)]
@@ -130,7 +130,7 @@ class Run:
 
 
 class Runs:
-    """Each is made once."""
+    """Each input is made once."""
 
     def __init__(self):
         self.known, self.lock = {}, threading.Lock()
@@ -201,7 +201,7 @@ class Pair:
             other = self.run(row.default)
             return ((OBEYED, "") if other.code == 0 and other.result() != given.result()
                     else (SILENT, f"nor does {row.default}: {tried}"))
-        # What is said of an output is said of how it looks, too.
+        # A remark about an output also covers its look.
         outputs = {"-o": "--output", "--plot": "--plot", "--representatives": "--representatives"}
         said_of = [option, *(outputs[word] for word in row.beside if word in outputs)]
         if any(given.names(word, line) and re.search(DOES_NOTHING, line)
@@ -210,7 +210,7 @@ class Pair:
         return SILENT, tried
 
     def fault_of_choices(self, plain):
-        """Each choice is the default, or does what an option does, and no two are the same."""
+        """Each choice is the default or has an effect, and no two are the same."""
         results = {}
         for choice in self.choices:
             arguments = [self.option, choice]
@@ -228,7 +228,7 @@ class Pair:
 
 
 def without(arguments, option):
-    """The arguments less an option and its value."""
+    """The arguments without an option and its value."""
     kept, skip = [], False
     for argument in arguments:
         if argument == option:

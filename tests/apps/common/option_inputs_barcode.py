@@ -20,7 +20,7 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
-# What an option may make of data that it does not fit, in the words of the message.
+# The messages that an option may cause for unsuitable data.
 POINTS, IMAGE = "not a set of points|found points", "an image has rows"
 H0 = ["--complex", "rips", "--max-dim", "0"]
 LOOPS = ["--representatives", "cycles", "--output-format", "json"]
@@ -180,7 +180,7 @@ def inputs(Input, program):
             given["--threshold"] = row("--threshold", str(threshold))
         if threshold is not None and name not in LISTED:  # an image
             given["--complex"] = row("--complex", "rips", unfit=POINTS, lost="read as an image")
-        if {"--format", "--raw-shape"} & set(arguments):  # what is read is not said then
+        if {"--format", "--raw-shape"} & set(arguments):  # it is not reported then
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])
         if name in RIPS:
@@ -260,7 +260,7 @@ def inputs(Input, program):
     add("NPY whole numbers", ["i.npy"], {"i.npy": files.array((5, 6), grey, "|u1")}, 4)
     add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 3), volume)}, 4,
         nan=files.array((3, 3, 3), [math.nan, *volume[1:]]))
-    # Of one axis both constructions have the same bars, and none but periodic ones a loop.
+    # With one axis, both constructions have the same bars, and only periodic ones have a loop.
     add("NPY series", ["s.npy"], {"s.npy": files.array((30,), floats)}, 4, nan=files.array((30,), one_nan),
         rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
@@ -279,7 +279,7 @@ def inputs(Input, program):
         rows={"--construction": (("--construction", "cells"), {})})
     add("DIPHA image", ["i.dipha"], {"i.dipha": files.dipha_image((6, 5), floats)}, 4,
         nan=files.dipha_image((6, 5), one_nan))
-    # A triangle that is filled late, and a hollow one beside it.
+    # A triangle that is filled late, beside a hollow one.
     simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
                  b"3 4 : 2.5\n2 4 : 2.75\n")
     add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[3, 1, 4, 2, 5],

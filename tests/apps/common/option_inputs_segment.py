@@ -18,7 +18,7 @@ OF_FRAMES = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
 
 
 def rows(Row, name="x"):
-    """@param name what the names of files have of their input, * in a stream."""
+    """@param name the part of the files' names that comes from the input, * in a stream."""
     results = OF_FRAMES if name == "*" else RESULTS
     plot = [*results, "--plot", f"x-{name}.svg"]
 
@@ -86,9 +86,8 @@ def depth_png(image):
 
 
 def depths(second, first=24):
-    """Millimetres: a table at 1 m, a box 10 cm high, `first`
-    pixels wide, whose top has waves, a flat thing, another box `second` pixels wide, and a rod
-    above it that hides its middle."""
+    """Millimetres: a table at 1 m, a box 10 cm high, `first` pixels wide, whose top has waves, a
+    flat object, another box `second` pixels wide, and a rod above it that hides its middle."""
     random.seed(7)
     image = []
     for y in range(HEIGHT):

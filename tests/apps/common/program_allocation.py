@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Memory that runs out at any moment: the programs exit with 75, or do without; no file is half
-written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
+"""Memory runs out at any moment: the programs exit with 75 or manage without it, and no file is
+half written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
 
-There are some 17000 calls, a run each and twice: without --all one in EVERY fails, in each case and
-for each way to fail others."""
+There are some 17000 calls, each tested by two runs. Without --all, only one in EVERY fails,
+different ones in each case and for each way to fail."""
 import gzip
 import os
 import subprocess
@@ -61,9 +61,9 @@ REPORTS = [
 ]
 
 
-SAMPLED = 97  # one in so many of the calls that an earlier case has let fail already
+SAMPLED = 97  # one in so many of the calls that already failed in an earlier case
 total = [0]  # runs
-first = [0]  # of the calls that fail
+first = [0]  # of the failing calls
 
 
 class Folder:
@@ -82,7 +82,7 @@ class Folder:
             file.write(content)
 
     def outputs(self):
-        """Removes what the last run left. @return it by name."""
+        """Removes the files of the last run. @return their content by name."""
         left = {}
         for name in set(os.listdir(self.path)) - set(self.inputs):
             with open(os.path.join(self.path, name), "rb") as file:
@@ -99,7 +99,7 @@ class Folder:
 
 
 def calls_of(folder, *case):
-    """@return the sizes that a run which succeeds allocates, in order, and what it writes."""
+    """@return the sizes that a successful run allocates, in order, and the files that it writes."""
     run = folder.run(*case, PH_CALLS_FILE=os.path.join(folder.path, "calls"))
     made = folder.outputs()
     assert run.returncode == 0, run.stderr
@@ -109,7 +109,7 @@ def calls_of(folder, *case):
 
 
 def shared(sizes, others):
-    """@return how many calls ask for the same sizes, one after the other, from the start."""
+    """@return how many calls from the start request the same sizes."""
     for i, (a, b) in enumerate(zip(sizes, others)):
         if a != b:
             return i
@@ -117,15 +117,15 @@ def shared(sizes, others):
 
 
 def is_complete(name, content, want):
-    """A report has times in it, and does without a merge tree: it has a beginning and an end."""
+    """A report contains times and may lack a merge tree: check only its beginning and end."""
     if name.endswith(".html"):
         return content[:1000] == want[:1000] and content[-1000:] == want[-1000:]
     return content == want
 
 
 def check(folder, case, known, wrong):
-    """Lets each call fail; of those that begin a run just as the run `known` began, a few.
-    @return the sizes of its calls."""
+    """Makes each call fail; among the calls that the run shares with the start of the run `known`,
+    only a few. @return the sizes of its calls."""
     program, arguments, outputs = case
     sizes, want = calls_of(folder, *case)
     assert set(want) == set(outputs.values()) - {"/dev/null"}, want.keys()
@@ -171,8 +171,8 @@ def main():
         made = folder.outputs()
         folder.add("out.pcd.in", made["out.pcd"])  # binary_compressed
         folder.add("out.png.in", made["out.png"])
-        # Most calls declare the options, the same in every run of a program: all of them fail in
-        # its first case.
+        # Most calls declare the options, which is the same in every run of a program: all of them
+        # fail in its first case.
         of_program = {}
         reports = REPORTS if has_page(BARCODE) else []
         if not reports:

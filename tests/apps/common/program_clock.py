@@ -2,9 +2,9 @@
 """Clocks that go back, leap ahead, stand still or fail: program_clock.py PH-BARCODE PH-SEGMENT
 WRONG-CLOCK.so
 
-Whatever the clock says, a run ends in time with exit code 0, and what it writes is that of a run
-with a right one. Lines of progress stay lines of JSON with finite numbers. Processes that wait for
-each other are not tried: how long they wait is up to the system, whose clock stays right."""
+Whatever the clock says, a run ends in time with exit code 0 and the same output as with a correct
+clock. Lines of progress stay lines of JSON with finite numbers. Processes that wait for each other
+are not tested, because the system, whose clock stays correct, decides how long they wait."""
 import itertools
 import json
 import math
@@ -66,7 +66,7 @@ def is_progress(line):
 
 
 def faults(words, want, **environment):
-    """@return what is wrong with a run."""
+    """@return a description of the fault of a run."""
     try:
         process, found = run(words, **environment)
     except subprocess.TimeoutExpired:

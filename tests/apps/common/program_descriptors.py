@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """program_descriptors.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT: names like /dev/fd/4 stand
-for descriptors that the caller opened, never for the program's own. What was written to one
-stays."""
+for descriptors that the caller opened, never for the program's own. Data written to one are
+kept."""
 import os
 import subprocess
 import sys
@@ -98,7 +98,7 @@ class Descriptors(unittest.TestCase):
             run = self.run_in_folder(BARCODE, f"/dev/fd/{both[0]}", "-o", f"/dev/fd/{both[1]}",
                                      pass_fds=both)
             self.assertEqual(run.returncode, 0, run.stderr)
-            # It is open for reading alone.
+            # It is open for reading only.
             run = self.run_in_folder(BARCODE, "m.off", "-o", f"/dev/fd/{both[0]}", pass_fds=both)
             self.assertEqual(run.returncode, 73, run.stderr)
         self.assertEqual(self.read("log"), "before\n" + SQUARE_CSV)
@@ -126,8 +126,8 @@ class Descriptors(unittest.TestCase):
                               ("/dev/stderr", "/dev/fd/2"), ("fifo", "./fifo")):
             run = self.run_in_folder(VECTORISE, "a.csv", "-o", first, "--fit", second)
             self.assertEqual((run.returncode, run.stdout), (64, ""), (first, second, run.stderr))
-            self.assertIn("is written by --output, too", run.stderr)
-        # Nothing is there to be mixed.
+            self.assertIn("is also written by --output", run.stderr)
+        # There is nothing to mix.
         run = self.run_in_folder(VECTORISE, "a.csv", "-o", "/dev/null", "--fit", "/dev/null")
         self.assertEqual(run.returncode, 0, run.stderr)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output is never one of the inputs, nor another
-output, by whatever name, unless --force allows the first."""
+"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output never replaces an input, unless --force
+allows it, and never another output, whatever their names."""
 import json
 import os
 import subprocess
@@ -128,14 +128,14 @@ class Overwrites(unittest.TestCase):
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
-        # In a folder that is not there yet.
+        # In a folder that does not exist yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
                           ["-o", "new/*.svg", "--output-format", "csv", "--plot",
                            "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "new")))
-        # What keeps nothing may be written twice.
+        # A device that keeps nothing may be written twice.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
 
@@ -219,7 +219,7 @@ class Overwrites(unittest.TestCase):
         run = self.run_in_folder(SEGMENT, "a.pcd", "b.pcd", "--labels", "out/*.csv", "--json",
                                  "folder/../out/a.csv")
         self.assertEqual(run.returncode, 64, run.stderr)
-        self.assertIn("--json: folder/../out/a.csv is written by --labels, too", run.stderr)
+        self.assertIn("--json: folder/../out/a.csv is also written by --labels", run.stderr)
 
     def test_text_of_ph_segment(self):
         self.scene("s.pcd")

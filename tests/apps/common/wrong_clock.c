@@ -41,7 +41,7 @@ int clock_gettime(clockid_t clock, struct timespec* now) {
     return -1;
   }
   const int status = (int)syscall(SYS_clock_gettime, clock, now);
-  /* What std::chrono counts as nanoseconds in 64 bits: 292 years. */
+  /* The range of std::chrono's nanoseconds in 64 bits: 292 years. */
   if (strcmp(how, "back") == 0)
     now->tv_sec -= HOUR * (wrong + 1);
   else if (strcmp(how, "ahead") == 0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance beside SciPy's assignments, on matrices with a diagonal for each bar. Without SciPy it is
-skipped."""
+"""Compares ph-distance with SciPy's assignments, on matrices with a diagonal place for each bar.
+Skipped without SciPy."""
 import math
 import os
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes, and their distances by the definition: all ways to pair bars off are tried."""
+"""Barcodes, and their distances by the definition: tries all ways to pair bars."""
 import csv
 import io
 import itertools
@@ -40,7 +40,8 @@ def to_diagonal(bar, ground):
 
 
 def costs_of(a, b, ground):
-    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns the other way round."""
+    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns vice
+    versa."""
     return ([[norm(abs(p[0] - q[0]), abs(p[1] - q[1]), ground) for q in b]
              + [to_diagonal(p, ground)] * len(a) for p in a]
             + [[to_diagonal(q, ground) for q in b] + [0.0] * len(a) for _ in b])
@@ -51,7 +52,7 @@ def total(costs, order):
 
 
 def distance(a, b, order=INF, ground=INF):
-    """Of bars of one dimension, a few; `order` infinity is the bottleneck distance."""
+    """The distance of a few bars of one dimension; `order` infinity is the bottleneck distance."""
     finite = [[bar for bar in bars if bar[1] < INF] for bars in (a, b)]
     rays = [sorted(bar[0] for bar in bars if bar[1] == INF) for bars in (a, b)]
     if len(rays[0]) != len(rays[1]):

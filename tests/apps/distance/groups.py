@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance --groups: the loss is what its definition says, and p what all ways to deal the labels give."""
+"""ph-distance --groups: the loss agrees with its definition, and p with all ways to assign the
+labels."""
 import itertools
 import json
 import math
@@ -10,7 +11,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import ProgramTest, main  # noqa: E402
 from diagrams import INF, csv_of, rows_of  # noqa: E402
 
-# A bar of each: the distance of two is the difference of the deaths, as long as that is small.
+# One bar each: the distance of two barcodes is the difference of the deaths, as long as it is
+# small.
 DEATHS = [20.0, 21.5, 20.25, 23.0, 24.0, 21.0, 23.5]
 WORDS = ["low", "low", "low", "high", "high", "low", "high"]
 
@@ -65,7 +67,7 @@ class GroupsTest(ProgramTest):
         self.assertEqual(f"H1  p {test['p']}, loss {test['loss']} (99 shuffles, power 1, seed 5)", text.splitlines()[1])
         self.assertEqual([d["value"] for d in found["distances"]],
                          [abs(x - y) for x, y in itertools.combinations(DEATHS, 2)])
-        # With the matrix, from which anybody can do the same.
+        # With the matrix, from which anybody can compute the same.
         self.assertEqual(self.result("--shuffles", "99", "--seed", "5", "--matrix", "m.csv").stdout, text)
         self.assertEqual(float(rows_of(self.read("m.csv"))[0]["3.csv"]), 3)
 

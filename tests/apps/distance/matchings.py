@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance --matching: each bar is in one pair, and the pairs cost what the distance is."""
+"""ph-distance --matching: each bar is in one pair, and the cost of the pairs is the distance."""
 import json
 import math
 import os

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: distances are what the definitions say, in all formats; matrices; inputs of all formats."""
+"""ph-distance: distances agree with the definitions in all formats; matrices; inputs of all
+formats."""
 import itertools
 import json
 import math
@@ -151,7 +152,7 @@ class Results(ProgramTest):
         self.assertEqual(text, "H0  inf: 1 and 0 bars that never die, 0 and 1 bars that were always there, 0 and 1 bars "
                          "that were always there and never die")
         run = self.expect(0, "x.csv", "y.csv", "z.csv", "--output-format", "csv")
-        self.assertIn("H0: 3 distances are infinite, for the numbers of infinite bars differ", run.stderr)
+        self.assertIn("H0: 3 distances are infinite, because the numbers of infinite bars differ", run.stderr)
         self.assertEqual([r["value"] for r in rows_of(run.stdout)], ["inf"] * 3 + ["1", "1", "0"])
         run = self.expect(0, "x.csv", "y.csv", "--dim", "0", "--matrix", "m.csv", "--output-format", "json")
         self.assertIn("H0: 1 distance is infinite", run.stderr)
@@ -167,7 +168,7 @@ class Results(ProgramTest):
         self.assertEqual(run.stdout.splitlines()[1:], ["no bars"])
         self.assertEqual(json.loads(self.out("none.csv", "none.csv", "--output-format", "json"))["distances"], [])
         self.assertIn("found no bars", self.expect(64, "none.csv", "none.csv", "--matrix", "x.npy").stderr)
-        # Of one barcode all bars go to the diagonal.
+        # All bars of one barcode go to the diagonal.
         self.assertEqual(self.out("none.csv", "a.csv", "--dim", "1"),
                          f"{HEADINGS[0]} of none.csv and a.csv\nH1  "
                          f"{max((e - b) / 2 for b, e in of_dim(self.bars['a.csv'], 1))}\n")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: a signal during a long run ends it, with the shell's code, and nothing is left behind."""
+"""ph-distance: a signal during a long run ends it with the shell's code and leaves nothing
+behind."""
 import os
 import signal
 import subprocess
@@ -11,7 +12,7 @@ import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 from diagrams import csv_of, random_bars  # noqa: E402
 
-PATIENCE = 0.2 + 0.3  # what is promised, and what a busy machine may take to notice
+PATIENCE = 0.2 + 0.3  # the promise, plus the delay of a busy machine
 TRIES = 3
 
 

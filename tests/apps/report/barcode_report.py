@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: the page as a file, its bars, where they come from, two barcodes in it."""
+"""ph-barcode --report: the page as a file, its bars, their origin, and pages with two barcodes."""
 import hashlib
 import json
 import math

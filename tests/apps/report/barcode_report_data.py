@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: what is in the page of points, images and complexes, and of their trees."""
+"""ph-barcode --report: the data in pages of points, images, complexes, and their trees."""
 import json
 import math
 import os
@@ -173,7 +173,8 @@ class Data(ReportTest):
                 self.assertNotIn("Sets of voxels", report.meta["provenance"].get("notes", {}))
 
     def test_sets_that_are_too_large_are_left_out_with_a_note(self):
-        # A comb: each tooth is a voxel in every row, and goes to the next one with those before it.
+        # A comb: each tooth is one voxel in every row, and merges into the next one with all teeth
+        # before it.
         rows, columns = 400, 400
         values = [float(columns - x if x % 2 == 0 else 9999 if y else columns + x)
                   for y in range(rows) for x in range(columns)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reports, plots and JSON of inputs whose names, titles and strings would like to be code: the page
-has the elements of any other page, and the pictures are XML."""
+"""Reports, plots and JSON of inputs whose names, titles and strings try to be code: the page has
+the same elements as any other page, and the pictures are XML."""
 import html.parser
 import json
 import os
@@ -29,12 +29,13 @@ STRINGS = {
     "what templates replace": b"${x} {{script}} $& $1 %s %n",
     "the largest code point": "\U0010ffff".encode(),
 }
-# In JSON, which can say what no name can.
+# In JSON, which can hold what no file name can.
 ESCAPED = r'</script>\u2028\u0000\ud800\udc00\ud800x\u202e<!--<script>\u001b\"\\'
 
 
 class Elements(html.parser.HTMLParser):
-    """What a page is made of: tags with the names of their attributes; the text of each script."""
+    """The structure of a page: tags with the names of their attributes, and the text of each
+    script."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=False)

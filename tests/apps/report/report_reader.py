@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads a report back, by the words of docs/reference/report-format.md."""
+"""Reads a report back, following docs/reference/report-format.md."""
 import array
 import base64
 import html.parser
@@ -97,7 +97,8 @@ class Report:
         return list(zip(self[f"{prefix}/dim"], self[f"{prefix}/birth"], self[f"{prefix}/death"]))
 
     def leaf_labels(self, cut):
-        """The segment of each leaf in a cut: 0 none, else by decreasing number of points."""
+        """The segment of each leaf in a cut: 0 for none, else numbered by decreasing number of
+        points."""
         rule = self.meta["tree"]["rule"]
         leaves = len(self["tree/leaf_birth"])
         parent = list(range(leaves))
@@ -139,7 +140,7 @@ class Report:
         return self._of_points(self.leaf_labels(cut), points)
 
     def answer(self, points):
-        """What the program says of each point, and the surface that it is on."""
+        """The segment and the surface of each point according to the program."""
         numbers = [0] + [s["number"] for s in self.meta["scene"]["segments"]]
         labels = [numbers[label] for label in self["tree/leaf_label"]]
         surfaces = self._of_points(self["tree/leaf_surface"], points)

@@ -57,13 +57,14 @@ class Reports(ProgramTest):
         return [int(line) for line in self.read("l.csv").split()]
 
     def expect_answer(self, scene, *options):
-        """The page opens with the labels, the surfaces and the words of the other outputs."""
+        """The page opens with the labels, the surfaces and the descriptions of the other
+        outputs."""
         own = self.labels(scene, *options, "--report", "r.html", "--surfaces", "s.csv", "--json",
                           "s.json")
         report, summary = Report(self.path("r.html")), json.loads(self.read("s.json"))
         labels, surfaces = report.answer(len(own))
         self.assertEqual(labels, own)
-        if not scene.endswith(".tree"):  # a stored tree has no points of what was removed
+        if not scene.endswith(".tree"):  # a stored tree has no points of removed surfaces
             self.assertEqual(surfaces, [int(line) for line in self.read("s.csv").split()])
         self.assertEqual([s["role"] for s in report.meta["scene"]["surfaces"]],
                          [s["role"] for s in summary["surfaces"]])
@@ -75,7 +76,7 @@ class Reports(ProgramTest):
         return report
 
     def expect_cuts(self, scene, options, cuts):
-        """The page's segments of some cuts are the program's, at every point."""
+        """The page's segments at some cuts equal the program's, at every point."""
         report = self.expect_answer(scene, *options)
         tree = report.meta["tree"]
         points = len(self.read("l.csv").split())

@@ -104,7 +104,7 @@ TEST_F(DepthImages, CamerasByFile) {
             "260,260,159.5,119.5"))
       << err();
   EXPECT_NE(labels("d.png --camera lens.yaml"), expected);
-  EXPECT_TRUE(notes("taken for a raw one, and the bending of its lens is undone")) << err();
+  EXPECT_TRUE(notes("assumed to be raw, and the distortion of the lens is corrected")) << err();
   EXPECT_FALSE(notes("rays")) << err();
   EXPECT_EQ(run("d.png --camera other.yaml"), 64);
   EXPECT_TRUE(

@@ -75,7 +75,7 @@ TEST_F(Notes, DepthImages) {
   EXPECT_EQ(run("scene.pcd " + camera), 64);
 }
 
-/// The scene as a robot has it: z up, the table at 0.75 m.
+/// The scene in a robot's frame: z up, the table at 0.75 m.
 TEST_F(Notes, AnotherFrame) {
   const double c = std::sqrt(0.5);
   const std::vector<float>& xyz = scene_.xyz();
@@ -112,7 +112,7 @@ TEST_F(Notes, AnotherFrame) {
   EXPECT_TRUE(notes("2 segments")) << err();
 }
 
-/// One thread is all that the pipeline has; signatures take more.
+/// The pipeline uses only one thread; signatures use more.
 TEST_F(Notes, ThreadsAreForSignatures) {
   ASSERT_EQ(run("scene.pcd --threads 2 --json a.json"), 0) << err();
   EXPECT_TRUE(notes("--threads does nothing: ")) << err();
@@ -159,7 +159,7 @@ TEST_F(Notes, TheSmallerMarginOfThePlaneGoesFirst) {
   }
 }
 
-/// Only what the method takes: --distance of another one is refused.
+/// Only options of this method: --distance, which belongs to another one, is refused.
 TEST_F(Notes, OutOfMemoryNamesOptionsOfTheMethod) {
   for (const char* method : {"surface", "supervoxels", "paper"}) {
     const std::string options = std::string("scene.pcd --plane off --voxel 0.0005 --method ") +

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Floors under the scores of ph-segment on a few real frames, by the metrics of the benchmark.
+"""Checks minimum scores of ph-segment on a few real frames, with the metrics of the benchmark.
 
     scene_scores.py PH_SEGMENT
 
@@ -26,7 +26,8 @@ import point_clouds  # noqa: E402
 import segmentation_metrics as metrics  # noqa: E402
 from segmentation_programs import Program  # noqa: E402
 
-# One of each kind that pipelines by distance get wrong: stacked, occluded, cylindric, complex.
+# One frame of each kind that distance-based pipelines get wrong: stacked, occluded, cylindric,
+# complex.
 FRAMES = ("learn19", "learn27", "learn37", "test57")
 if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAMES):
     print(f"SKIPPED: PH_TEST_DATA, which is {TEST_DATA!r}, lacks frames in scenes: no score is tested")
@@ -35,7 +36,7 @@ if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAM
 
 class Floors(unittest.TestCase):
     def scores(self, options, score):
-        """The mean of the frames, of those that have the score."""
+        """The mean over the frames that have the score."""
         program = Program(
             "libph", f"{PROGRAM} {{input}} --quiet --no-check --labels {{output}}.npy {options}"
         )

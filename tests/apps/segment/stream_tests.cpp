@@ -56,7 +56,7 @@ TEST_F(Stream, SaysItsThroughput) {
   ASSERT_EQ(messages.size(), 5U) << err();
   EXPECT_NE(messages.back().find("4 frames in "), std::string::npos);
   EXPECT_NE(messages.back().find(" frames/s, "), std::string::npos);
-  EXPECT_NE(messages.back().find(" ms CPU a frame"), std::string::npos);
+  EXPECT_NE(messages.back().find(" ms CPU per frame"), std::string::npos);
   ASSERT_EQ(run("in --labels out/ --quiet"), 0);
   EXPECT_EQ(err(), "");
 }
@@ -91,7 +91,7 @@ TEST_F(Stream, APipeThatDoesNotWaitHasNoEndYet) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  fcntl(ends[1], F_SETFD, FD_CLOEXEC);  // else the program would be a writer, too
+  fcntl(ends[1], F_SETFD, FD_CLOEXEC);  // otherwise the program would also be a writer
   std::thread writer([&] {
     for (const std::string_view some : {"in/0.p", "cd\nin/", "1.pcd\nin/2.pcd"}) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -164,7 +164,7 @@ TEST_F(Stream, FramesOfOneNameAreNumbered) {
   for (const char* name : {"0", "0-2", "0-3", "0-4", "0-5"})
     EXPECT_TRUE(fs::exists(at("out/" + std::string(name) + ".npy"))) << name;
   EXPECT_EQ(std::distance(fs::directory_iterator(at("out")), {}), 5);
-  // Without files of their own they need no name.
+  // Without separate files they need no name.
   EXPECT_EQ(run("in/0.pcd other/0.pcd in/0.pcd --json all.json"), 0) << err();
 }
 
@@ -176,7 +176,7 @@ TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
   std::ofstream list(at("list.txt"));
   constexpr std::size_t frames = 1200;
   for (std::size_t i = 0; i < frames; ++i) {
-    std::string path(2 * 500, '/');  // the same file by a long name, another one each time
+    std::string path(2 * 500, '/');  // the same file by a long name, different each time
     for (std::size_t k = 0; k < path.size(); k += 2) path[k] = '.';
     list << path << "s.pcd" << '\n';
   }
@@ -196,7 +196,7 @@ TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
 TEST_F(Stream, UsageErrors) {
   fs::create_directory(at("empty"));
   EXPECT_EQ(run("empty --labels out/"), 66);
-  EXPECT_EQ(run("in"), 66);  // no place for the results of several
+  EXPECT_EQ(run("in"), 66);  // no place for the results of several frames
   EXPECT_EQ(run("in --labels l.npy"), 66);
   EXPECT_EQ(run("--frames-from missing.txt --labels out/"), 66);
   for (const char* arguments :

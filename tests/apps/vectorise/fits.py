@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: what was fitted is written down, and gives the same vectors again."""
+"""ph-vectorise: a fit is stored, and gives the same vectors again."""
 import json
 import os
 import sys
@@ -36,7 +36,7 @@ class Fits(ProgramTest):
             self.assertEqual(fit["length"], numbers)
             self.expect(0, "a.csv", "b.csv", "--fitted", "fit.json", "-o", "again.csv")
             self.assertEqual(self.read("again.csv"), self.read("train.csv"), kind)
-            # Others get the same columns, whatever they have.
+            # Other inputs get the same columns, whatever bars they have.
             run = self.expect(0, "test.csv", "--fitted", "fit.json")
             self.assertEqual(run.stdout.splitlines()[0], self.read("train.csv").splitlines()[0])
 

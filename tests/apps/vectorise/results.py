@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: tables are what the definitions say, in both formats; inputs of all formats."""
+"""ph-vectorise: tables agree with the definitions in both formats; inputs of all formats."""
 import csv
 import io
 import math
@@ -124,7 +124,7 @@ class Results(ProgramTest):
                          ["a.csv"], [entropy / math.log(2)])
 
     def test_atol(self):
-        # As many centres as bars: they are the bars.
+        # As many centres as bars: the centres are the bars.
         points = sorted({*finite(A, 1), *finite(B, 1)})
         for contrast, decay in (("laplace", lambda d, w: math.exp(-d / w)),
                                 ("gauss", lambda d, w: math.exp(-(d / w)**2))):
@@ -187,7 +187,7 @@ class Results(ProgramTest):
             self.assertEqual(curve(name, "--periodic", "0", "--grid", "0,5,2"), [2, 0])
         self.expect(65, "hole.npy", "--kind", "euler")
         self.assertEqual(curve("hole.npy", "--nan", "drop", "--grid", "0,5,2"), [4, 0])
-        # An array with three columns may be either.
+        # An array with three columns may be an image or a barcode.
         self.write("bars.npy", files.array((2, 3), [0, 0, 1, 1, 1, 3], "<f8"))
         self.assertEqual(curve("bars.npy", "--format", "barcode", "--grid", "0,2,3"), [1, -1, -1])
         self.assertEqual(curve("bars.npy", "--format", "image", "--grid", "0,2,3"), [1, 1, 1])
@@ -232,7 +232,7 @@ class Results(ProgramTest):
         self.assertIn("square.txt:1", self.expect(65, "square.txt").stderr)
 
     def test_images_larger_than_the_memory(self):
-        """They stay in their files, layer by layer."""
+        """They stay in their files and are read layer by layer."""
         count = 96
         values = bytes((x * x + 7 * y + 13 * z * x) % 251 for z in range(count) for y in range(count)
                        for x in range(count * 2))

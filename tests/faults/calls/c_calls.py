@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the C interface (ph/ph.h) by way of ctypes, which checks nothing: NULL, sizes that lie,
-options out of range, numbers that are none."""
+"""Calls of the C interface (ph/ph.h) through ctypes, which checks nothing: NULL, sizes that lie,
+options out of range, invalid numbers."""
 import ctypes
 import math
 
@@ -34,7 +34,7 @@ class Library:
         self.c.ph_barcode_size.restype = SIZE
 
     def options(self, **values):
-        """The defaults, and what is changed."""
+        """The defaults with some changes."""
         options = Options()
         self.c.ph_options_init_sized(ctypes.byref(options), SIZE(ctypes.sizeof(options)))
         for name, value in values.items():
@@ -42,7 +42,7 @@ class Library:
         return ctypes.byref(options)
 
     def said(self, status, handles=()):
-        """As run_calls.py wants it. What fails must leave `out` alone."""
+        """In the form that run_calls.py expects. A failing call must not change `out`."""
         words = self.c.ph_last_error().decode()
         left = [handle.value for handle in handles if handle.value is not None]
         if status != 0 and left:
@@ -91,7 +91,7 @@ class Library:
         return self.said(status, [ctypes.c_void_p(value) for value in out][:min(count, 8)])
 
     def handles(self):
-        """What is asked of no handle, and beyond the last bar of one."""
+        """Calls without a handle, and beyond the last bar of one."""
         out = ctypes.c_void_p()
         self.c.ph_rips_points(_address(POINTS), INDEX(10), INDEX(3), INDEX(3), INDEX(1), None, ctypes.byref(out))
         numbers = ctypes.c_void_p(1)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the Python package that make no sense, or look so and do: arrays of other types, shapes
-and layouts, objects that lie about themselves, options of other types, parts and files of others."""
+"""Calls of the Python package that make no sense, or only seem so: arrays of wrong types, shapes
+and layouts, objects that lie about themselves, options of wrong types, unrelated parts and
+files."""
 import os
 import pickle
 import sys
@@ -30,12 +31,12 @@ def read_only(array):
 
 
 def vast(shape, dtype=float):
-    """An array that says it is huge and takes one number."""
+    """An array that claims to be huge and holds one number."""
     return np.lib.stride_tricks.as_strided(np.ones(1, dtype), shape, (0,) * len(shape))
 
 
 class NoArray:
-    """Raises where it is asked for its numbers."""
+    """Raises when it is asked for its numbers."""
     def __array__(self, dtype=None, copy=None):
         raise RuntimeError("not today")
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: calls that make no sense (whose text has the
-words), each in a process of its own: what is raised, or returned, and what its words say. FOLDER
-has the Python package, LIBRARY is libph_c.so."""
+"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: runs meaningless calls (whose text has the
+words), each in a separate process, and checks the exception or result and its message. FOLDER has
+the Python package, LIBRARY is libph_c.so."""
 import collections
 import os
 import re
@@ -15,12 +15,12 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 SECONDS = 20
-# Words of the tools that the library is made with, which say nothing to its users.
+# Words of the tools behind the library, which mean nothing to its users.
 FOREIGN = re.compile(r"incompatible function arguments|pybind|std::|not iterable|Unable to allocate")
 
 
 def outcome(call):
-    """What a call came to, as text: in a child, so that a crash is seen."""
+    """The outcome of a call as text, in a child process so that a crash is noticed."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 61 to 65: what programs read that programs have written, barcodes and what was fitted to
-them, damaged or made up."""
+"""Rows 61 to 65: files that programs have written, barcodes and fits, damaged or forged."""
 from files import dipha, npy, packed
 
 from entry import Entry, sample, with_bytes, with_change
@@ -10,7 +9,7 @@ HEAD = b"dim,birth,death\n"
 BEGIN = b'{"format": "ph-barcode", "version": 1, "bars": ['
 BAR = b'{"dim": 0, "birth": 0, "death": 1}'
 
-# Each program that reads barcodes, as it is called with the file that is wrong.
+# Each program that reads barcodes, with its call for the faulty file.
 USES = {
     "distance": ("ph-distance", "{}", "good.csv"),
     "wasserstein": ("ph-distance", "--distance", "wasserstein", "good.csv", "{}"),

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Rows 9 to 16: one cell that is no number, or a number that the input may not hold."""
+"""Rows 9 to 16: one cell that is not a number, or a number that the input may not hold."""
 from clouds import ply_header, XYZ
 from files import pcd_header
 
 from entry import bars, labels, refused, taken
 
-# A file of each format with a cell to fill in, the place of the cell, and whether infinity may
-# stand there.
+# A file of each format with a cell to fill in, the place of the cell, and whether infinity is
+# allowed there.
 PLACES = {
     "points": ("0 0\n1 {}\n", "2:3"),
     "distance": ("0 {0}\n{0} 0\n", "1:3"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 1 to 8: what is no text, or another text than one thinks."""
+"""Rows 1 to 8: files that are not text, or not the text that they seem to be."""
 import codecs
 
 from entry import FORMS, bars, labels, refused, sample, taken

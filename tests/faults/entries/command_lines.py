@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 47 to 50: what a command line cannot mean. The failure names the option."""
+"""Rows 47 to 50: meaningless command lines. The error names the option."""
 from entry import Entry, bars, sample
 from characters import SQUARE, SQUARE_BARS
 

@@ -132,7 +132,7 @@ def bombs():
     yield refused(40, "gzip", "256 MiB behind a small member", gzipped(TEXT) + bomb, too_much)
     for form in ("npy", "nifti", "pcd", "ply", "dipha"):
         yield refused(40, form, "256 MiB", bomb, too_much)
-    # Its trailer lies: what is said, or 128 MiB if that is more, bounds what is unpacked.
+    # Its trailer lies: the stated size, or 128 MiB if that is more, limits the unpacking.
     yield refused(40, "gzip", "256 MiB, said to be 1", with_bytes(bomb, -4, b"\1\0\0\0"), too_much,
                   frugal=False)
     yield refused(40, "gzip", "twice packed", gzipped(gzipped(TEXT)), "not plain text|not a number|NUL")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 31 to 38: headers that promise what is not there, or cannot be."""
+"""Rows 31 to 38: headers that promise missing or impossible data."""
 import struct
 
 from arrays import GRID, VALUES
@@ -30,7 +30,7 @@ def nifti():
 
 
 def with_size(content, width, height):
-    """A PNG with another size in its header, checksum and all."""
+    """A PNG with another size in its header, with a matching checksum."""
     header = struct.pack(">II", width, height) + content[24:29]
     return content[:8] + png_chunk(b"IHDR", header) + content[33:]
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rows 69 to 71: parts of one computation on several machines that are damaged, that lie with a
-checksum that fits, and that belong to something else."""
+matching checksum, or that belong to something else."""
 import binascii
 import struct
 
@@ -37,7 +37,7 @@ def inputs(names=(b"a.txt", b"b.txt"), part=0, parts=1, code=0, failure=b"", bar
 
 def cloud(part=0, parts=2, points=4, axes=2, sample=4, blocks=4, limit=INF, print_=7, present=None,
           size=2, numbers=(0, 0), edges=((1., 1, 0),), claims=(), more=b""):
-    """A part of a cloud. @param numbers how many points are left out before each."""
+    """A part of a cloud. @param numbers how many points are left out before each point."""
     return sealed("cloud", struct.pack("<qqqiidQ", points, axes, sample, parts, blocks, limit, print_)
                   + listed([(p,) for p in ([part] if present is None else present)], "i")
                   + struct.pack("<q", size) + listed([(n,) for n in numbers], "B")

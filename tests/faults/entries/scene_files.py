@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Rows 66 to 68: what ph-segment reads beside clouds: stored merge trees, cameras, lists of frames."""
+"""Rows 66 to 68: inputs of ph-segment other than clouds: stored merge trees, cameras, lists of
+frames."""
 import binascii
 import struct
 
 from entry import Entry, sample, with_bytes, with_change
 
 TREE = sample("tree", "surface.tree")
-# Where numbers stand in the header of a tree: 8 bytes of magic, then the version, and so on.
+# The offsets of numbers in the header of a tree: 8 bytes of magic, then the version, and so on.
 VERSION, METHOD, SIZE, COUNTS = 8, 16, 24, 40
 
 
 def sealed(content):
-    """With the checksum that fits what it has now."""
+    """With a checksum that matches the new content."""
     return content[:-4] + struct.pack("<I", binascii.crc32(content[:-4]))
 
 

@@ -76,7 +76,7 @@ def spreads():
                 "1.7976931348623157e308 0\n", bars("0,0,1.7976931348623157e+308", "0,0,inf"))
     yield taken(89, "points", "manhattan", "0 0\n3e300 4e300\n", bars("0,0,7e+300", "0,0,inf"),
                 "--metric", "manhattan")
-    for metric in ("euclidean", "manhattan", "chebyshev"):  # an infinite distance would be no edge
+    for metric in ("euclidean", "manhattan", "chebyshev"):  # infinite distances are not edges
         yield refused(89, "points", f"twice the largest double, {metric}", "-1.7e308 0\n1.7e308 0\n",
                       "two points are farther apart than the largest double", "--metric", metric)
     yield taken(90, "points", "500 times each corner", "0 0\n1 0\n1 1\n0 1.25\n" * 500,

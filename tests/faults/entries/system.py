@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 51 to 60 and 77 to 84: files, folders, names and surroundings. What needs closed descriptors,
-limits of the system or a second reader is in tests/apps/barcode/faults.py."""
+"""Rows 51 to 60 and 77 to 84: files, folders, names and environments. Cases that need closed
+descriptors, system limits or a second reader are in tests/apps/barcode/faults.py."""
 import contextlib
 import functools
 import os
@@ -56,7 +56,7 @@ def with_fifo(folder, name, content):
     writer = threading.Thread(target=lambda: open(path, "wb").write(content), daemon=True)
     writer.start()
     yield {}
-    with contextlib.suppress(OSError):  # lets a writer go whom nobody read
+    with contextlib.suppress(OSError):  # releases a writer that has no reader
         os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
 
 
@@ -66,7 +66,7 @@ def with_stdin(_folder, content):
 
 
 def require_device(path):
-    """@throws Unavailable where it is none: opening it would create a file."""
+    """@throws Unavailable if it is not one: opening it would create a file."""
     try:
         if stat.S_ISCHR(os.stat(path).st_mode):
             return
@@ -158,7 +158,7 @@ def content_of(folder, name):
 
 
 def holds(name, expected, mode=None):
-    """After the run, a file holds this and has this mode."""
+    """After the run, a file has this content and this mode."""
     def check(folder):
         if content_of(folder, name) != expected:
             return f"{name} holds {content_of(folder, name)[:100]!r}"
@@ -172,7 +172,7 @@ def refused(row, name, *arguments, code, message, named, program=BARCODE, files=
 
 
 def squares(row, name, *arguments, program=BARCODE, files=FILE, output=SQUARE_BARS, **others):
-    """The square must be read in spite of all."""
+    """The square must be read in spite of everything."""
     return Entry(row, name, program, arguments, 0, files=files, output=output, **others)
 
 
@@ -296,7 +296,7 @@ def names():
 def surroundings():
     for row, locale in LOCALES.items():
         inside = in_locale(locale)
-        # The names of formats and extensions have an i, which Turkish writes another way.
+        # The names of formats and extensions contain an i, whose upper case differs in Turkish.
         yield squares(row, locale, "SQUARE.TXT", "--quiet", files={"SQUARE.TXT": SQUARE.encode()},
                       around=inside)
         yield squares(row, f"{locale}, an extension in capitals", "A.NII", "--quiet",

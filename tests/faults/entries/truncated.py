@@ -13,7 +13,7 @@ ROW_OF_READER = {
 }
 
 
-# The form of a sample by its reader: what the comparison with other programs goes by.
+# The form of a sample by its reader, which the comparison with other programs uses.
 FORM_OF_READER = {"pcd": "pcd", "ply": "ply", "pts": "pts", "off": "off", "perseus": "perseus"}
 
 

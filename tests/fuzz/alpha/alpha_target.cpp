@@ -13,8 +13,8 @@ using test::Rational;
 
 Rational magnitude(const Rational& x) { return x < 0 ? Rational(-x) : x; }
 
-/// Faces come before cofaces, and the Euler characteristic is that of a ball. @return whether there
-/// is any simplex.
+/// Checks that faces come before cofaces, and that the Euler characteristic is that of a ball.
+/// @return true if there is any simplex.
 bool check_simplices(const Alpha& alpha) {
   long euler = 0, count = 0;
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
@@ -49,7 +49,7 @@ void check_bars(const Alpha& alpha, std::size_t vertices) {
   require(all.size() == vertices, "each vertex begins a component");
 }
 
-/// Each simplex is one of the definition, with its value.
+/// Each simplex agrees with the definition, including its value.
 void check_definition(const Alpha& alpha, PointsView points, const std::vector<double>& weights,
                       bool squared) {
   const test::AlphaOracle oracle(points, weights);
@@ -69,7 +69,7 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
       require(at != oracle.values().end(), "each simplex is one of the definition");
       const Rational found(alpha.value(cell));
       const Rational square = squared ? found : Rational(found * found);
-      // What is too small or too large for squares in doubles: see alpha.hpp.
+      // Numbers that are too small or too large for squares in doubles: see alpha.hpp.
       const Rational last(std::numeric_limits<double>::denorm_min());
       const Rational least =
           Rational(1e-300) * size + (squared ? 4 * last : Rational(last * (2 * found + last)));

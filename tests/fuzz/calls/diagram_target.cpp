@@ -37,7 +37,7 @@ bool is_diagram(const Bars& bars) {
   return std::ranges::all_of(bars, [](const Bar& bar) { return bar.birth <= bar.death; });
 }
 
-/// What matchings of bars cost, by the definition.
+/// The cost of matchings of bars, by the definition.
 struct Cost {
   double order, ground;  ///< infinite order: the largest of all
 
@@ -45,7 +45,7 @@ struct Cost {
     const auto between = [](long double x, long double y) { return x == y ? 0 : std::abs(x - y); };
     const long double x = between(a.birth, b.birth), y = between(a.death, b.death);
     if (std::isinf(ground)) return std::max(x, y);
-    // Bars that are always alive, or for ever, differ in one end.
+    // Bars that were always alive, or never die, differ in one end.
     if (x == 0 || y == 0) return x + y;
     const long double large = std::max(x, y), part = std::min(x, y) / large;
     return large * std::pow(1 + std::pow(part, static_cast<long double>(ground)), 1.0L / ground);
@@ -89,7 +89,7 @@ long double by_all_matchings(const Bars& a, const Bars& b, const Cost& cost) {
   return std::isinf(cost.order) ? sum : std::pow(sum, 1.0L / cost.order);
 }
 
-/// Whether sums of powers are neither infinite nor zero in doubles, so that digits mean something.
+/// True if sums of powers are neither infinite nor zero in doubles, so that digits are meaningful.
 bool is_moderate(const Bars& a, const Bars& b, double order) {
   constexpr double large = 1e150, small = 1e-150;
   const double most = std::isinf(order) ? large : std::pow(large, 1 / order),
@@ -137,14 +137,14 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
   require(found.lower <= found.value && found.lower >= 0, "bounds are none");
   if (!is_moderate(a, b, options.order)) return;
   const long double expected = by_all_matchings(a, b, {options.order, options.ground});
-  // What all would cost on the diagonal: see WassersteinOptions.
+  // The cost if all bars went to the diagonal: see WassersteinOptions.
   long double scale = 0;
   const Cost cost{options.order, options.ground};
   for (const Bars* bars : {&a, &b})
     for (const Bar& bar : *bars)
       if (std::isfinite(bar.birth) && std::isfinite(bar.death))
         scale = cost.sum(scale, cost.power(cost.from_diagonal(bar)));
-  // Costs to the power of p agree to 2e-15 of that.
+  // Costs to the power of p agree to 2e-15 of that cost.
   const long double rounding = std::pow(1e-13L * scale, 1.0L / options.order);
   require(std::isinf(expected) ? found.value == expected
                                : found.value >= expected * (1 - 1e-9L) - rounding,
@@ -156,7 +156,7 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
             "the Wasserstein distance is that of all matchings");
 }
 
-/// Runs what may refuse its bars. @return whether it did not.
+/// Runs a function that may refuse its bars. @return true if it did not.
 template <class Run>
 bool is_taken(Run&& run) {
   try {
@@ -182,7 +182,7 @@ void check_vectors(const Bars& a, const Bars& b, ChosenNumbers& chosen) {
     const Grid grid = fit_grid(both, out.size());
     betti_curve(a, grid, out);
     are_numbers();
-    // As many bars are alive as the definition says.
+    // The number of living bars agrees with the definition.
     for (std::size_t k = 0; k < out.size(); ++k) require(out[k] >= 0, "a negative Betti number");
     life_entropy_curve(a, grid, out);
     are_numbers();

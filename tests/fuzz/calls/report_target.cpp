@@ -55,7 +55,7 @@ bool is_ascii(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// The metadata are JSON without a tag, whose texts and numbers are those that went in.
+/// The metadata are JSON without tags, with the same texts and numbers as the input.
 void check_metadata(ChosenNumbers& chosen) {
   Metadata meta;
   meta.title = text_of(chosen);

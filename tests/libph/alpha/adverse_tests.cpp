@@ -13,7 +13,7 @@
 namespace ph::test {
 namespace {
 
-/// Anywhere on the unit sphere, but for rounding.
+/// Anywhere on the unit sphere, up to rounding.
 Points on_sphere(Index n, std::uint64_t seed) {
   Generator random(seed);
   Points points(n, 3);
@@ -37,7 +37,7 @@ TEST(AlphaAdverse, PointsNearlyOnASphere) {
   EXPECT_EQ(bars.bars(2).size(), 1U);
 }
 
-// Eight corners of a cube are on a sphere, but for rounding: signs are those of what is rounded.
+// Eight corners of a cube are on a sphere up to rounding: signs are those of the rounded points.
 TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   for (const double step : {0.1, 1.0 / 3, 0.7}) {
     Points grid(343, 3);
@@ -51,7 +51,7 @@ TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   }
 }
 
-// An explicit complex refuses a face that is later than a coface.
+// An explicit complex refuses a face that enters after a coface.
 TEST(AlphaAdverse, ManySimplicesOfNearlyOneValueAreInOrder) {
   EXPECT_NO_THROW(Alpha(on_sphere(20'000, 6)).listed());
 }
@@ -90,7 +90,8 @@ TEST(AlphaAdverse, PlanesButForTheLastPlace) {
   check_adverse(points, 400);
 }
 
-// Of integers: exactly on one sphere, and the sphere that is empty has its centre in none of most.
+// Integer points exactly on one sphere; the empty sphere has its centre outside most of the
+// simplices.
 TEST(AlphaAdverse, AllPointsOnOneSphere) {
   constexpr int radius = 45, squared = radius * radius;
   std::vector<double> on;
@@ -129,7 +130,7 @@ TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   }
 }
 
-// Products of squares underflow, squares do not.
+// Products of squares underflow, but squares do not.
 TEST(AlphaAdverse, WeightedPointsThatAreCloseBesideAFarOne) {
   const double distance = 1e-100;
   for (const Index dim : {2, 3}) {
@@ -172,7 +173,8 @@ TEST(AlphaAdverse, PointsNearlyOnACircle) {
             "");
 }
 
-// Nearly all of them orthogonal to one sphere, so that vertices come late with nearly one value.
+// Nearly all points are orthogonal to one sphere, so that vertices enter late at nearly the same
+// value.
 TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   int late = 0;
   for_each_seed(20, [&](Generator& random, bool, std::int64_t) {
@@ -197,7 +199,7 @@ TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   EXPECT_TRUE(is_enough(late, 100)) << late;
 }
 
-// Edges and the late vertices in them have one value, but for rounding.
+// Edges and their late vertices have the same value up to rounding.
 TEST(AlphaAdverse, WeightedDecimals) {
   for_each_seed(60, [&](Generator& random, bool, std::int64_t) {
     Points points(12, 3);
@@ -210,7 +212,7 @@ TEST(AlphaAdverse, WeightedDecimals) {
   });
 }
 
-// Squares of distances underflow here, or all but vanish beside weights.
+// Squares of distances underflow here, or nearly vanish compared to the weights.
 TEST(AlphaAdverse, PointsThatAreCloseBesideTheirWeights) {
   for (const double distance : {1e-9, 1e-155, 1e-170, 1e-305}) {
     const Points points{{0, 0, 0}, {distance, 0, 0}, {0, distance, 0}, {0, 0, distance}};

@@ -68,9 +68,10 @@ inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>&
 }
 
 /// A simplex is a set of points, as bits. It has a value if the Voronoi cells (power cells) of its
-/// points meet: the least power of a point where they do to the points of the simplex. All such
-/// simplices are listed, so of cospherical points more than a triangulation has; balls cut to
-/// Voronoi cells have them for their nerve, whose homology is that of the union of the balls.
+/// points meet: the least power, with respect to its points, of a point in the intersection. All
+/// such simplices are listed, which for cospherical points are more than a triangulation has. They
+/// form the nerve of the balls cut to Voronoi cells, whose homology is that of the union of the
+/// balls.
 class AlphaOracle {
  public:
   struct OracleBar {
@@ -98,14 +99,14 @@ class AlphaOracle {
   /// By simplex.
   const std::map<unsigned, Rational>& values() const { return values_; }
 
-  /// Whether a point is nearer than all others to the centre of one of the spheres; a hidden one
-  /// is nowhere.
+  /// True if a point is nearer than all others to the centre of one of the spheres; a hidden point
+  /// never is.
   bool is_ever_alone(std::size_t point) const {
     return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
   }
 
-  /// The centres of the spheres through affinely independent points, whatever is inside, with
-  /// squared radii, rounded.
+  /// The rounded centres and squared radii of the spheres through affinely independent points, even
+  /// if other points are inside.
   std::vector<std::pair<std::vector<double>, double>> centres() const {
     std::vector<std::pair<std::vector<double>, double>> result;
     for (unsigned set = 1; set < 1U << points_.size(); ++set)
@@ -182,7 +183,7 @@ class AlphaOracle {
     return sphere ? std::optional(sphere->centre) : std::nullopt;
   }
 
-  /// Where the least power is attained the point is the centre of those that are nearest.
+  /// The least power is attained at the centre of the sphere of the nearest points.
   void find_spheres(std::size_t dim) {
     for (unsigned set = 1; set < 1U << points_.size(); ++set) {
       if (__builtin_popcount(set) > static_cast<int>(dim) + 1) continue;

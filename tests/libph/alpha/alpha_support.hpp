@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Points that are trouble for an alpha complex.
+// Points that are difficult for an alpha complex.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -20,8 +20,8 @@ struct Cloud {
 };
 
 /// A few points of some kind: anywhere; on a small grid, where many lie on one sphere, plane or
-/// line, or on one another; on a circle, a sphere or a line; in a plane of space;
-/// on a grid that doubles cannot hold. Of some of each kind there are copies.
+/// line, or on one another; on a circle, a sphere or a line; in a plane of space; on a grid that
+/// doubles cannot hold. Some points of each kind are duplicated.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));

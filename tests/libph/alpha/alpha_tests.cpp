@@ -48,7 +48,7 @@ TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// Where no two intervals have one value the pairs are the same, cell by cell.
+// If no two intervals have the same value, the pairs are the same, cell by cell.
 TEST(Alpha, CellsAreThoseOfTheOracle) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t field) {
     Cloud cloud{"", random.points(25, random.integer(2, 3), false), {}};
@@ -72,7 +72,7 @@ TEST(Alpha, CyclesAreCycles) {
   });
 }
 
-// With ties others than the oracle's cells may be named. By value a cycle is one all the same.
+// With ties, cells other than the oracle's may be named. By value, a cycle is still a cycle.
 TEST(Alpha, CyclesAmongTies) {
   for_each_seed(60, [](Generator& random, bool weighted, std::int64_t field) {
     const Cloud cloud = any_cloud(random, 25, weighted);
@@ -217,7 +217,8 @@ TEST(Alpha, CopiesJoinAtZero) {
 }
 
 TEST(Alpha, HiddenPointsAreNamed) {
-  // The first ball outdoes its neighbour up to 7.25, but from 4.67 on the third is ahead of it.
+  // The first ball is ahead of its neighbour up to 7.25, but from 4.67 on the third is ahead of
+  // both.
   const Alpha alpha(Points{{0, 0, 0}, {0.5, 0, 0}, {9, 0, 0}, {0, 0, 0}},
                     {.weights = {4, -3, 1, 3}, .unit = AlphaOptions::Unit::squared});
   EXPECT_EQ(std::vector<std::uint32_t>(alpha.hidden().begin(), alpha.hidden().end()),
@@ -291,7 +292,7 @@ TEST(Alpha, OtherValues) {
         cech.append_input_cell(dim, cell, simplex);
         EXPECT_NEAR(cech.value(cell), smallest_ball(points, simplex), 1e-10);
       });
-    // Among ties rounding may make bars of some last places.
+    // Among ties, rounding may create bars as long as a few last digits.
     const auto lasting = [](const Barcode& bars) {
       std::vector<Bar> result(bars.begin(), bars.end());
       std::erase_if(result, [](const Bar& b) { return b.persistence() < 1e-9; });
@@ -389,7 +390,7 @@ TEST(Alpha, StopsAndKeepsToItsMemory) {
   small.memory.set_limit(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, {}, small); });
   EXPECT_EQ(small.memory.used(), 0U);
-  // What CGAL holds counts as well: most of what is taken in the plane.
+  // CGAL's memory counts as well: in the plane, it is most of the total.
   RunContext of_plane;
   Alpha(uniform_points(20'000, 2, 11), {}, of_plane);
   EXPECT_GT(of_plane.memory.peak(), 20'000U * 200);

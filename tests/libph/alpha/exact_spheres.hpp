@@ -16,7 +16,7 @@ namespace ph::test {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
-/// What doubles are multiples of here: 2^-bits. Squares of it divide all doubles.
+/// The unit of which doubles are multiples here: 2^-bits. Its square divides all doubles.
 inline constexpr int kLeastBits = 540;
 
 inline int bits_of(double x) {
@@ -102,7 +102,7 @@ class Faces {
     }
   }
 
-  /// @return the property that does not hold of the sphere of a face, or nothing.
+  /// @return the property that the sphere of a face violates, or nothing.
   std::string_view violation(const std::vector<std::uint32_t>& face) const {
     std::vector<IntegerPoint> points;
     std::vector<Integer> weights;
@@ -150,7 +150,7 @@ class Faces {
     const Integer denominator = exact.determinant * exact.determinant;
     const auto times = [&](double x) { return Integer(integer_of(x, 2 * bits_) * denominator); };
     if (exact.radius > times(largest)) return found == largest;
-    // Of weights what counts is the largest of what is added up: |z - p|² and w.
+    // With weights, the largest summand counts: |z - p|² or w.
     Integer scale = abs(exact.radius);
     if (sites_.is_weighted())
       for (std::size_t i = 0; i < weights.size(); ++i)

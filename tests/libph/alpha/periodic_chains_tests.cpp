@@ -41,7 +41,7 @@ Alpha alpha_of(Generator& random, Index dim, int count) {
   return Alpha(points, {.period = std::vector<double>(static_cast<std::size_t>(dim), 1.5)});
 }
 
-// By generic engines: those of loops are the edges from a point to its images.
+// By generic engines: representatives of loops are the edges from a point to its images.
 TEST(PeriodicChains, OfOnePoint) {
   const Barcode bars = persistence(Alpha(Points{{0, 0}}, {.period = {2, 3}}),
                                    {.field = 3, .representatives = Representatives::cycles});
@@ -54,7 +54,7 @@ TEST(PeriodicChains, OfOnePoint) {
   EXPECT_EQ(bars.representative(3).size(), 2U);  // both triangles
 }
 
-// Also where points are so few that cells share their vertices.
+// Also with so few points that cells share their vertices.
 TEST(PeriodicChains, CyclesHaveNoBoundary) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
     const Index dim = random.integer(1, 3);

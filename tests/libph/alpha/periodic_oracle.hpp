@@ -26,8 +26,8 @@ struct Image {
 };
 
 /// The points are unrolled: a simplex is a set of images, up to translation, that lie on an empty
-/// sphere. All such are listed, up to a radius from which on the balls cover the convex hull: from
-/// there on nothing changes.
+/// sphere. All such simplices are listed up to a radius at which the balls cover the convex hull,
+/// because nothing changes beyond it.
 class PeriodicOracle {
  public:
   /// Ascending; the first image is not displaced.
@@ -186,9 +186,9 @@ class PeriodicOracle {
     }
   }
 
-  /// @return whether a larger set may have an empty sphere of the radius wanted.
+  /// @return true if a larger set may have an empty sphere of the required radius.
   bool add_sphere(const Places& set) {
-    // In doubles most spheres are seen to be too large or not to be empty.
+    // Doubles are enough to show that most spheres are too large or not empty.
     constexpr double flat = 1e-6, room = 1e-6;
     if (const auto centre = centre_of<double>(set, flat, rounded_, rounded_weights_)) {
       const auto power_of = [&](std::size_t i) {
@@ -227,7 +227,7 @@ class PeriodicOracle {
     return dot(to, to) - weights_of_places_[i];
   }
 
-  /// The point in the affine hull that has equal powers to all; nothing of dependent points.
+  /// The point in the affine hull with equal powers to all points; nothing for dependent points.
   template <class Number, class AnyPoint>
   std::optional<std::vector<Number>> centre_of(const Places& set, const Number& flat,
                                                const std::vector<AnyPoint>& places,

@@ -30,8 +30,8 @@ struct PeriodicCloud {
   }
 };
 
-/// A few points, in a box some of whose axes close up, and beyond it: anywhere; on a grid, with
-/// copies and on its border; in layers; on a grid that doubles cannot hold.
+/// A few points, inside and outside a box with some periodic axes: anywhere; on a grid, with copies
+/// and on its border; in layers; on a grid that doubles cannot represent.
 PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool weighted) {
   PeriodicCloud cloud{"", Points(random.integer(1, static_cast<int>(most)), dim), {}, {}};
   const int kind = random.integer(0, 3);
@@ -61,7 +61,7 @@ PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool 
   return cloud;
 }
 
-/// As many points and as many classes that never die as the space has.
+/// The complex has as many classes that never die as the space.
 void expect_betti_numbers(const Barcode& bars, int closed, std::size_t components = 1) {
   static constexpr std::size_t binomials[4][4]{
       {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
@@ -84,8 +84,8 @@ void check_definition(const PeriodicCloud& cloud) {
     ASSERT_NO_FATAL_FAILURE(expect_bars(bars, oracle.bars(p), absolute));
     expect_betti_numbers(bars, cloud.closed());
   }
-  // Each cell is one of the definition, and there are not more of them. Numbers that are rounded
-  // may put what is on a sphere beside it.
+  // Each cell belongs to the definition, and there are no others. Rounding may move points off a
+  // sphere.
   if (cloud.name[0] == 'd') return;
   std::vector<std::pair<std::vector<Index>, double>> left;
   for (const auto& [simplex, value] : oracle.values()) {
@@ -97,7 +97,7 @@ void check_definition(const PeriodicCloud& cloud) {
   for (const auto& [numbers, value] : left) most = std::max(most, value);
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
     alpha.for_each_cell(dim, [&](const Alpha::Cell& cell) {
-      if (alpha.value(cell) > most + absolute) return;  // beyond what the oracle looks at
+      if (alpha.value(cell) > most + absolute) return;  // beyond the oracle's range
       std::vector<Index> numbers;
       alpha.append_input_cell(dim, cell, numbers);
       const auto at = std::ranges::find_if(left, [&](const auto& other) {
@@ -193,7 +193,7 @@ TEST(Periodic, OneToTenPoints) {
     }
 }
 
-// A box of twice the length holds each point twice: each cell, too.
+// A box of twice the length holds each point and each cell twice.
 TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   for_each_seed(40, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3);
@@ -233,8 +233,8 @@ TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   });
 }
 
-// All in units of which translates are exact: up to rounding of values, which are computed from
-// vertices in another order.
+// All in units in which translations are exact; values may still differ by rounding, because they
+// are computed from vertices in another order.
 TEST(Periodic, TranslationChangesNothing) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3), n = random.integer(1, 60);

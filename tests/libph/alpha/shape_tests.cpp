@@ -27,7 +27,7 @@ std::map<Simplex, double> simplices_of(const Alpha& alpha) {
   return all;
 }
 
-/// Those with a face of one dimension less gone.
+/// The simplices left after a collapse with a face of one dimension less.
 std::vector<Simplex> facets_of(const Simplex& simplex) {
   std::vector<Simplex> facets;
   for (std::size_t i = 0; simplex.size() > 1 && i < simplex.size(); ++i) {
@@ -37,7 +37,7 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-/// Triangles of a set by how many of its tetrahedra they have, but those with two.
+/// Triangles by the number of tetrahedra of a set that contain them, except triangles with two.
 std::map<Simplex, int> surface_of(const std::set<Simplex>& set) {
   std::map<Simplex, int> sides;
   for (const Simplex& simplex : set)
@@ -59,7 +59,7 @@ void expect_surface(const SurfaceMesh& mesh, const std::set<Simplex>& set) {
   EXPECT_EQ(found, surface_of(set));
 }
 
-/// Six times what the regular triangles enclose.
+/// Six times the volume that the regular triangles enclose.
 double volume(const Points& points, const SurfaceMesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.regular; ++i) {
@@ -86,7 +86,7 @@ TEST(AlphaShapes, AreTheSurfacesOfTheSimplices) {
   });
 }
 
-// In general position one value is one interval, and what is alone in it is critical.
+// In general position, each value is one interval, and a simplex alone in an interval is critical.
 TEST(AlphaShapes, WrapsAreWhatLiesBelowCriticalSimplices) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t) {
     Cloud cloud{"", random.points(40, 3, false), {}};

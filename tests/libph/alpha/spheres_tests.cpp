@@ -11,7 +11,7 @@ namespace {
 TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
   for_each_seed(3000, [](Generator& random, bool weighted, std::int64_t) {
     const Index count = random.integer(2, 5), coordinates = random.integer(1, 3);
-    // Decimals, most of them as they are rounded: angles and spheres that are right but for that.
+    // Rounded decimals: angles and spheres that are exact up to this rounding.
     const double step = random.coin() ? 0.1 : 1;
     const bool moves = random.coin();
     const auto number = [&](int low, int high) {
@@ -22,7 +22,7 @@ TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
     };
     Points points(count, coordinates);
     for (double& x : points.coordinates()) x = number(-3, 3);
-    // Flat, beyond what twice the digits can tell.
+    // So flat that even twice the digits cannot tell.
     const Index flat = random.integer(0, 4);
     for (Index i = 0; flat < coordinates && i < count; ++i) points(i, flat) *= 1e-25;
     std::vector<double> weights;

@@ -20,7 +20,7 @@ ph_options defaults() {
   return options;
 }
 
-/// The bars with their cells, and nothing of the C++ library in between.
+/// The bars with their cells, without any use of the C++ library.
 void expect_same(ph_barcode* found, const Barcode& expected) {
   ASSERT_EQ(ph_barcode_size(found), expected.size());
   const ph_bar* bars = ph_barcode_bars(found);
@@ -92,7 +92,7 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
                                extents.data(), nullptr, &options, &found),
               PH_OK)
         << ph_last_error();
-    // The same from the other end, as an array in reverse order has it.
+    // The same backwards, as in an array in reverse order.
     std::vector<float> reversed(values.rbegin(), values.rend());
     std::vector<std::int64_t> strides(extents.size(), -1);
     for (std::size_t k = extents.size() - 1; k > 0; --k) strides[k - 1] = strides[k] * extents[k];
@@ -147,7 +147,7 @@ TEST(CInterface, TakesManyAtATime) {
     for (std::size_t i = 0; i < bars.size(); ++i)
       expect_same(bars[i], persistence(Cubical(Image{{4, 5}, images[i]})));
   }
-  // An error leaves nothing behind, and says of which input.
+  // An error leaves nothing behind, and names its input.
   std::vector<ph_barcode*> none(clouds.size(), nullptr);
   images[42][3] = std::nanf("");
   const std::int64_t extents[] = {4, 5};
@@ -217,7 +217,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, with([](auto& o) { o.distance = 6; }), "distance");
   expect(PH_USAGE, with([](auto& o) { o.size += 1; }), "size");
   expect(PH_USAGE, with([](auto& o) { o.size = 0; }), "size");
-  // A caller of before, who knows the first members only.
+  // An older caller, which knows only the first members.
   EXPECT_EQ(with([](auto& o) {
               o.distance = 6;
               o.size = offsetof(ph_options, distance);

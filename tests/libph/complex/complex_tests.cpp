@@ -135,7 +135,7 @@ TEST(ExplicitComplexes, WithoutIncidencesOnlyTwoWillDo) {
   expect_error(ErrorKind::usage, "incidence", [&] { persistence(complex, {.field = 3}); });
 }
 
-// The projective plane with one cell a dimension: the 2-cell goes twice round the loop.
+// The projective plane with one cell per dimension: the 2-cell goes twice round the loop.
 TEST(ExplicitComplexes, IncidencesThatVanishOverSomeFields) {
   BoundaryMatrix m;
   m.dims = {0, 1, 2};
@@ -196,7 +196,7 @@ TEST(ExplicitComplexes, RefuseBrokenBoundaryMatrices) {
   });
 }
 
-// A dimension is a number of a file: it must not decide how much memory is taken.
+// A dimension is a number in a file: it must not determine how much memory is taken.
 TEST(ExplicitComplexes, AbsurdDimensionsAreRefused) {
   BoundaryMatrix m;
   m.dims = {0, std::numeric_limits<int>::max()};
@@ -212,7 +212,7 @@ TEST(LowerStars, AddFacesAndLoneVertices) {
   EXPECT_EQ(mesh.size(), 8U) << "every vertex enters, faces are added";
   check(mesh, 2);
   EXPECT_EQ(bars_of(persistence(mesh)), (std::vector<Bar>{{0, 1, kInf}, {0, 9, kInf}}));
-  // Simplices that overlap or come twice are one.
+  // Simplices that overlap or occur twice count once.
   EXPECT_EQ(
       lower_star(list_of({{{0, 1}, 0}, {{1, 0}, 0}, {{0, 1, 2}, 0}, {{2}, 0}}), values).size(), 8U);
 }

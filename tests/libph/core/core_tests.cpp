@@ -159,7 +159,7 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_TRUE(barcode.bars(2).empty());
 }
 
-// In any order and turned round; few and many bars of one birth are sorted differently.
+// In any order and reversed; few and many bars with the same birth are sorted differently.
 TEST(Barcodes, WithoutCellsAreOrderedByValues) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Generator random(seed);

@@ -88,7 +88,8 @@ TEST(Floating, LongNumbersAndWhatFollows) {
 }
 
 TEST(Floating, FloatsAreRoundedOnce) {
-  // Half of the last place of a float above 1, and a little more: as a double it is the half alone.
+  // Slightly more than half of the last place of a float above 1: as a double it is exactly the
+  // half.
   const std::string_view text = "1.00000005960464477539062500000000001";
   float value = 0;
   floating_by_strtod(text.data(), text.data() + text.size(), value);
@@ -112,7 +113,7 @@ constexpr bool kHasFromChars = requires(T& value) {
   std::from_chars("", "", value);
 };
 
-/// As from_chars has it: both stop in the same place, say the same and read the same bits.
+/// Like from_chars: both stop at the same place, report the same and read the same bits.
 template <class T>
 void compare(const std::string& text) {
   if constexpr (kHasFromChars<T>) {
@@ -130,7 +131,7 @@ void compare(const std::string& text) {
 TEST(Floating, RandomTextsAsFromCharsReadsThem) {
   if (!kHasFromChars<double>) GTEST_SKIP() << "this C++ library has no std::from_chars of a double";
   for_each_seed(20000, [](Generator& random, bool, std::int64_t) {
-    // Pieces of numbers in any order: most are numbers, up to some place.
+    // Pieces of numbers in any order: most of the results are numbers up to some place.
     constexpr std::string_view pieces[] = {
         "-",   "+",        ".", "e", "E-", "e+3",  "0",   "1", "7",   "12",  "99999999", "inf",
         "nan", "infinity", " ", ",", "x",  "e-32", "e30", "(", "ab)", "000", "5e-324"};
@@ -139,7 +140,7 @@ TEST(Floating, RandomTextsAsFromCharsReadsThem) {
       text += pieces[random.integer(0, int{std::size(pieces)} - 1)];
     compare<double>(text);
     compare<float>(text);
-    // Any double, with as many digits as it takes or fewer.
+    // Any double, with all necessary digits or fewer.
     std::uint64_t bits = 0;
     for (int half = 0; half < 2; ++half)
       bits = bits << 32 | static_cast<unsigned>(random.integer(INT_MIN, INT_MAX));

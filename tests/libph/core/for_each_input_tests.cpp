@@ -55,7 +55,7 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
       EXPECT_EQ(of_input.memory.limit(), 600U);
     });
   }
-  // What one input has taken is not there for another one.
+  // Memory that one input has taken is not available to another.
   context.threads = 1;
   for_each_input(2, context, [&](std::size_t i, const RunContext& of_input) {
     const MemoryClaim most(of_input.memory, 600);
@@ -85,7 +85,7 @@ TEST(ForEachInput, NamesTheFirstThatFails) {
       std::bad_alloc);
 }
 
-/// Until it is told to stop; what fails ends the test by its own time.
+/// Waits until it is told to stop; on failure, the time limit ends the test.
 void wait_for_a_stop(const RunContext& context) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   while (std::chrono::steady_clock::now() < end) context.poll();

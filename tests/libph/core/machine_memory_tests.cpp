@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-// A tree of control groups as the kernel shows it.
+// A tree of control groups, as the kernel presents it.
 class ControlGroups : public testing::Test {
  protected:
   void SetUp() override {

@@ -39,8 +39,8 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_EQ(budget.peak(), 1000U);
 }
 
-// Under any limit a computation gives the right answer or says that memory is short, and then it
-// has given everything back.
+// Under any limit, a computation gives the right answer or reports that memory is short, and in
+// that case it has freed everything.
 TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);
@@ -106,8 +106,8 @@ std::size_t entering(const Image& image) {
                                                 [](double v) { return v < kInfinity; }));
 }
 
-// What a filtration makes late belongs to it and is counted with it; the run that needs it is
-// bounded all the same.
+// Data that a filtration builds later belong to it and count with it; the run that needs them is
+// bounded nevertheless.
 TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
   const Image image = Generator(3).image({9, 8, 7}, false);
   for (const Engine engine : kListCells) {

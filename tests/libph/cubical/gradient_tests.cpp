@@ -78,7 +78,7 @@ TEST(Gradient, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(longer, std::size_t{3000})) << longer;
 }
 
-// Larger ones against the boundary matrix: loops with long boundaries, columns that are added.
+// Larger images against the boundary matrix: loops with long boundaries, columns that are added.
 TEST(Gradient, AgreeOnLargerVolumes) {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
@@ -94,7 +94,7 @@ TEST(Gradient, AgreeOnLargerVolumes) {
   }
 }
 
-// Few critical cells: arrows are followed when they are asked for, not all at once.
+// Few critical cells: arrows are followed on demand, not all at once.
 TEST(Gradient, AgreeOnSmoothImages) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -126,8 +126,8 @@ TEST(Gradient, AgreeOnSmoothImages) {
   }
 }
 
-// V of f is T of -f with a border that is there first, with dimension k for d-1-k, ends changed
-// and negated, but for the classes that never die.
+// V of f equals T of -f with a border that enters first, with dimension k in place of d-1-k and
+// with the ends swapped and negated, except for the classes that never die.
 TEST(Gradient, ConstructionsAreDual) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
@@ -171,12 +171,12 @@ TEST(Gradient, ConstructionsAreDual) {
     };
     std::ranges::sort(direct, before);
     std::ranges::sort(dual, before);
-    // The border dies against what is highest: one bar more, of the highest dimension.
+    // The border dies at the highest value: one more bar, in the highest dimension.
     EXPECT_EQ(direct, dual);
   }
 }
 
-// A periodic axis of one voxel is a circle: it makes a bar of each dimension one of the next, too.
+// A periodic axis of one voxel is a circle: each bar also has a copy in the next dimension.
 TEST(Gradient, CirclesRaiseDimensions) {
   std::size_t raised = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {

@@ -62,7 +62,7 @@ Case random_case(Generator& random) {
   return result;
 }
 
-/// How parts and messages take their turns.
+/// The schedule of parts and messages.
 enum class Schedule { rounds, random, one_at_a_time, last_message_first };
 
 struct Outcome {
@@ -76,7 +76,7 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   for (int i = 0; i < count; ++i) {
     ImagePart part(c.image, i, count, c.options);
     loops.emplace_back(part, c.field);
-    // On its way to the others a part is its bytes.
+    // A part travels as its bytes.
     if (random.coin()) part = ImagePart::of_bytes(part.bytes());
     if (whole)
       whole->join(std::move(part));
@@ -127,7 +127,7 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
       post(loops[i]);
     }
     if (on_their_way.empty()) continue;
-    // Those that have waited longest are kept back as long as anybody can work without them.
+    // Messages that have waited longest are held back as long as any part can work without them.
     if (schedule == Schedule::last_message_first) {
       if (std::ranges::all_of(loops, &ImageLoops::is_idle)) deliver(on_their_way.size() - 1);
     } else if (random.coin()) {
@@ -148,8 +148,8 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   return run;
 }
 
-/// Memory that parts give back is theirs again at once: to ask the system for it each time would
-/// take most of the time of these tests.
+/// Memory that parts free is reused at once, because requesting it from the system each time would
+/// dominate the time of these tests.
 void keep_memory() {
 #ifdef __GLIBC__
   constexpr int much = 1 << 30;
@@ -184,11 +184,11 @@ TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(runs, std::size_t{50000})) << runs;
   EXPECT_TRUE(is_enough(loops, std::size_t{3000})) << loops;
   EXPECT_TRUE(is_enough(sent, std::size_t{10000})) << sent;
-  // For those who look for more by hand.
+  // For longer searches by hand.
   std::cout << runs << " runs, " << loops << " loops, " << sent << " columns sent\n";
 }
 
-/// The loops of all parts of an image when all have begun, and what they say first.
+/// The loops of all parts of an image after all have begun, and their first messages.
 struct Begun {
   std::vector<ImageLoops> loops;
   std::vector<ImageLoops::Message> messages;
@@ -212,7 +212,7 @@ Begun begun(const Image& image, int count, const ImagePartOptions& options, std:
   return all;
 }
 
-/// Rounds until nothing is on its way. @return the bars of all parts.
+/// Runs rounds until no message is in transit. @return the bars of all parts.
 std::vector<Pair> finished(Begun all) {
   while (!all.messages.empty()) {
     for (const auto& message : std::exchange(all.messages, {}))
@@ -231,7 +231,7 @@ std::vector<Pair> finished(Begun all) {
   return pairs;
 }
 
-// Enough columns for several threads, and rounds in which they take pivots from each other.
+// Enough columns for several threads, and for rounds in which they take pivots from each other.
 TEST(ImageLoops, ThreadsDoNotMatter) {
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     Generator random(7);

@@ -121,7 +121,7 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_EQ(first.last(), 1);
 }
 
-// But for holes: of two that have always been there one is closed first, sooner or later.
+// Except for holes: of two that have always existed, either may be closed first.
 TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   int compared = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
@@ -135,7 +135,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
     };
     if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) continue;
     ++compared;
-    // Of four parts the first three, in both groupings.
+    // The first three of four parts, in both groupings.
     if (c.layers < 4) continue;
     auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
     left[0].join(std::move(left[1]));
@@ -214,7 +214,7 @@ TEST(ImagePart, RefusesDamagedBytes) {
   const Image image = random.image({6, 7}, false);
   const std::vector<std::byte> bytes = ImagePart(image, 1, 3).bytes();
   std::size_t refused = 0;
-  // What is taken for a part is joined: no number leads out of a list.
+  // Bytes accepted as a part can be joined: no index leaves its list.
   const auto is_refused = [&](std::span<const std::byte> damaged) {
     try {
       ImagePart whole(image, 0, 3);
@@ -238,7 +238,7 @@ TEST(ImagePart, RefusesDamagedBytes) {
       damaged[i] ^= flipped;
       ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  // With a checksum that fits: a value may be another one, a list may not.
+  // With a matching checksum: a changed value may be accepted, a changed list may not.
   for (std::size_t i = 0; i < content.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       std::vector<std::byte> damaged(content.begin(), content.end());
@@ -246,7 +246,7 @@ TEST(ImagePart, RefusesDamagedBytes) {
       refused += is_refused(sealed_part("image", damaged)) ? 1 : 0;
     }
   EXPECT_GT(refused, content.size() / 4);
-  // NaN wherever a value may stand.
+  // NaN in every place of a value.
   for (std::size_t i = 0; i + sizeof(double) <= content.size(); ++i) {
     std::vector<std::byte> damaged(content.begin(), content.end());
     std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(i), sizeof(double), std::byte{0xff});

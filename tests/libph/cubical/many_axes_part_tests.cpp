@@ -96,7 +96,7 @@ TEST(ManyAxesPart, AgreesUpToEightAxes) {
   EXPECT_GT(bars, 200U);
 }
 
-// What lies between needs all layers: no part says less than was asked for.
+// The dimensions between need all layers: no part returns less than requested.
 TEST(ManyAxesPart, SaysWhatCanBeHad) {
   const auto refused = [](std::vector<Index> extents, ImagePartOptions options, const char* why) {
     Generator random(1);
@@ -136,7 +136,7 @@ TEST(ManyAxesPart, RefusesDamagedBytes) {
       for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
         std::vector<std::byte> damaged(content.begin(), content.end());
         damaged[i] ^= flipped;
-        // What is taken for a part is joined: no number leads out of a list.
+        // Bytes accepted as a part can be joined: no index leaves its list.
         try {
           ImagePart whole(image, 0, 3, options);
           whole.join(ImagePart::of_bytes(sealed_part("image", damaged)));

@@ -133,8 +133,8 @@ TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {
             std::vector<Bar>(without.begin(), without.end()));
 }
 
-// Under any limit an image gives the right answer or says that memory is short, and then it has
-// given everything back; a stop is heard at every stage.
+// Under any limit, an image gives the right answer or reports that memory is short, and in that
+// case everything is freed; a stop is obeyed at every stage.
 TEST(ManyAxes, BudgetsAndStops) {
   const Image image = Generator(5).image({8, 9, 7, 8}, false);
   const auto run = [&](const RunContext& context) {

@@ -28,7 +28,8 @@ void expect_in_order(const ImagePartForecast::Bytes& bytes) {
   EXPECT_TRUE(std::isfinite(bytes.high));
 }
 
-/// Foresees each number of parts, and sees whether parts may begin with the layers that it says.
+/// Makes a forecast for each number of parts, and checks that parts may begin with the predicted
+/// layers.
 void expect_valid(const Image& image, ImagePartOptions options, int layers) {
   for (int parts = 1; parts <= layers; ++parts) {
     SCOPED_TRACE(parts);
@@ -133,12 +134,12 @@ TEST(PartForecast, LongRowsAreSeen) {
   }
 }
 
-/// What all parts together took.
+/// The memory of all parts together.
 struct Taken {
-  double memory = 0, file = 0, sent = 0;  ///< of the part that took most; of all together
+  double memory = 0, file = 0, sent = 0;  ///< of the largest part; of all parts together
 };
 
-/// What ranks take. Image and parts have a memory budget of their own on each.
+/// The memory of ranks. The image and the parts on each rank have separate memory budgets.
 Taken taken_on_ranks(const Image& image, const ImagePartOptions& options, int parts) {
   Taken taken;
   std::mutex mutex;

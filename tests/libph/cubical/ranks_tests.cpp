@@ -17,7 +17,7 @@
 namespace ph::test {
 namespace {
 
-/// What rank 0 gets.
+/// The result of rank 0.
 Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks, std::int64_t field = 2) {
   Barcode bars(CellKind::grid);
   ranks.run([&](Transport& transport) {
@@ -108,7 +108,7 @@ TEST_P(Mishaps, AreSeen) {
     ranks.plan(GetParam(), static_cast<int>(seed) % 8);
     try {
       const Barcode bars = bars_of_ranks(c, ranks);
-      // The second of two that are the same stays unread: nobody asks for it.
+      // The second of two equal messages stays unread, because nobody asks for it.
       EXPECT_TRUE(GetParam() == Mishap::doubled || !ranks.has_happened());
       EXPECT_EQ(pairs_of(bars), pairs_of(ImagePart(c.image, 0, 1).barcode()));
     } catch (const Error& error) {
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(All, Mishaps,
                          testing::Values(Mishap::lost, Mishap::doubled, Mishap::swapped,
                                          Mishap::changed));
 
-/// Sends three messages from rank 1 to rank 0 and reads as many.
+/// Sends three messages from rank 1 to rank 0 and reads three.
 void three_messages(ThreadRanks& ranks) {
   ranks.run([](Transport& transport) {
     Post post(transport);

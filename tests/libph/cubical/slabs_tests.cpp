@@ -132,7 +132,7 @@ std::vector<FarBar> far_bars(const Image& image, const CubicalOptions& options) 
   return found;
 }
 
-// Rows are looked at in blocks of some thousand voxels.
+// Rows are processed in blocks of some thousand voxels.
 TEST(Slabs, HaveLongRows) {
   Generator random(8);
   for (const std::vector<Index>& extents :
@@ -181,7 +181,7 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
   }
 }
 
-// Noise has more critical cells than voxels: loops do not fit, all else does.
+// Noise has more critical cells than voxels: loops do not fit, but everything else does.
 TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);

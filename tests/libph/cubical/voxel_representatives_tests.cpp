@@ -24,7 +24,7 @@ TEST(VoxelRepresentatives, SetsByFloodFill) {
   });
 }
 
-// All shapes of one to three voxels along one to three axes, whatever axes close up.
+// All shapes with one to three voxels along one to three axes, with any periodic axes.
 TEST(VoxelRepresentatives, OfAllSmallShapes) {
   for_each_seed(4, [](Generator& random, bool ties, std::int64_t field) {
     for (std::size_t axes = 1; axes <= 3; ++axes) {
@@ -50,7 +50,7 @@ TEST(VoxelRepresentatives, OfAllSmallShapes) {
   });
 }
 
-// The circle of one voxel that everything goes around.
+// The circle of one voxel that everything surrounds.
 TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   const Image pair{{1, 2}, {1, 2}};
   const Barcode bars = persistence(Cubical(pair, {.periodic = {true}}),
@@ -70,8 +70,8 @@ TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   EXPECT_GT(around.representative(1).size(), 0U);
 }
 
-// Columns that are added to each other, long ways through the forest: what each number of threads
-// finds is the same, closed, and born when it should be.
+// Columns that are added to each other, long paths through the forest: with any number of threads,
+// the representatives are the same, closed, and born at the right value.
 TEST(VoxelRepresentatives, CyclesOfLargerVolumes) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const std::vector<Index> extents{12, 9, 11};
@@ -125,7 +125,7 @@ TEST(VoxelRepresentatives, OnlyOfImagesWithPositiveLength) {
   Options zero_length = voxels;
   zero_length.min_persistence = -1;
   EXPECT_THROW(persistence(Cubical(flat), zero_length), Error);
-  // Without cells there are sets all the same.
+  // Without cells, there are still sets.
   Options bare = voxels;
   bare.cells = false;
   EXPECT_EQ(persistence(Cubical(flat), bare).voxels(0).size(), 4U);

@@ -33,8 +33,8 @@ long double power(long double distance, int order) {
   return order == 1 ? distance : distance * distance;
 }
 
-/// Prices are feasible, they sum up to what is said and the pairs cost what is said: the duality of
-/// linear programs, in more digits than those of the prices.
+/// Prices are feasible, and their sum and the cost of the pairs equal the stated cost: the duality
+/// of linear programs, in more digits than those of the prices.
 void expect_proof(const Assignment& found, int order, const std::string& where) {
   const auto &a = found.side(0), &b = found.side(1);
   const auto alone = [&](const Point& p) {
@@ -89,7 +89,7 @@ TEST(Assignment, PricesProveTheMatching) {
     Assignment found(a, b, cost, default_context());
     ASSERT_TRUE(Auction(found, default_context()).run(kToTheEnd, 1'000'000));
     expect_proof(found, order, std::to_string(round));
-    // Ties: then auctions are long, and shortest paths many. In a unit that makes costs about 1.
+    // Ties make auctions long and shortest paths many. In a unit that makes costs about 1.
     auto c = random_points(random, 300, 8), d = random_points(random, 200 + random() % 200, 8);
     for (auto* points : {&c, &d})
       for (Point& p : *points) p = {p[0] / 8, p[1] / 8};
@@ -99,8 +99,8 @@ TEST(Assignment, PricesProveTheMatching) {
   }
 }
 
-// Whatever the costs, an auction ends: it is given up after so many bids, and shortest paths have
-// no increments.
+// An auction ends whatever the costs: it is abandoned after a number of bids, and shortest paths
+// have no increments.
 TEST(Assignment, ShortestPathsFollowAnAuctionThatIsGivenUp) {
   std::mt19937 random(2);
   for (int round = 0; round < 30; ++round) {

@@ -123,8 +123,8 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   }
 }
 
-// Bars in a row, each within reach of two of the other diagram, and the one that is free is at the
-// end: ways between bars that are alone are long.
+// Bars in a row, each within reach of two of the other diagram, with the free one at the end: paths
+// between unmatched bars are long.
 TEST(Bottleneck, OfBarsInARow) {
   std::mt19937 random(6);
   for (int round = 0; round < 20; ++round) {
@@ -206,7 +206,8 @@ TEST(Bottleneck, OfManyCopies) {
     a.push_back({1, 1e6, 1e6 + 1 + i % 3});
     b.push_back({1, 1e6, 1e6 + 1 + i % 2});
   }
-  // Of 1 000 bars of length 3 none has a partner of that length; the others are 500 too many.
+  // None of 1 000 bars of length 3 has a partner of that length; there are 500 too many of the
+  // others.
   EXPECT_EQ(bottleneck_distance(a, b), 1);
 }
 
@@ -231,7 +232,7 @@ TEST(Bottleneck, BarsWithoutEndAreForEachOther) {
   EXPECT_EQ(bottleneck_distance(Bars{{0, kInfinity, kInfinity}}, {}), 0);
 }
 
-/// Whether a pairing costs no more than a distance. Exactly as the definition has it.
+/// True if a pairing costs at most the distance, exactly by the definition.
 void expect_certificate(const Bars& a, const Bars& b, const BottleneckMatching& matching,
                         const std::string& where) {
   std::vector<bool> in_a(a.size()), in_b(b.size());

@@ -35,8 +35,8 @@ Spans spans_of(const std::vector<Bars>& diagrams) { return {diagrams.begin(), di
 
 // ---- sliced Wasserstein
 
-/// What is between two sets of numbers: the integral of how many more of one than of the other lie
-/// below a number.
+/// The distance of two sets of numbers: the integral of the difference in how many lie below a
+/// number.
 double between(std::vector<std::pair<double, int>> numbers) {
   std::ranges::sort(numbers);
   double sum = 0;
@@ -159,7 +159,7 @@ TEST(DiagramDistances, OfSomeFromOthers) {
   std::vector<Bars> some, others;
   for (int i = 0; i < 3; ++i) some.push_back(random_bars(random, 5 + random() % 100));
   for (int i = 0; i < 5; ++i) others.push_back(random_bars(random, 5 + random() % 100));
-  // Not symmetric: which of both comes first.
+  // Not symmetric: the order of the two matters.
   const auto difference = [](std::span<const Bar> a, std::span<const Bar> b, const RunContext&) {
     return static_cast<double>(1000 + a.size()) - static_cast<double>(b.size());
   };
@@ -218,7 +218,7 @@ TEST(BarycentreOfDiagrams, ThatAreKnown) {
   EXPECT_EQ(middle.bars, (Bars{{0, 1.5, 6.5}, {0, 12, kInfinity}}));
   EXPECT_DOUBLE_EQ(middle.root_mean_square, std::sqrt(0.25 + 2.25 + 4));
   EXPECT_EQ(middle.rounds, 1);
-  // A bar of one of them and the diagonal of the other three: a quarter of its length is left.
+  // A bar of one diagram and the diagonal of the other three: a quarter of its length remains.
   const std::vector<Bars> alone = {{}, {{0, 0, 8}}, {}, {}};
   const Barycentre quarter = barycentre(spans_of(alone));
   EXPECT_EQ(quarter.bars, (Bars{{0, 3, 5}}));
@@ -250,7 +250,7 @@ TEST(BarycentreOfDiagrams, IsALocalMinimum) {
       least = std::min(least, root_mean_square(diagram, diagrams));
     ASSERT_LE(medoid.root_mean_square, 1.01 * least) << round;
     ASSERT_NEAR(root_mean_square(found.bars, diagrams), found.root_mean_square, 1e-10) << round;
-    // No bar gains by a small step.
+    // No bar can be improved by a small step.
     for (Bar& bar : Bars(found.bars)) {
       Bars moved = found.bars;
       auto& other = *std::ranges::find(moved, bar);

@@ -55,7 +55,7 @@ struct Costs {
   }
 };
 
-// Prices had the digits of the dearest bar: matchings were those of chance above order 6 or so.
+// Prices had only the digits of the most expensive bar: above order 6 or so, matchings were random.
 TEST(WassersteinScales, SmallDifferencesOfLongBars) {
   for_each_seed(3000, [](Generator& random, bool has_ties, std::int64_t) {
     static constexpr double orders[]{1, 2, 3, 4, 8, 16, 30};
@@ -73,14 +73,14 @@ TEST(WassersteinScales, SmallDifferencesOfLongBars) {
       for (Bars* bars : {&a, &b})
         bars->push_back({1, scale * (bar.birth + shift()), scale * (bar.death + shift())});
     }
-    // Short ones, which cost about as much alone as in a pair.
+    // Short bars, which cost about as much alone as in a pair.
     for (Bars* bars : {&a, &b})
       for (int i = random.integer(0, 1); i > 0; --i) {
         const double birth = 1 + shift();
         bars->push_back({1, scale * birth, scale * (birth + 4 * apart * random.real())});
       }
     std::ranges::reverse(b);
-    // In units in which the least matching costs about as much as long doubles hold digits of.
+    // In units in which long doubles still have digits for the cost of the best matching.
     std::vector<bool> used(b.size());
     Bars a_in_unit = a, b_in_unit = b;
     for (Bars* bars : {&a_in_unit, &b_in_unit})

@@ -27,7 +27,7 @@ double norm(double x, double y, double q) {
   return std::pow(std::pow(std::abs(x), q) + std::pow(std::abs(y), q), 1 / q);
 }
 
-/// Costs of pairs, and of bars left over: those of the nearest point of the diagonal.
+/// Costs of pairs, and of unmatched bars: the distance to the nearest point of the diagonal.
 double pair_cost(const Bar& a, const Bar& b, double p, double q) {
   return std::pow(norm(a.birth - b.birth, a.death - b.death, q), p);
 }
@@ -119,8 +119,8 @@ Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
   return bars;
 }
 
-/// Whether bounds are those of a known distance, exact but for rounding.
-/// @param alone what all bars cost that go to the diagonal: prices are rounded in proportion to it.
+/// True if bounds fit a known distance, up to rounding.
+/// @param alone the cost of all bars on the diagonal: the rounding of prices is proportional to it.
 void expect_distance(const DistanceBounds& found, double expected, const std::string& where,
                      double p = 1, double alone = 0) {
   ASSERT_NEAR(found.value, expected, 1e-11 * expected) << where;
@@ -146,7 +146,7 @@ TEST(Wasserstein, IsTheBestOfAllMatchings) {
   }
 }
 
-/// Whether each bar is in one pair, and what the pairs cost is what was said.
+/// True if each bar is in one pair, and the pairs have the stated cost.
 void expect_matching(const Bars& a, const Bars& b, double p, double q,
                      const WassersteinMatching& found, const std::string& where) {
   std::vector<int> in_a(a.size()), in_b(b.size());
@@ -247,7 +247,7 @@ TEST(Wasserstein, BarsWithoutEndAreForEachOther) {
   const Bars b = {{0, 3.5, kInfinity}, {0, 0.25, kInfinity}};
   EXPECT_EQ(wasserstein_distance(a, b).value, 1.25);
   EXPECT_EQ(wasserstein_distance(a, b, {.order = 2}).value, std::sqrt(0.5625));
-  // What is equal costs the others no digits.
+  // Equal bars cost the others no digits.
   const Bars equal = {{0, 0, 5}, {0, 0, kInfinity}, {0, 100, kInfinity}, {0, 200, kInfinity}};
   const Bars moved = {{0, 0, 5}, {0, 19, kInfinity}, {0, 118, kInfinity}, {0, 205, kInfinity}};
   EXPECT_EQ(wasserstein_distance(equal, moved).value, 42);
@@ -331,7 +331,7 @@ TEST(Wasserstein, OfLengthsOfManyMagnitudes) {
   const Bars b = {{0, 0, 1e9}, {0, 1, 1 + 1e-9}};
   const DistanceBounds found = wasserstein_distance(a, b);
   EXPECT_GE(found.value * (1 + 1e-12), 5e-10);
-  EXPECT_LE(found.value, 5e-10 * (1 + 1e-6));  // 1e-9 behind 1 is not what it says
+  EXPECT_LE(found.value, 5e-10 * (1 + 1e-6));  // 1e-9 after 1 is not exact
   EXPECT_LE(found.lower, 5e-10 * (1 + 1e-12));
 }
 

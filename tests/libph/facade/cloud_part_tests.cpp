@@ -52,7 +52,7 @@ std::vector<CloudPart> parts_of(PointsView points, int count, const CloudPartOpt
   return parts;
 }
 
-/// Deaths of the components, by all pairs and nothing of libph.
+/// Deaths of the components, from all pairs and without libph.
 std::vector<double> deaths_by_all_pairs(const Points& points, double limit) {
   const auto n = static_cast<std::size_t>(points.rows());
   std::vector<double> nearest(n, std::numeric_limits<double>::infinity()), deaths;
@@ -113,7 +113,7 @@ Points random_cloud(Generator& random, Index most, bool ties) {
         if (random.coin())
           copy_point(points, random.integer(0, static_cast<int>(i) - 1), points, i);
       break;
-    case 4:  // one dense place, and few elsewhere
+    case 4:  // one dense place, and few points elsewhere
       for (Index i = 0; i < n; ++i)
         if (random.integer(0, 9) > 0) scale(points.row(i), 1e-3);
       break;
@@ -154,7 +154,7 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
     const Barcode without_cells = whole.barcode();
     ASSERT_TRUE(std::ranges::equal(without_cells, found));
     ASSERT_EQ(pairs_of(found), pairs_of(bars));
-    ASSERT_EQ(all_pairs(rips), pairs);  // those of no length, too
+    ASSERT_EQ(all_pairs(rips), pairs);  // including those of length zero
     const MergeTree found_tree = merge_tree(rips);
     ASSERT_EQ(found_tree.births, tree.births);
     ASSERT_EQ(found_tree.merges, tree.merges);
@@ -162,7 +162,7 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
   EXPECT_TRUE(is_enough(parts, std::size_t{20000})) << parts;
 }
 
-// Enough points that most of a cloud is far from a block: what is left out matters.
+// Enough points that most of a cloud is far from a block, so that the omitted points matter.
 TEST(CloudPart, OfManyPoints) {
   for_each_seed(40, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 20000, false);
@@ -179,7 +179,7 @@ TEST(CloudPart, OfManyPoints) {
   });
 }
 
-// A part is what it is by itself: it holds its block and what is near.
+// A part does not depend on others: it holds its block and the points near it.
 TEST(CloudPart, LeavesOutWhatIsFar) {
   Generator random(1);
   const Points points = random.points(200000, 2, false);
@@ -192,7 +192,7 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
 }
 
-// Of a size whose squares no double holds, all or only those of a part.
+// Coordinates whose squares exceed doubles, in all parts or only in one.
 TEST(CloudPart, OfCoordinatesOfAnySize) {
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 40, ties);
@@ -313,7 +313,7 @@ TEST(CloudPart, StopsAndKeepsToItsMemory) {
   expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
 }
 
-// A part of another cloud that says it is of this one: it joins less, or other points.
+// A part of another cloud that claims to belong to this one: it joins fewer points, or others.
 TEST(CloudPart, FindsEdgesThatAreMissing) {
   constexpr std::size_t fingerprint = 40, bytes_of_it = 8;
   int found = 0, counted = 0, all = 0;

@@ -44,7 +44,7 @@ std::vector<Index> flooded(const std::vector<double>& births,
   return component;
 }
 
-// All that a merge tree promises of a graph on vertices with births.
+// All promises of a merge tree of a graph on vertices with births.
 void check_tree(const MergeTree& tree, const std::vector<double>& births,
                 const std::vector<WeightedEdge>& edges, const Barcode& oracle) {
   ASSERT_EQ(tree.births, births);
@@ -98,7 +98,7 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
       EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].value, death);
     }
   }
-  // So are the branches, each of which joins one that is no younger and dies no sooner.
+  // The same holds for branches, each of which joins one that is no younger and dies no sooner.
   const std::vector<Branch> branches = tree.branches();
   std::vector<std::pair<double, double>> ends, all;
   for (const auto& c : classes) all.emplace_back(c.birth, c.death);
@@ -267,7 +267,7 @@ TEST(MergeTrees, AtAValueThatIsNoneNothingHasEntered) {
   EXPECT_EQ(line.components(std::numeric_limits<double>::quiet_NaN()), std::vector<Index>(5, -1));
 }
 
-// A chain of merges as long as there are vertices must not take quadratic time.
+// A chain of merges as long as the number of vertices must not take quadratic time.
 TEST(MergeTrees, LongChains) {
   constexpr Index n = 300000;
   std::vector<double> births(static_cast<std::size_t>(n));

@@ -87,7 +87,7 @@ TEST(Options, MinPersistenceIsExclusive) {
   EXPECT_EQ(count(kInf), 1U) << "infinite bars stay";
 }
 
-// Fields only differ in what they can see: all large ones see the same.
+// Fields differ only in the torsion that they detect: all large ones give the same bars.
 TEST(Options, LargeCharacteristics) {
   const ExplicitComplex klein = vertex_by_vertex(klein_bottle());
   check(klein, 2, {65537, 2147483647});
@@ -177,8 +177,8 @@ TEST(Estimates, SampleTheCellsWhereTheyAreMany) {
   check_sample(Rips(DistanceMatrix(30, std::vector<double>(435, 1.0))), 6);
 }
 
-// What a computation takes by its own count lies in the interval, for engines that list and that do
-// not, metric and not.
+// The memory that a computation counts lies in the predicted interval, for engines that list cells
+// and engines that do not, for metrics and other distances.
 TEST(Estimates, HoldThePeak) {
   Generator random(11);
   const auto check_peak = [](const auto& input, const Options& options) {
@@ -204,7 +204,7 @@ TEST(Estimates, HoldThePeak) {
       check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
     }
   }
-  // Columns take far more than what is always allowed for.
+  // Columns take far more than the fixed allowance.
   check_peak(random.distances(140, false),
              {.max_dim = 2, .engine = Engine::cohomology, .collapse = Collapse::off});
 }
@@ -318,7 +318,7 @@ TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
                [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
 }
 
-/// The same with cofacets in the worst order, and an honest `false`.
+/// The same with cofacets in the worst order, declared truthfully by `false`.
 struct SquareWithCofacets : Square {
   static constexpr bool first_equal_cofacet_is_oldest = false;
   unsigned key(Cell c) const { return static_cast<unsigned>(value(c)); }
@@ -334,8 +334,8 @@ TEST(UserFiltrations, CofacetsInAnyOrder) {
   for (const bool filled : {false, true}) check(SquareWithCofacets{{filled}}, 2);
 }
 
-/// Simplices all at value 0, numbered from 0 in each dimension: a cell is unique in its dimension
-/// only, as the contract has it.
+/// Simplices all at value 0, numbered from 0 in each dimension: as in the contract, a cell is
+/// unique only within its dimension.
 class NumberedByDimension {
  public:
   using Cell = unsigned;
@@ -394,7 +394,7 @@ class NumberedByDimension {
 };
 static_assert(CofacetFiltration<NumberedByDimension>);
 
-/// The same without cofacets, so that no pair can be seen without a reduction.
+/// The same without cofacets, so that no pair can be found without a reduction.
 struct FacetsOnly : private NumberedByDimension {
   using Cell = unsigned;
   using NumberedByDimension::append_input_cell, NumberedByDimension::cell_kind,

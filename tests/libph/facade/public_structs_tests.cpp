@@ -103,7 +103,8 @@ TEST(PublicStructs, BoundaryMatrix) {
          m.values = {0, 2, 1};
        }))},
   });
-  // An incidence is any number; one that no absolute value has is no edge between two vertices.
+  // An incidence is any number; one without a representable absolute value is not an edge between
+  // two vertices.
   const auto odd = ExplicitComplex::from_boundary(edge([](auto& m) {
     m.incidences = {INT_MIN, INT_MAX};
   }));
@@ -285,7 +286,7 @@ TEST(PublicStructs, Options) {
     cases.push_back({"field", kUsage, "field", [&, options] { persistence(cubical, options); }});
   }
   expect_errors(cases);
-  // A dimension beyond all is none.
+  // A dimension beyond all others is invalid.
   EXPECT_EQ(persistence(cubical, {.max_dim = INT_MAX}).size(), persistence(cubical).size());
   EXPECT_EQ(persistence(listed, {.max_dim = INT_MAX}).size(), persistence(listed).size());
 }

@@ -112,7 +112,7 @@ TEST(RipsForms, OfOneRipsForManyThreads) {
   }
 }
 
-/// A metric that says when it is asked, and answers when it may.
+/// A metric that reports calls, and answers when it is allowed to.
 struct Gate {
   std::atomic<bool> is_asked = false, may_answer = false;
 };
@@ -257,7 +257,7 @@ TEST(RipsForms, OutliveTheContextOfTheCall) {
   for (const RipsForm form : {RipsForm::edges, RipsForm::forest}) rips.graph(form, *call);
   source.request_stop();
   call.reset();
-  // What engines make of a form later is counted with it.
+  // Data that engines build later from a form are counted with it.
   for (const Rips& used : {rips, plain})
     for (const Engine engine : {Engine::edge_links, Engine::cohomology, Engine::twist})
       EXPECT_GT(persistence(used, {.engine = engine}).size(), 0U);
@@ -327,7 +327,7 @@ TEST(RipsInputs, DistancesAreShared) {
   const SparseDistances sparse(3, {{0, 1, 1}, {1, 2, 1}});
   const SparseDistances other = sparse;
   EXPECT_EQ(other.edges().data(), sparse.edges().data());
-  // They outlive the one that they were given as.
+  // They outlive the object that was passed.
   auto first = std::make_unique<DistanceMatrix>(some_distances());
   const DistanceMatrix second = *first;
   const Rips rips(*first);
@@ -425,7 +425,7 @@ TEST(RipsInputs, CanBeAskedOtherQuestions) {
   expect_error(ErrorKind::usage, "Rips:", [&] { graph.with({}); });
 }
 
-// ---- forms that there are not
+// ---- forms that do not exist
 
 TEST(RipsForms, ThatAnInputCannotHaveAreRefused) {
   const auto refused = [](const Rips& rips, const std::string& why, std::vector<RipsForm> forms) {

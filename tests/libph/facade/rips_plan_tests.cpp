@@ -102,7 +102,7 @@ TEST(RipsPlans, MakeNoEdges) {
     expect_little(options, {.representatives = Representatives::cycles});
     expect_little(options, {.engine = Engine::edge_links});
   }
-  // Components and loops of points do without at all times.
+  // Components and loops of points never need them.
   const Points plane = Generator(1).points(20'000, 2, false);
   for (const int max_dim : {0, 1}) {
     RunContext home;
@@ -114,7 +114,7 @@ TEST(RipsPlans, MakeNoEdges) {
   EXPECT_LT(home.memory.peak(), std::size_t{16} << 20);
 }
 
-/// All that a plan decides.
+/// Everything that a plan decides.
 std::string said(const RunPlan& plan) {
   const Options& options = plan.options;
   return fmt::format("{} up to {}, form {}, collapse {}: {}; {}", options.engine.name(),
@@ -122,7 +122,7 @@ std::string said(const RunPlan& plan) {
                      static_cast<int>(options.collapse), plan.reason, plan.collapse_reason);
 }
 
-/// What is planned, or why nothing can be.
+/// The plan, or the reason why there can be none.
 std::string said(const Rips& rips, const Options& task,
                  const RunContext& context = default_context()) {
   try {
@@ -172,7 +172,7 @@ TEST(RipsPlans, DependOnNothingButQuestionAndTask) {
   EXPECT_TRUE(is_enough(planned, 1000)) << planned;
 }
 
-// A plan that is planned again stays, unless no edge is there: then a forest is enough.
+// Planning a plan again does not change it, unless there are no edges: then a forest is enough.
 TEST(RipsPlans, AreSettled) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 12, ties));
@@ -464,7 +464,7 @@ TEST(RipsEstimates, OfWhatNeedsNoEdgesAreMade) {
   }
 }
 
-// The same words whether a form is there, can be made or cannot.
+// The same message whether a form exists, can be made or cannot.
 TEST(RipsEstimates, WhereTheyFitAreThoseOfTheForm) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 20, ties));

@@ -43,7 +43,7 @@ Eigen::RowVectorXd centre(const PointImage& image, Index i) {
   return x;
 }
 
-// An array in any layout is what a loop over its voxels reads; in C order it is not copied.
+// An array in any layout equals the result of a loop over its voxels; in C order it is not copied.
 TEST(ImageOfArray, TakesAnyLayout) {
   std::mt19937 random(5);
   int borrowed = 0, copied = 0;
@@ -84,7 +84,7 @@ TEST(ImageOfArray, TakesAnyLayout) {
       EXPECT_FALSE(image.values.is_in_file());
     }
     if (expected.empty()) continue;
-    // Nothing that is done with it changes the array.
+    // No operation changes the array.
     Image changed = image;
     changed.values.change([](auto& all) { all[0] = 7; });
     const Cubical cubical(image, {.superlevel = true});
@@ -182,7 +182,7 @@ TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
     EXPECT_TRUE(std::isnan(found[1])) << "a voxel without points is absent";
     EXPECT_EQ(found[2], is_count ? -1 : 0);
   }
-  // What is absent joins nothing.
+  // Absent voxels join nothing.
   const PointImage density = voxel_image(points, 1, VoxelValue::density);
   EXPECT_EQ(persistence(Cubical(density.image)).bars(0).size(), 2U);
 }
@@ -244,7 +244,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
-// An image of one line: what the line takes is as large as the image.
+// An image of one line: the memory for the line is as large as the image.
 TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {
@@ -347,9 +347,9 @@ TEST(Voxels, AreChangedInPlaceByTheirOnlyOwner) {
   EXPECT_EQ(voxels, (Voxels{5, 2, 3}));
 }
 
-// A copy each: no thread sees what the other does. The later one is alone by then and changes its
-// numbers in place, after the other has read them; nothing but the count of owners says that it
-// has, the flag does not, and ThreadSanitizer listens.
+// One copy per thread: no thread sees the other's changes. The later thread is the only owner by
+// then and changes its numbers in place, after the other has read them. Only the count of owners
+// orders these accesses, the flag does not, and ThreadSanitizer watches.
 TEST(Voxels, AreChangedByThreadsWithACopyEach) {
   Voxels early{1, 2, 3}, late = early;
   const void* const place = late.data();

@@ -18,7 +18,7 @@
 
 namespace ph::test {
 
-/// In place of an absent voxel, whose NaN is equal to nothing.
+/// Stands for an absent voxel, whose NaN equals nothing.
 inline constexpr double kMark = -987654321;
 
 /// The numbers of an image with kMark for absent voxels.
@@ -43,7 +43,7 @@ std::string bad_data(F&& f) {
   return {};
 }
 
-/// Whether `f` throws an Error of this kind.
+/// True if `f` throws an Error of this kind.
 template <class F>
 bool fails_with(ErrorKind kind, F&& f) {
   try {
@@ -99,7 +99,7 @@ class TempDir {
   std::filesystem::path path_;
 };
 
-/// Bytes in a run's budget, as a file that was opened.
+/// Bytes in a run's budget, like an opened file.
 inline Input held(const std::string& bytes, const std::string& name, const RunContext& context) {
   return Input::hold(std::pmr::vector<char>(bytes.begin(), bytes.end(), &context.memory), name,
                      &context);

@@ -158,7 +158,7 @@ TEST(ClosedWalks, OfImages) {
   EXPECT_TRUE(is_enough(count, 1000)) << count;
 }
 
-// Vertices do not tell which edge is meant, but all steps are there.
+// Vertices do not identify the edge, but all steps exist.
 TEST(ClosedWalks, OfShortPeriodicAxes) {
   for (const Index n : {1, 2}) {
     const Image image{{n, 3}, Voxels(std::vector<double>(static_cast<std::size_t>(3 * n), 1.0))};

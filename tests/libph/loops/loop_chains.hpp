@@ -65,7 +65,7 @@ inline EdgeChain edges_of(const InputChain& chain, std::int64_t p) {
   return edges;
 }
 
-/// What closed_walks promises of the form of its walks.
+/// The promises of closed_walks about the form of its walks.
 inline void check_form(const std::vector<Loop>& loops, std::size_t arity, std::int64_t p) {
   std::size_t last = SIZE_MAX;
   for (const Loop& loop : loops) {

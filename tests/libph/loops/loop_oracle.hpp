@@ -18,7 +18,7 @@ namespace ph::test {
 /// A coefficient for each edge of a complex.
 using EdgeRow = std::vector<std::int64_t>;
 
-/// A flag complex, edge by edge, as the oracle has it.
+/// A flag complex, edge by edge, in the oracle's form.
 struct FlagComplex {
   struct Edge {
     std::array<Index, 2> ends;  // named, ascending
@@ -39,7 +39,7 @@ struct FlagComplex {
       if (edges[i].ends == ends) return i;
     return std::nullopt;
   }
-  /// Boundaries of the triangles of which `in` has all edges, as rows over all edges.
+  /// Boundaries of the triangles whose edges are all in `in`, as rows over all edges.
   template <class In>
   std::vector<EdgeRow> boundaries(In&& in) const {
     std::set<Index> vertices;
@@ -64,7 +64,7 @@ struct FlagComplex {
   }
 };
 
-/// Reduces rows to echelon form. @return the pivot of each row that is left.
+/// Reduces rows to echelon form. @return the pivot of each remaining row.
 inline std::vector<std::size_t> eliminate(std::vector<EdgeRow>& rows, std::int64_t p) {
   std::vector<std::size_t> pivots;
   const std::size_t columns = rows.empty() ? 0 : rows.front().size();
@@ -113,7 +113,7 @@ std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
 
 /// The length of the shortest closed walk that passes edge `birth` once, goes on along edges that
 /// `may_use` allows, and with the coefficient of that edge in `chain` is homologous to it where all
-/// `cocycles` are; nothing if there is none, or if there are too many pairs to look at.
+/// `cocycles` are; nothing if there is none, or if there are too many pairs to examine.
 inline std::optional<double> shortest_walk(const FlagComplex& complex, const EdgeRow& chain,
                                            std::size_t birth, const std::vector<bool>& may_use,
                                            const std::vector<EdgeRow>& cocycles, bool& gave_up) {

@@ -27,7 +27,7 @@ struct Counts {
   int bars = 0, shortest = 0, shorter = 0, locally = 0;
 };
 
-/// All that ph/loops.hpp promises of the loops of one filtration.
+/// All promises of ph/loops.hpp about the loops of one filtration.
 void check_loops(const Rips& rips, const Options& asked, Counts& counts) {
   Options options = asked;
   options.representatives = Representatives::cycles;
@@ -146,14 +146,13 @@ TEST(Loops, AreShortestInRandomDistances) {
     const Rips complex(random.distances(random.integer(4, 10), ties), rips);
     check_loops(complex, options_of(random), counts);
   });
-  // The inputs are worth something.
+  // Checks that the inputs are not trivial.
   EXPECT_TRUE(is_enough(counts.bars, 1500)) << counts.bars;
   EXPECT_TRUE(is_enough(counts.shortest, 1000)) << counts.shortest;
   EXPECT_TRUE(is_enough(counts.shorter, 50)) << counts.shorter;
 }
 
-// The shortest walk goes twice through three vertices. Its chain, taken apart edge by edge, has
-// longer loops.
+// The shortest walk passes three vertices twice. Its chain, split edge by edge, has longer loops.
 TEST(Loops, AreNoLongerThanTheirWalk) {
   const std::vector<double> lower{
       0.369, 0.679, 0.677, 0.695, 0.476, 0.334, 0.151, 0.415, 0.607, 0.956, 0.194,
@@ -286,7 +285,7 @@ TEST(Loops, NeedCycles) {
   expect_error(ErrorKind::usage, "without cycles", [&] { loops(rips, cocycles); });
   const Barcode cycles = persistence(rips, {.representatives = Representatives::cycles});
   const Rips other(Points(random.points(2, 2, false)));
-  // Of no points there is no bar that could have one.
+  // Without points, there is no bar that could have a loop.
   EXPECT_TRUE(loops(Rips(Points(0, 2)), persistence(Rips(Points(0, 2)))).empty());
   if (!cycles.bars(1).empty())
     expect_error(ErrorKind::usage, "another complex", [&] { loops(other, cycles); });

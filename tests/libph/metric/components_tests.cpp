@@ -46,7 +46,8 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
                                        PointDistance::chebyshev, PointDistance::minkowski};
 
-// One to five coordinates, copies, ties, thresholds at ties; some of a size that has no squares.
+// One to five coordinates, copies, ties, thresholds at ties; some numbers are too large to be
+// squared.
 TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
   for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
@@ -95,7 +96,7 @@ TEST(Components, OfSparseDistances) {
   });
 }
 
-// A distance of its own goes by pairs, whatever the points are.
+// A user's own distance works on pairs, whatever the points are.
 struct AnyDistance {
   const PointMetric& metric;
   Index size() const { return metric.size(); }
@@ -130,7 +131,7 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
   });
 }
 
-// Of the forest that was given nothing else is there.
+// A given forest has no other data.
 TEST(Components, NothingElseIsThere) {
   const Points points = to_points(PointMatrix::Random(9, 2));
   const Rips rips(RipsGraph::forest_of_metric(PointMetric(points), {}, default_context()));

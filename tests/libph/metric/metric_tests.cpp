@@ -179,7 +179,7 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
   }
 }
 
-// The tree itself: for_each_pair_within asks it only about more points than are tried here.
+// Tests the tree directly, because for_each_pair_within uses it only for more points than here.
 TEST(NearPairsOfATree, AreThoseOfAllPairs) {
   constexpr PointDistance distances[] = {PointDistance::euclidean, PointDistance::manhattan,
                                          PointDistance::chebyshev, PointDistance::minkowski};
@@ -189,7 +189,7 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     const PointDistance distance = distances[random.integer(0, 3)];
-    // Beside a point whose squares are plain; powers of what is tiny are 0 then.
+    // Beside a point with ordinary squares, powers of tiny distances are 0.
     if (distance != PointDistance::minkowski && random.coin()) points(0, 0) = 1;
     const double p = 1 + 3 * random.real();
     const PointMetric given(points, distance, p);
@@ -226,7 +226,7 @@ TEST(SparseDistanceSets, NearPairsFarFromTheOrigin) {
   }
 }
 
-// In units of the radius these lie about a power of two, where rounding changes its step.
+// In units of the radius, these lie around a power of two, where the step of rounding changes.
 TEST(SparseDistanceSets, NearPairsAtAStepOfRounding) {
   const double radius = 0.8575754491187267;
   const Points pair = rows({{230203656.9687939}, {230203657.82636935}});
@@ -280,7 +280,7 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
   }
 }
 
-// Bit by bit: which way computes a distance must not decide ties.
+// Bit by bit: the method that computes a distance must not decide ties.
 TEST(RowDistancesOf, APointMetricAreItsDistances) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(0, 70);

@@ -63,7 +63,7 @@ TEST(PointsOwner, TakesNumbersOfAnyType) {
   EXPECT_EQ(Points::of(floats.data(), 2, 1, 1, 1), (Points{{double{0.1F}}, {-1}}));
 }
 
-/// The same points in several layouts: each must give what rows side by side give.
+/// The same points in several layouts: each must give the result of contiguous rows.
 void expect_same_from(PointsView view, const Points& points, std::int64_t field) {
   ASSERT_EQ(Points(view), points);
   for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan}) {
@@ -135,7 +135,7 @@ TEST(DelayEmbedding, HasTheValuesOfLaterTimes) {
                    [&] { static_cast<void>(delay_embedding(series, dimension, delay)); });
       return;
     }
-    // The same from a view whose quantities lie apart.
+    // The same from a view with separated quantities.
     std::vector<double> by_columns;
     for (Index k = 0; k < series.cols(); ++k)
       for (Index t = 0; t < series.rows(); ++t) by_columns.push_back(series(t, k));

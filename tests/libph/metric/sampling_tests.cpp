@@ -177,7 +177,7 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
   EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test is about something
 }
 
-// By definition: when balls of their largest diameters meet, unless that is too late.
+// By definition: the value at which balls of their largest diameters meet, unless that is too late.
 TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {
@@ -314,7 +314,7 @@ TEST(DistanceToMeasure, OutliersComeLate) {
   for (double& b : births) b *= 2;
   const Barcode bars = persistence(
       Rips(points, {.births = births, .weight_exponent = WeightExponent::one}), {.max_dim = 0});
-  // The outlier is joined as soon as it is there, or nearly so; the two parts live long.
+  // The outlier is joined at its birth or soon after; the two parts live long.
   std::size_t long_bars = 0;
   for (const Bar& bar : bars) long_bars += bar.persistence() > 1 ? 1 : 0;
   EXPECT_EQ(long_bars, 2U);

@@ -21,8 +21,7 @@ inline Barcode barcode_of(const std::vector<Bar>& bars) {
   return barcode;
 }
 
-/// Barcodes that are hard to draw: empty, without an end, of one value, from end to end of the
-/// numbers.
+/// Barcodes that are hard to draw: empty, infinite, with a single value, spanning all doubles.
 inline std::vector<std::vector<Bar>> odd_barcodes() {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double huge = std::numeric_limits<double>::max();

@@ -22,7 +22,7 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-/// What every picture obeys.
+/// The rules for every picture.
 void check(const std::string& svg) {
   EXPECT_TRUE(svg.starts_with("<?xml"));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
@@ -290,7 +290,7 @@ TEST(TreePlot, ManyClassesStaySmall) {
   for (const bool ties : {false, true}) {
     std::vector<Branch> tree{{0, kInfinity, -1}};
     for (Index i = 1; i < 100'000; ++i) {
-      // Joins an elder one that lives on.
+      // Joins an elder branch that survives.
       const Index elder = static_cast<Index>(random()) % i;
       const double death = std::min(1.0, tree[static_cast<std::size_t>(elder)].death);
       tree.push_back({0, ties ? 1 : death * number(random), elder});
@@ -312,7 +312,7 @@ std::vector<std::array<double, 3>> lines_of(const std::string& svg, char end) {
 }
 
 TEST(TreePlot, LinesMeetAndDoNotCross) {
-  // 0 lives on; 1 joins it, 2 and 3 join 1, 4 joins 0 the last; 5 is apart.
+  // 0 never dies; 1 joins it, 2 and 3 join 1, 4 joins 0 last; 5 is separate.
   const std::vector<Branch> tree{{0, kInfinity, -1}, {0, 7, 0}, {1, 3, 1},
                                  {2, 5, 1},          {3, 9, 0}, {4, kInfinity, -1}};
   const std::string svg = svg_plot(tree);

@@ -57,7 +57,7 @@ TEST_F(PngPlot, IsAColumnWideAt300DotsAnInch) {
     EXPECT_EQ(raster.width, 1040);
     EXPECT_EQ(raster.channels, 3);
     EXPECT_GT(raster.height, 150);
-    const std::string resolution("pHYs\0\0\x2e\x23\0\0\x2e\x23\1", 13);  // 11811 dots a metre
+    const std::string resolution("pHYs\0\0\x2e\x23\0\0\x2e\x23\1", 13);  // 11811 dots per metre
     EXPECT_NE(png.find(resolution), png.npos);
     EXPECT_GT(pixels_of(raster, kWhite),
               static_cast<std::size_t>(raster.width * raster.height) / 3);
@@ -82,7 +82,7 @@ TEST_F(PngPlot, AnyValues) {
 TEST_F(PngPlot, BarsAreAsLongAsTheyLive) {
   const Raster whole = decoded(png_plot(test::barcode_of({{1, 0, 8}})));
   const Raster half = decoded(png_plot(test::barcode_of({{0, 0, 8}, {1, 4, 8}})));
-  // The letter H has the colour too, on the left of x = 125.
+  // The letter H also has this colour, to the left of x = 125.
   const auto bar = [](const Raster& raster) {
     Raster right = raster;
     for (Index y = 0; y < raster.height; ++y)

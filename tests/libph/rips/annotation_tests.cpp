@@ -96,7 +96,7 @@ TEST(ActiveEdges, AreAMap) {
   });
 }
 
-// Against vectors that all learn of each death at once. Some of them are looked at in between.
+// Compared with vectors that are all updated at each death. Some of them are read in between.
 template <Field K>
 void check_dead_generators(const K& field, Generator& random) {
   using Vector = typename DeadGenerators<K>::Vector;
@@ -127,7 +127,7 @@ void check_dead_generators(const K& field, Generator& random) {
     for (const auto& t : terms) v[t.cell] = t.coefficient();
     return v;
   };
-  std::vector<std::pair<Vector, Coefficients>> vectors;  // as they are, as they should become
+  std::vector<std::pair<Vector, Coefficients>> vectors;  // current, expected
   for (int k = 0; k < 20; ++k) {
     const Coefficients v = random_vector(false);
     vectors.emplace_back(terms_of(v), v);

@@ -13,7 +13,7 @@
 namespace ph::test {
 namespace {
 
-/// Points in one of many shapes, with ties if they are asked for.
+/// Points in one of many shapes, with ties on request.
 Points shaped_points(Generator& random, Index n, Index d, bool ties) {
   Points p(n, d);
   const int shape = random.integer(0, 6), side = random.integer(1, 6);
@@ -45,7 +45,7 @@ Points shaped_points(Generator& random, Index n, Index d, bool ties) {
         row[0] = std::cos(angle) + (i % 2 == 0 ? 2.5 : 0);
         row[1] = std::sin(angle);
         break;
-      default:  // far from the origin: few digits are left of differences
+      default:  // far from the origin: differences have few digits
         for (double& x : row) x = 1e6 + x * 1e-8;
     }
   }
@@ -138,7 +138,7 @@ TEST(BetaSkeleton, HolesOfManySizes) {
   });
 }
 
-// Crowds of edges of nearly one length: bins are cut into narrower ones.
+// Many edges of nearly equal length: bins are split into narrower ones.
 TEST(BetaSkeleton, RegularPolygons) {
   for (const Index n : {3, 6, 30, 300, 1'500}) {
     SCOPED_TRACE(n);

@@ -119,7 +119,7 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
   EXPECT_TRUE(is_enough(moved, std::size_t{1000})) << moved;
 }
 
-// Each pass leaves edges dominated that it had looked at before.
+// Each pass leaves dominated edges among those that it has already checked.
 TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   for_each_seed(6, [](Generator& random, bool, std::int64_t) {
     const Rips rips(random.points(120, 3, false));
@@ -154,8 +154,8 @@ TEST(EdgeCollapse, CellsHaveTheValuesOfTheirBar) {
   });
 }
 
-/// A cycle of the collapsed complex, in the whole one: closed, born at the birth, a boundary from
-/// the death on, not before.
+/// A cycle of the collapsed complex is also valid in the full one: closed, born at the birth, and a
+/// boundary from the death on but not before.
 template <Filtration F>
 void check_cycle_by_value(const F& f, const OrderedCells<F>& cells, const Barcode& bars,
                           std::size_t i) {
@@ -200,16 +200,17 @@ TEST(EdgeCollapse, KeepsWhatItMust) {
   // A simplex collapses to a tree, whatever its edges' lengths.
   EXPECT_EQ(kept(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0)))), 8U);
   EXPECT_EQ(kept(Rips(DistanceMatrix(3, {1, 2, 3}))), 2U);
-  // A square with its diagonals: the first diagonal fills the hole, the second has nothing to do.
+  // A square with its diagonals: the first diagonal fills the hole, the second has no effect.
   EXPECT_EQ(kept(Rips(circle(4), {.threshold = 2.5})), 5U);
-  // Nothing of a graph without triangles, nothing of the cross-polytopes' flag complexes: spheres.
+  // Nothing collapses in a graph without triangles, nor in the cross-polytopes' flag complexes,
+  // which are spheres.
   EXPECT_EQ(kept(Rips(circle(9), {.threshold = chord(9, 1) * 1.01})), 9U);
   std::vector<WeightedEdge> octahedron;
   for (Index u = 0; u < 6; ++u)
     for (Index v = 0; v < u; ++v)
       if (u / 2 != v / 2) octahedron.push_back({u, v, 1});
   EXPECT_EQ(kept(Rips(SparseDistances(6, octahedron))), 12U);
-  // The edge that closes a triangle waits for nobody if the third vertex is joined to both.
+  // The edge that closes a triangle need not wait if the third vertex is joined to both ends.
   EXPECT_EQ(kept(Rips(SparseDistances(4, {{0, 1, 1}, {0, 2, 1}, {1, 2, 2}, {2, 3, 5}}))), 3U);
   for (const Index n : {0, 1, 2}) EXPECT_LE(kept(Rips(to_points(PointMatrix::Random(n, 2)))), 1U);
 }

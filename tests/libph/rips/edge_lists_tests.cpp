@@ -120,7 +120,7 @@ TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   EXPECT_EQ(loops(Engine::cohomology), expected);
 }
 
-// A few vertices that nearly all are joined to: their long lists are searched, not read.
+// A few vertices that are joined to nearly all others: their long lists are searched, not read.
 TEST(EdgeLists, OfHubsHaveTheBarsOfAnotherEngine) {
   constexpr std::uint32_t vertices = 1000, hubs = 2;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

@@ -12,8 +12,8 @@
 namespace ph::test {
 namespace {
 
-/// Distances of random groups of points, between which all are short: cycles of one group and
-/// cycles of another one have joins, which are cycles of H2, H3 and above.
+/// Distances of random groups of points; all distances between groups are short. Cycles of
+/// different groups have joins, which are cycles of H2, H3 and above.
 DistanceMatrix joined_groups(Generator& random, std::vector<Index> sizes, bool ties) {
   std::vector<std::size_t> group;
   for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -94,7 +94,7 @@ TEST(LinkVolumes, OfManyClasses) {
   EXPECT_TRUE(is_enough(count, std::size_t{1000})) << count;
 }
 
-// A sphere of dimension 3, whose one long class lives until its tetrahedra are many.
+// A sphere of dimension 3, whose only long class lives until there are many tetrahedra.
 TEST(LinkVolumes, OfASphere) {
   Generator random(3);
   Points points(60, 4);

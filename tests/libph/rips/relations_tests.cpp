@@ -32,7 +32,7 @@ Sum random_sum(Generator& random, std::size_t generators, int most) {
   return sum;
 }
 
-// Relations as columns, each reduced in full by those before.
+// Relations as columns, each fully reduced by the previous ones.
 class Oracle {
  public:
   std::optional<std::uint32_t> add(const Sum& relation) {
@@ -57,7 +57,7 @@ class Oracle {
   std::map<std::uint32_t, Sum> meanings_;
 };
 
-// What `substitute` makes of generators that live, as units, and of the dead: sums of the living.
+// The result of `substitute`: living generators are units, and dead ones are sums of living ones.
 template <class Relations>
 void check_substitution(const Relations& relations, const Oracle& oracle, std::size_t generators,
                         auto&& substitute) {

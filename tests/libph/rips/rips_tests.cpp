@@ -113,7 +113,7 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
   }
 }
 
-// Whoever asks bin by bin gets what those get who ask for all; the others' edges stay unsorted.
+// Asking bin by bin gives the same edges as asking for all; edges of other bins stay unsorted.
 TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   Generator random(3);
   const Points points = random.points(1000, 8, false);  // of nearly one distance: large bins
@@ -179,7 +179,7 @@ TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
                  [&] { all_edges(Rips(far, {.threshold = threshold})); });
 }
 
-// Vertices without edges make the graph sparse and change nothing else.
+// Vertices without edges make the graph sparse but change nothing else.
 TEST(RipsGraphs, LayoutsAgree) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Generator random(seed);

@@ -87,9 +87,9 @@ TEST(ConfidenceRadius, SeedsAndThreads) {
   EXPECT_EQ(confidence_radius(points, {.seed = 1}, with_threads(three, 3)), found);
   EXPECT_NE(confidence_radius(points, {.seed = 2}), found);
   EXPECT_GT(found, 0);
-  // Of n / ln n points each, which are 80.
+  // Subsamples of n / ln n points each, which are 80.
   EXPECT_EQ(confidence_radius(points, {.size = 80, .seed = 1}), found);
-  // Copies change nothing that is seen.
+  // Copies have no visible effect.
   EXPECT_EQ(confidence_radius(Points{{1, 2}, {1, 2}, {1, 2}, {1, 2}}), 0);
   EXPECT_EQ(confidence_radius(Points(3, 0)), 0);
   EXPECT_EQ(confidence_radius(Points{{5}}), 0);
@@ -247,7 +247,7 @@ TEST(PermutationTests, SeedsAndThreads) {
   const double p = permutation_test(matrix_of(places), groups, {}, with_threads(one, 1)).p;
   EXPECT_EQ(permutation_test(matrix_of(places), groups, {}, with_threads(three, 3)).p, p);
   EXPECT_NE(permutation_test(matrix_of(places), groups, {.seed = 9}).p, p);
-  // The least p-value that so many shuffles can give, for groups far apart.
+  // The least p-value possible with this number of shuffles, for groups far apart.
   for (std::size_t i = 0; i < places.size(); ++i) places[i] += 100 * static_cast<double>(groups[i]);
   EXPECT_EQ(permutation_test(matrix_of(places), groups, {.shuffles = 99}).p, 0.01);
 }

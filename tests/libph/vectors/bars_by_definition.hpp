@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// What vectors of diagrams are by definition, value by value, in more digits.
+// Vectors of diagrams by definition, value by value, with more digits.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -53,7 +53,7 @@ inline double silhouette_at(const Bars& bars, double power, double t) {
   return weights > 0 ? static_cast<double>(sum / weights) : 0;
 }
 
-/// -Σ p ln p over the bars that `counts` says.
+/// -Σ p ln p over the bars that `counts` selects.
 template <class Counts>
 double entropy_of(const Bars& bars, Counts&& counts) {
   long double total = 0, sum = 0;

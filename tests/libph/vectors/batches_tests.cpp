@@ -54,7 +54,7 @@ TEST(Atol, CentresAreTheMeansOfTheirBars) {
     double bars = 0;
     for (std::size_t k = 0; k < count; ++k) {
       bars += counts[k];
-      if (steps > 0) continue;  // a bar that is as near to another centre may have been either's
+      if (steps > 0) continue;  // a bar equally near to two centres may belong to either
       ASSERT_NEAR(fitted.centres[k][0], sums[k][0] / counts[k], 1e-12) << round;
       ASSERT_NEAR(fitted.centres[k][1], sums[k][1] / counts[k], 1e-12) << round;
     }
@@ -165,7 +165,7 @@ TEST(Atol, OfEqualBars) {
   double vector = 0;
   atol_vector(three, fitted, {&vector, 1});
   EXPECT_EQ(vector, 3);
-  // Half of what lies between them vanishes.
+  // Half of the mass between them vanishes.
   const Bars small{{1, 0, 1e-20}, {1, 1e-310, 1e-20}, {1, -1e-20, 1e-20}};
   const std::span<const Bar> of_small[]{small};
   std::vector<double> out(3);

@@ -137,7 +137,7 @@ TEST(Curves, AreTheirDefinitions) {
         ASSERT_LE(shape[i], 1e-15 * (1 + steps));
       }
       if (betti[i] == 0) {
-        ASSERT_EQ(life[i], 0) << round;  // what was added is gone to the last bit
+        ASSERT_EQ(life[i], 0) << round;  // the added values cancel to the last bit
         ASSERT_EQ(shape[i], 0) << round;
       }
     }
@@ -160,7 +160,7 @@ TEST(Curves, OfKnownBars) {
   EXPECT_EQ(out, std::vector<double>(4));
 }
 
-// Bars far from 0 and far apart in length: sums keep what short ones are.
+// Bars far from 0 with very different lengths: sums keep the contribution of short ones.
 TEST(Curves, KeepSmallBarsBesideLargeOnes) {
   const Bars bars = {{0, 1000, 1001}, {0, 1000.25, 1000.25 + 0x1p-20}};
   const Grid grid{1000, 1001, 4097};

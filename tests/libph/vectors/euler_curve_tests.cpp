@@ -127,8 +127,8 @@ TEST(EulerCurves, OfManyAxes) {
   }
 }
 
-/// Cells of one kind or the other by a count that knows nothing of directions: the values of all
-/// cells of the doubled grid.
+/// Cells of either construction by a count without directions: the values of all cells of the
+/// doubled grid.
 StepFunction by_all_cells(const Image& image, bool vertices) {
   const Index n = image.extents[0], m = image.extents[1];
   std::map<double, std::int64_t> changes;

@@ -206,7 +206,7 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   double sum = 0;
   for (const double x : out) sum += x;
   EXPECT_NEAR(sum, 1, 1e-14);
-  // A bar that is narrower than a pixel is in one of them: that of birth 0.005 and length 1.9.
+  // A distribution narrower than a pixel lies in a single one: that of birth 0.005 and length 1.9.
   persistence_image(Bars{{0, 0.005, 1.905}}, frame, 1e-9, 0, out);
   for (std::size_t i = 0; i < out.size(); ++i) ASSERT_EQ(out[i], i == 47 * 100 ? 1 : 0) << i;
   // At the ends of the frame, half of it; beyond them nothing.

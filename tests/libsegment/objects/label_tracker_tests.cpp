@@ -14,7 +14,7 @@ using Labels = std::vector<std::uint32_t>;
 TEST(LabelTracker, AnObjectKeepsItsNumber) {
   LabelTracker tracker;
   EXPECT_EQ(tracker.update(Labels{1, 1, 1, 0, 2, 2}), (Labels{1, 1, 1, 0, 2, 2}));
-  // The order of size changes, the numbers do not.
+  // The order by size changes, but the numbers do not.
   EXPECT_EQ(tracker.update(Labels{2, 2, 0, 1, 1, 1}), (Labels{1, 1, 0, 2, 2, 2}));
   // A new one is 3, although it is the largest.
   EXPECT_EQ(tracker.update(Labels{3, 1, 1, 1, 2, 2}), (Labels{1, 3, 3, 3, 2, 2}));
@@ -24,9 +24,9 @@ TEST(LabelTracker, AnObjectKeepsItsNumber) {
 TEST(LabelTracker, NoObjectIsTakenTwice) {
   LabelTracker tracker;
   tracker.update(Labels{1, 1, 1, 1, 1, 1});
-  // It comes apart: the larger part keeps the number.
+  // The object splits: the larger part keeps the number.
   EXPECT_EQ(tracker.update(Labels{2, 2, 1, 1, 1, 1}), (Labels{2, 2, 1, 1, 1, 1}));
-  // They become one again: it has the number with which it shares more.
+  // They merge again: the object gets the number with which it shares more.
   EXPECT_EQ(tracker.update(Labels{7, 7, 7, 7, 7, 7}), (Labels{1, 1, 1, 1, 1, 1}));
 }
 
@@ -136,15 +136,15 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame first(stack, kNoWall, {kOnTable, on_first});
   LabelTracker tracker;
   tracker.update(first, first);
-  // The labels change places. What is below is seen as standing on what is above, for a frame.
+  // The labels swap. For one frame, the lower object appears to stand on the upper one.
   const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
   EXPECT_EQ(tracker.update(wrong, wrong), (Labels{2, 1}));
   EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));
-  // What it stood on is not there: then it is what this frame says.
+  // Its support is missing: then this frame decides.
   const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
   EXPECT_EQ(tracker.update(alone, alone), Labels{2});
   EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));
-  // So it is if the surface has become something else, or is none.
+  // The same holds if the surface has become something else or disappeared.
   const Frame on_board({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {{Role::object, {2, 0}}},
                        {Role::support});
   const Frame by_wall({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {kOnTable});

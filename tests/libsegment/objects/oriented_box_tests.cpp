@@ -112,7 +112,7 @@ TEST(OrientedBox, FewPoints) {
 }
 
 TEST(OrientedBox, NoPointIsOutside) {
-  // Rings, lines and clusters: where an octagon of some points leaves much, little or nothing out.
+  // Rings, lines and clusters, where an octagon of some points excludes many, few or no points.
   std::mt19937 random(8);
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (int round = 0; round < 200; ++round) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kRadius = 1;
 
-/// The voxels of a scene: their basins, their births, who is near whom.
+/// The voxels of a scene: their basins, their births, and the pairs near each other.
 struct Basins {
   std::vector<Index> of;
   std::vector<double> births;
@@ -28,7 +28,7 @@ struct Basins {
   std::vector<Index> joined(double least, const RunContext& context = default_context()) const {
     return join_over_weak_seams(of, births, pairs, kRadius, least, context);
   }
-  /// The same by its definition: all seams are looked at anew after each one that goes.
+  /// The same by its definition: all seams are examined again after each removal.
   std::vector<Index> joined_slowly(double least) const {
     std::vector<Index> basin_of = of;
     while (true) {
@@ -83,7 +83,8 @@ TEST(WeakSeams, AreJudgedByTheirLowerQuartile) {
 }
 
 TEST(WeakSeams, GrowTogetherWhenBasinsDo) {
-  // 0 and 1 are one. Then 2 has a seam with both: the weak place beside 1 is a short piece of it.
+  // 0 and 1 become one basin. Then 2 has a seam with both, and the weak place beside 1 is a short
+  // piece of it.
   Basins basins;
   basins.add_basins({0, 0, 0});
   basins.add_seam(0, 1, {1, 1, 1});

@@ -127,7 +127,7 @@ TEST(PclAdapter, ARunContextStopsAndBoundsIt) {
 TEST(PclAdapter, TheSensorsOriginIsTheViewpoint) {
   const TableScene scene = TableScene::two_boxes();
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
-  cloud->width *= cloud->height;  // the rays of an organised one would say where it was seen from
+  cloud->width *= cloud->height;  // the rays of an organised cloud would tell the viewpoint
   cloud->height = 1;
   cloud->sensor_origin_[2] = 2.5F;  // below the table
   EXPECT_TRUE(segment_cloud(*cloud, {.max_range = 5}).segments.empty());

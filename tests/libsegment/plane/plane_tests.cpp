@@ -74,7 +74,7 @@ TEST(Plane, LooksAtTheSensor) {
 
 TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   std::vector<float> xyz = tilted_plane(1000, 0, 0);
-  xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});  // before, behind, on it
+  xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});  // in front, behind, on it
   const CloudView cloud{xyz, {}};
   const PlaneSearch search = find_plane(cloud, all_of(xyz), 0.006);
   ASSERT_TRUE(search.plane);

@@ -17,7 +17,7 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
-/// A rotation and where the sensor goes.
+/// A rotation, and the new position of the sensor.
 struct Motion {
   Eigen::Matrix3d rotation;
   Vec3 sensor;
@@ -78,7 +78,7 @@ TEST(ProjectionCentre, RoundedCoordinatesDoNotHideIt) {
   EXPECT_FALSE(elsewhere(rounded, motion.sensor));
 }
 
-// One point in twenty is anywhere: most sensors are found, none where it is not.
+// One point in twenty is arbitrary: most sensors are found, none in a wrong place.
 TEST(ProjectionCentre, OutliersHideItSeldom) {
   constexpr unsigned seeds = 60;
   unsigned count = 0;
@@ -114,7 +114,7 @@ TEST(ProjectionCentre, NothingIsSaidWhereItCannotBeTold) {
   EXPECT_FALSE(elsewhere(spot, {0, 0, 0}));
   const std::vector<float> scene = TableScene::two_boxes().xyz();
   EXPECT_FALSE(centre_elsewhere({scene, {3, 3, 3}})) << "it is not organised";
-  // A map of heights: its rays are parallel.
+  // A height map, whose rays are parallel.
   std::vector<float> map;
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
@@ -125,7 +125,7 @@ TEST(ProjectionCentre, NothingIsSaidWhereItCannotBeTold) {
   }
   EXPECT_FALSE(elsewhere(map, {0.5, 0.4, 1}));
   EXPECT_FALSE(elsewhere(map, {0, 0, 0}));
-  // Points of the same places in another order.
+  // The same points in another order.
   std::vector<float> shuffled;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < scene.size(); i += 3) order.push_back(i);

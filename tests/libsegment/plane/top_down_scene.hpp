@@ -13,9 +13,9 @@
 
 namespace ph::segment::test {
 
-/// What a camera above a table sees, as over a bin: at the origin, it looks along z, and the foot
-/// of the perpendicular from it to the table lies in the picture. Boxes stand on the table, turned
-/// any way, in the middle of the picture and around it.
+/// The view of a camera above a table, as over a bin. The camera is at the origin and looks along
+/// z, and the foot of its perpendicular to the table lies in the picture. Boxes with any rotation
+/// stand on the table, in the middle of the picture and around it.
 class TopDownScene {
  public:
   template <class Random>
@@ -45,7 +45,7 @@ class TopDownScene {
   std::size_t box_count() const { return boxes_.size(); }
   /// By point: 0 the table, 1… the boxes.
   const std::vector<std::size_t>& truth() const { return truth_; }
-  /// How far a point of the table is from the foot of the nearest box, along the table.
+  /// The distance of a point of the table from the foot of the nearest box, along the table.
   double to_nearest_box(std::size_t point) const {
     const auto [x, y, z] = on_table(
         {double{xyz_[3 * point]}, double{xyz_[3 * point + 1]}, double{xyz_[3 * point + 2]}});
@@ -115,8 +115,8 @@ class TopDownScene {
         hit = k + 1;
       }
     }
-    // Of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip that bases are
-    // won back from.
+    // The deviation of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip
+    // from which bases are won back.
     const double noise = random.real() + random.real() + random.real() - 1.5;
     const double depth = nearest + 0.0016 * noise;
     truth_.push_back(hit);
@@ -130,14 +130,14 @@ class TopDownScene {
   std::vector<std::size_t> truth_;
 };
 
-/// Whether a stored tree is read back and cut to the same labels.
+/// Checks that a stored tree is read back and cut to the same labels.
 inline void expect_read_back(const Segmentation& s) {
   const std::string bytes = tree_bytes(s);
   const SceneTree again = read_tree(Input::view(bytes, "scene.tree"));
   EXPECT_EQ(cut(again, again.first_cut).labels, s.labels);
 }
 
-/// Segments the scene and compares the labels with what is known of it.
+/// Segments the scene and compares the labels with the known answer.
 inline void expect_right(const TopDownScene& scene, Method method) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method});
   ASSERT_TRUE(s.plane);
@@ -163,7 +163,8 @@ inline void expect_right(const TopDownScene& scene, Method method) {
       points += count;
       if (label == 0) without += count;
     }
-    // What is low on its sides may pass for the plane; what the border cuts off may be too little.
+    // Low points of its sides may pass for the plane; the part that the border leaves may be too
+    // small.
     if (points >= 800) {
       EXPECT_LT(2 * without, points) << "box " << box << " without a label";
     }

@@ -73,7 +73,7 @@ class Room {
  private:
   static constexpr Vec3 kEye{0, -0.9, 0.9};
 
-  /// Where a ray enters a block.
+  /// The place where a ray enters a block.
   static double entry(const Block& block, const Vec3& ray) {
     double near = 0, far = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -113,7 +113,7 @@ TEST(Surfaces, AWallIsNoObject) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // What is a wall in one cut is none of the segments of another.
+  // A wall in one cut is not a segment in another.
   const std::string tree = tree_bytes(s);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(again.surfaces, s.surfaces);
@@ -123,7 +123,7 @@ TEST(Surfaces, AWallIsNoObject) {
 }
 
 TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
-  // A sheet that stands on the table: the table is seen behind it.
+  // A sheet that stands on the table; the table is visible behind it.
   const Block sheet{{-0.4, 0.2, 0}, {0.4, 0.21, 0.25}};
   const Room room({kTable, kLeft, sheet, {{-0.5, 1.2, -0.1}, {0.5, 1.22, 0.6}}});
   const Segmentation s = room.segmented();
@@ -238,7 +238,7 @@ TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
   const Segmentation next = room.segmented({.plane_guess = guess});
   EXPECT_EQ(next.labels, alone.labels);
   EXPECT_NEAR(next.plane->offset, alone.plane->offset, 1e-4) << "it is fitted again";
-  // Somewhere else, it is looked for anew.
+  // In another place, the search starts again.
   guess.offset += 0.3;
   EXPECT_EQ(room.segmented({.plane_guess = guess}).plane, alone.plane);
   guess.normal = {1, 1, 0};

@@ -114,7 +114,7 @@ TEST(ConcavityNoise, DoesNotDependOnTheOrder) {
   }
 }
 
-// ---- what a scene makes of it
+// ---- in a whole scene
 
 /// Two boxes on a table, seen by a sensor with this noise of depth at one metre.
 std::vector<float> noisy_table(double noise) {
@@ -139,7 +139,7 @@ TEST(NoiseOfScenes, DoublesWithThatOfTheSensor) {
     ASSERT_GE(found.size(), 5U);
     EXPECT_TRUE(std::ranges::is_sorted(found, {}, &NoiseAt::range));
     EXPECT_GT(found.back().concavity, 1.5 * found.front().concavity) << "it is farther away";
-    double mean = 0;  // how the grid lies to the plane makes a difference at each range
+    double mean = 0;  // the position of the grid relative to the plane matters at each range
     for (const NoiseAt& at : found) mean += at.concavity / static_cast<double>(found.size());
     if (before > 0) {
       EXPECT_NEAR(mean / before, 2, 0.35) << noise;

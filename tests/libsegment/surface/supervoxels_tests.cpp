@@ -94,7 +94,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
     GreedyLimits limits;
     limits.radius = spacing;
     const auto expected = greedy_permutation(points, limits, PointDistance::euclidean, 2);
-    std::vector<WeightedEdge> edges;  // a path through all: what is no seed is a step away from one
+    std::vector<WeightedEdge> edges;  // a path: all others are a step from a seed
     for (Index i = 1; i < points.rows(); ++i) edges.push_back({i, i - 1, 1.0});
     const std::vector<double> f =
         distance_to_seeds(points, edges, std::vector<double>(1500), spacing, default_context());
@@ -118,7 +118,7 @@ TEST(Spacing, DistancesAreThoseAlongTheGraph) {
   for (Index i = 0; i < size; ++i)
     EXPECT_NEAR(f[static_cast<std::size_t>(i)], 0.01 * static_cast<double>(std::min(i, 20 - i)),
                 1e-12);
-  concavity[15] = 0.25;  // two steps lead there, each costs eleven times its length
+  concavity[15] = 0.25;  // two steps lead there, and each costs eleven times its length
   f = distance_to_seeds(points, edges, concavity, 0.1, default_context());
   EXPECT_NEAR(f[16], 0.04, 1e-12);
   EXPECT_NEAR(f[15], 0.15, 1e-12);  // from the seed on the right

@@ -82,7 +82,7 @@ TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
   }
 }
 
-/// The kind of the error that segmenting one point with these options is, if any.
+/// The kind of error that results from segmenting one point with these options, if any.
 std::optional<ErrorKind> failure(const std::vector<float>& xyz, const Vec3& viewpoint,
                                  const SegmentOptions& options) {
   try {
@@ -163,7 +163,7 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
     const Points normals = surface_normals(to_points(points), pairs, 1, {0, 0, 10});
     const Eigen::Vector3d n = as_matrix(normals).row(0).transpose();
     ASSERT_NEAR(n.norm(), 1, 1e-12);
-    // A direction may be any of many; how little spreads along it may not.
+    // There may be many such directions, but the least spread is unique.
     const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
     ASSERT_NEAR(n.dot(scatter * n), least, 1e-9 * scatter.trace()) << sizes.transpose();
   }

@@ -75,7 +75,7 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
   const Segmentation s = segment(cloud);
   const double persistence = s.segments[1].persistence;
   EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).segments.size(), 1U);
-  // No place of the seam is lower, so it is not weak for half of that.
+  // No place of the seam is lower; therefore it is not weak at half of that value.
   EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).segments.size(), 2U);
   EXPECT_EQ(segment(cloud, {.min_part = s.segments[1].voxels + 50}).segments.size(), 1U);
   // The same from the tree that was stored.
@@ -146,7 +146,7 @@ TEST(Surface, CoarseSamplesGetLargerVoxels) {
   EXPECT_GT(s.voxel, 0.005);
   EXPECT_LE(s.voxel, 0.026);
   EXPECT_EQ(s.segments.size(), 2U);
-  // Who asks for a size gets it.
+  // A requested size is used.
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).voxel, 0.005);
 }
 
@@ -176,7 +176,7 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
     const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false});
     EXPECT_GT(s.voxel, 0.005);
     EXPECT_EQ(s.segments.size(), 1U);
-    // Each stage once, though the grid was made more often.
+    // Each stage is listed once, although the grid was made several times.
     EXPECT_EQ(std::ranges::count(s.stages, "voxel grid", &Stage::name), 1);
     EXPECT_EQ(std::ranges::count(s.stages, "neighbours", &Stage::name), 1);
     EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points, s.vertices.rows());
@@ -197,7 +197,7 @@ std::vector<float> noisy_boxes(double scale, double deviation) {
 }
 
 TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
-  // So much noise that the plane is looked for once more; near and far from the sensor.
+  // So much noise that the plane is searched for once more; near and far from the sensor.
   const TableScene scene = TableScene::two_boxes();
   for (const double range : {0.3, 2.0}) {
     const Segmentation s =
@@ -263,8 +263,8 @@ TEST(Surface, HalfABallIsOne) {
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).segments.size(), 1U);
 }
 
-/// Specks of nine voxels and spaces between them, in front of a wall of specks that they hide here
-/// and there: as many parts as there are.
+/// Specks of nine voxels with gaps between them, partly hiding a wall of specks behind: this gives
+/// very many parts.
 std::vector<float> specks(int a_side) {
   std::vector<float> xyz;
   for (const double depth : {0.7, 0.8}) {
@@ -293,7 +293,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
   EXPECT_GT(cut(s, apart).segments.size(), 2000U) << "parts that are compared";
   EXPECT_LT(took.count(), 20);
 
-  // The joins ask, too: a stop that is requested in the middle of them is seen.
+  // Joins also check for a stop: a request in the middle of them is noticed.
   std::stop_source source;
   RunContext context;
   context.stop = source.get_token();

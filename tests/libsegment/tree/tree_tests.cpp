@@ -31,7 +31,7 @@ void expect_same(const SceneCut& a, const SceneCut& b) {
   EXPECT_EQ(a.segments, b.segments);
 }
 
-/// A box on a box, and one beside them that is cut in two by a bar before it.
+/// A box on a box, and beside them a box that a bar in front of it cuts in two.
 TableScene stack() {
   return TableScene({{{-0.2, -0.05, 0}, {0.0, 0.15, 0.08}},
                      {{-0.14, 0.0, 0.08}, {-0.06, 0.1, 0.2}},
@@ -266,7 +266,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
               &kTreeNoVertex, sizeof kTreeNoVertex);
   EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
-  // Far from the voxel: aside, high above it, behind the plane; or so few that a point is missing.
+  // Far from the voxel: to the side, high above it, behind the plane; or too few points.
   const Vec3 n = s.plane->normal;
   for (const double away : {1.0, -1.0, 1e30})
     EXPECT_TRUE(says(damaged([&](SceneTree& t) {
@@ -336,7 +336,7 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
   EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
   for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
-  // Other methods do not look through openings, and without a plane nothing is below it.
+  // Other methods do not look through openings, and without a plane there is nothing below it.
   SceneTree tree = b.s;
   tree.method = Method::supervoxels;
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);

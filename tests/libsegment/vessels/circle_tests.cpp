@@ -57,8 +57,8 @@ TEST(Circle, EachSetHasTheSameWeight) {
   }
 }
 
-// The circle of a line may be any, but from nowhere is a line seen on more than half of it: less
-// than what makes a rim.
+// The circle of a line is arbitrary, but a line never covers more than half of it, which is less
+// than a rim needs.
 TEST(Circle, ALineIsOnHalfOfItsCircleAtMost) {
   for (int degrees = 0; degrees < 180; ++degrees) {
     const Eigen::Vector2d along(std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180));

@@ -21,7 +21,7 @@ using test::VesselScene;
 constexpr Plane kTable{{0, 0, 1}, 0, 1};
 constexpr double kVoxel = 0.005, kMargin = 0.005;
 
-/// What comes back through the openings of the objects of a scene.
+/// The points that are won back through the openings of a scene's objects.
 struct Found {
   std::vector<Index> points;        ///< that came back
   std::vector<std::uint32_t> to;    ///< their voxels
@@ -164,7 +164,7 @@ TEST(Openings, BoxesHaveNone) {
     ASSERT_FALSE(s.labels[i] != 0 && scene.truth()[i] == 0);
 }
 
-// ---- what a scene makes of it
+// ---- in a whole scene
 
 TEST(OpeningsOfScenes, BottomsHaveTheLabelOfTheirVessel) {
   for (const double depth : {0.0, 0.03}) {

@@ -14,7 +14,7 @@ namespace {
 /// is an axis.
 constexpr Plane kTable{{0, 0, -1}, 1, 1};
 
-/// The labels of voxels that points of the strip get from walls, by assign_base_points.
+/// The voxels of walls that points of the strip join, by assign_base_points.
 struct Bases {
   std::vector<float> xyz;
   std::vector<Index> walls, strip;

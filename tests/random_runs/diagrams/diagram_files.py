@@ -11,7 +11,7 @@ import formats
 
 INF = math.inf
 STYLES = ["grid", "grid", "dyadic", "unit", "wide", "tiny", "huge", "shifted", "any"]
-LARGE = 4e99  # vectors are made of numbers up to 1e100, lengths among them
+LARGE = 4e99  # vectors use numbers up to 1e100, including lengths
 
 
 def number(rng, style):
@@ -25,7 +25,7 @@ def number(rng, style):
         return rng.choice([5e-324, 1e-310, 1e-300, 1e-160]) * rng.randint(-5, 9)
     if style == "huge":
         return rng.choice([1e97, 4e98]) * rng.randint(-9, 9) * rng.choice([1, rng.random()])
-    if style == "shifted":  # differences have few digits left
+    if style == "shifted":  # differences have few digits
         return 1e6 + rng.choice([rng.random(), rng.randint(0, 4)])
     if style == "vast":
         return rng.choice([1e153, 1e200, 1e304]) * rng.randint(-9, 9)
@@ -56,7 +56,7 @@ def random_bar(rng, style, infinite):
 
 
 def moved(rng, style, bar, far):
-    """A bar near this one. @param far how near: a factor, None: any."""
+    """A bar near this one. @param far a factor of the distance; None: any distance."""
     ends = [x if math.isinf(x) or rng.random() < 0.3 else
             x + number(rng, style) * (far or rng.choice([1, 2 ** -4, 2 ** -20])) for x in bar]
     largest = LARGE if style != "vast" else 1e308
@@ -65,7 +65,8 @@ def moved(rng, style, bar, far):
 
 
 def random_barcode(rng, style, infinite, before=None):
-    """@param infinite the share of bars that never die. @param before a barcode that it may be near to."""
+    """@param infinite the share of bars that never die. @param before a barcode to which it may be
+    close."""
     if rng.random() < 0.06:
         return []
     bars = []

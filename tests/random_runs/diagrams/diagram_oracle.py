@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Distances of persistence diagrams by their definitions: each bar has a place on the diagonal, and all
-are assigned at once. Knows nothing of files, and shares nothing with libph. Needs NumPy and SciPy.
+"""Distances of persistence diagrams by their definitions: each bar has a place on the diagonal, and
+all are assigned at once. Does not read files, and shares nothing with libph. Needs NumPy and SciPy.
 
 A diagram is a list of bars (birth, death) of one dimension. Bars of length 0 do not count."""
 import itertools
@@ -12,12 +12,12 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
 INF = math.inf
-FEW = 2000  # so many ways to pair bars off are all tried
+FEW = 2000  # up to this many ways to pair bars are all tried
 
 
 def kinds(bars):
-    """@return the finite bars, births of those that never die, deaths of those that were always there
-    (both sorted), how many were always there and never die."""
+    """@return the finite bars, births of bars that never die, deaths of bars that always existed
+    (both sorted), and the number of bars that always existed and never die."""
     finite = [(b, e) for b, e in bars if b < e and not math.isinf(b) and not math.isinf(e)]
     rays = sorted(b for b, e in bars if b > -INF and e == INF)
     always = sorted(e for b, e in bars if b == -INF and e < INF)
@@ -25,13 +25,14 @@ def kinds(bars):
 
 
 def same_numbers(a, b):
-    """Whether as many infinite bars of each kind are in both: else their distance is infinite."""
+    """True if both have the same number of infinite bars of each kind; otherwise their distance is
+    infinite."""
     a, b = kinds(a), kinds(b)
     return (len(a[1]), len(a[2]), a[3]) == (len(b[1]), len(b[2]), b[3])
 
 
 def differences(a, b):
-    """Of infinite bars, in the order of their finite ends."""
+    """The distances of infinite bars, in the order of their finite ends."""
     return [abs(x - y) for k in (1, 2) for x, y in zip(kinds(a)[k], kinds(b)[k])]
 
 
@@ -43,7 +44,8 @@ def norm(x, y, ground):
 
 
 def costs(a, b, ground):
-    """Of finite bars: of pairs, of those of `a` alone, of those of `b` alone."""
+    """The costs of finite bars: of pairs, of unmatched bars of `a`, and of unmatched bars of
+    `b`."""
     pairs = np.zeros((len(a), len(b)))
     for (i, p), (j, q) in itertools.product(enumerate(a), enumerate(b)):
         pairs[i, j] = norm(abs(p[0] - q[0]), abs(p[1] - q[1]), ground)
@@ -52,8 +54,8 @@ def costs(a, b, ground):
 
 
 def square(pairs, alone_a, alone_b):
-    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns the other way round.
-    Each bar has one place on the diagonal of its own; the others are closed to it."""
+    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns vice versa.
+    Each bar has its own place on the diagonal; the others are closed to it."""
     n, m = pairs.shape
     table = np.full((n + m, n + m), INF)
     table[:n, :m] = pairs
@@ -82,12 +84,12 @@ def bottleneck(a, b):
 
 
 def ways(n, m):
-    """In how many ways n and m bars can be paired off."""
+    """The number of ways to pair n and m bars."""
     return sum(math.comb(n, k) * math.comb(m, k) * math.factorial(k) for k in range(min(n, m) + 1))
 
 
 def least_of_all(pairs, alone_a, alone_b):
-    """The least sum over all ways to pair bars off."""
+    """The least sum over all ways to pair bars."""
     best = INF
     n, m = pairs.shape
     for k in range(min(n, m) + 1):
@@ -100,7 +102,7 @@ def least_of_all(pairs, alone_a, alone_b):
 
 
 def wasserstein(a, b, order, ground):
-    """@return the distance, and what all bars cost alone, as a distance."""
+    """@return the distance, and the cost of all bars unmatched, as a distance."""
     if not same_numbers(a, b):
         return INF, INF
     rays = differences(a, b)
@@ -148,5 +150,5 @@ def loss(distances, labels, power):
 
 
 def deals(labels):
-    """All ways to deal the labels, each once."""
+    """All ways to assign the labels, each once."""
     return set(itertools.permutations(labels))

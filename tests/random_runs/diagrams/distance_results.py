@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What ph-distance writes, read back by the definitions of its formats."""
+"""Reads the output of ph-distance, by the definitions of its formats."""
 import csv
 import io
 import itertools
@@ -19,7 +19,7 @@ def digits(text):
 
 
 def shortest(text):
-    """A number, as the shortest text that reads back to it. @throws ValueError"""
+    """Parses a number, which must be the shortest text that reads back to it. @throws ValueError"""
     value = float(text)
     if math.isfinite(value) and digits(text) > digits(repr(value)):
         raise ValueError(f"found {text}, expected {value!r}")
@@ -36,7 +36,7 @@ def cell(program, ok, what):
 
 
 def check_names(program, task, row):
-    """That distance, order, norm and directions are named. @param row of CSV."""
+    """Checks that distance, order, norm and directions are named. @param row of CSV."""
     ground = "" if task.distance == "sliced" else repr(float(task.ground))
     directions = str(task.directions) if task.distance == "sliced" else ""
     cell(program, row["distance"] == task.distance and float(row["order"]) == task.order, "distance")
@@ -70,14 +70,14 @@ def read_text(program, task, text):
             cell(program, float(limit) == task.at_most, "limit")
             value, lower = high, low
         value = value or "inf"
-        # Text has no lower bound of what should be exact.
+        # Text has no lower bound for exact distances.
         unsaid = task.distance == "wasserstein" and task.error == 0 and not lower and value != "inf"
         found[i, j, int(dim)] = shortest(value), None if unsaid else shortest(lower or value)
     return found
 
 
 def read_distances(program, task, content):
-    """@return value and lower bound (None if it is not said) by places of files and dimension."""
+    """@return value and lower bound (None if not stated) by indices of files and dimension."""
     text = content.decode()
     if task.form == "text":
         return read_text(program, task, text)
@@ -132,7 +132,7 @@ def read_tests(program, task, content):
 
 
 def read_matrix(program, task, folder):
-    """@return distances as if each was known exactly."""
+    """@return distances as if each were known exactly."""
     content = pathlib.Path(folder, task.matrix).read_bytes()
     count = len(task.names)
     if task.matrix.endswith(".npy"):

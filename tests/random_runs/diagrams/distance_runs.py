@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance with random options on random barcodes, beside distances by the definition."""
+"""Compares ph-distance with random options on random barcodes with distances by the definition."""
 import dataclasses
 import itertools
 import math
@@ -12,11 +12,11 @@ from random_runs import damaged
 
 INF = math.inf
 SMALL = 1e-307  # below it doubles have fewer digits
-LEAST = 1e-150  # of what all bars cost alone; squares of less vanish
+LEAST = 1e-150  # relative to the cost of all unmatched bars; smaller numbers have vanishing squares
 
 
 def expected_of(task, a, b):
-    """@return the distance, and what all bars cost alone."""
+    """@return the distance, and the cost of all bars unmatched."""
     if task.distance == "bottleneck":
         return (oracle.bottleneck(a, b),) * 2
     if task.distance == "wasserstein":
@@ -26,7 +26,7 @@ def expected_of(task, a, b):
 
 
 def is_known(task, value, lower, exact, alone):
-    """Whether the bounds are what was asked for. @param lower None: it is not said."""
+    """Checks that the bounds are as requested. @param lower None: not stated."""
     if lower is None:
         lower = value if exact == INF or task.distance == "sliced" else min(exact, value)
     if exact == INF:
@@ -41,8 +41,8 @@ def is_known(task, value, lower, exact, alone):
             lower == value if task.error == 0 else value <= (1 + task.error) * lower * (1 + 1e-15))
     if task.distance == "sliced":
         return value == lower and abs(value - exact) <= 1e-12 * exact + 1e-15 * alone + SMALL
-    # Costs to the power of the order agree to 1e-12, or to 1e-14 of what all bars cost alone; to 1e-300 of it,
-    # for powers of what is less vanish.
+    # Costs to the power of the order agree to 1e-12, or to 1e-14 of the cost of all bars unmatched;
+    # or to 1e-300 of it, because powers of smaller numbers vanish.
     if max(exact, value) <= SMALL or alone == 0:
         return value <= SMALL
 
@@ -78,7 +78,7 @@ def compare_matrix(program, task, folder, found):
         if found is not None:
             cell(program, square[i][j] == found[i, j, dim][0], "number in the matrix than in the table")
         exact, alone = expected_of(task, task.of(i, dim), task.of(j, dim))
-        # Of what was cut off early there is a bound only.
+        # For distances that were cut off early, there is only a bound.
         near = dataclasses.replace(task, at_most=INF)
         if exact <= task.at_most and not is_known(near, square[i][j], None, exact, alone):
             program.differ(f"{task.names[i]} and {task.names[j]}: found {square[i][j]!r} in the matrix, "
@@ -129,7 +129,7 @@ def compare_matching(program, task, folder, found):
         total = largest
         if task.order < INF and largest > 0:
             total = largest * math.fsum((c / largest) ** task.order for c in all_costs) ** (1 / task.order)
-        # Powers of costs that are far below those of bars alone vanish.
+        # Powers of costs far below those of unmatched bars vanish.
         alone = expected_of(task, *bars)[1]
         if task.order < INF and total < alone * 1e-300 ** (1 / task.order):
             continue
@@ -148,7 +148,7 @@ def compare_tests(program, task, found):
         unit = max(map(max, square)) or 1.0
         square = [[x / unit for x in row] for row in square]
         exact = oracle.loss(square, task.labels, task.power)
-        is_vast = abs(math.log10(unit)) * task.power > 290  # then the loss is no double
+        is_vast = abs(math.log10(unit)) * task.power > 290  # then the loss is not a double
         scale = math.nan if is_vast else unit ** task.power
         doubt = (1 + task.error) ** task.power - 1 + 1e-11
         ends = ((exact * (1 + sign * doubt) + sign * 1e-14) * scale for sign in (-1, 1))
@@ -170,7 +170,7 @@ def compare_tests(program, task, found):
 # Runs.
 
 def refused(program, task, names):
-    """One line that says what option it is about, and no output."""
+    """One line that names the option, and no output."""
     program.expect_refusal(program.run.returncode, Names(task))
     said = [line for line in program.said.splitlines() if line.startswith("ph-distance: ") and ": read " not in line]
     if not any(name in said[-1] for name in names):
@@ -178,7 +178,7 @@ def refused(program, task, names):
 
 
 class Names:
-    """All outputs, as Program.expect_refusal wants one."""
+    """All outputs, in the form that Program.expect_refusal needs."""
 
     def __init__(self, task):
         self.name = task.output or task.matching or task.matrix
@@ -192,7 +192,7 @@ def no_outputs(program, task, folder):
 
 
 def expected_refusal(task):
-    """@return an exit code with which the docs say that it ends, words of which the message has one; or None."""
+    """@return the documented exit code and words, one of which the message has; or None."""
     if task.matrix and len(task.dims) != 1:
         return 64, ["--matrix"]
     if task.aim != "groups":
@@ -206,7 +206,7 @@ def expected_refusal(task):
 
 
 def one_run(rng, program, folder):
-    """@return what it was, for the counts."""
+    """@return the kind of run, for the counts."""
     task, options = random_task(rng, folder)
     kind = f"{task.distance}, {task.aim}"
     if rng.random() < 0.1:
@@ -226,7 +226,7 @@ def one_run(rng, program, folder):
         refused(program, task, [name])
         no_outputs(program, task, folder)
         return f"{kind}, refused"
-    # The order of files counts, that of options does not.
+    # The order of files matters, the order of options does not.
     rng.shuffle(options)
     at = rng.randint(0, len(options))
     code = program([*options[:at], *[[name] for name in task.names], *options[at:]])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random tasks for ph-distance: barcodes, options, and what these mean."""
+"""Random tasks for ph-distance: barcodes, options, and their meaning."""
 import dataclasses
 import math
 import pathlib
@@ -8,7 +8,7 @@ import diagram_files
 import formats
 
 INF = math.inf
-# Options with a value, and what they are for: distances; two barcodes, more, a matching, groups.
+# Options with a value, and where they apply: distances; two barcodes, more, a matching, groups.
 BOTH, ALL = {"bottleneck", "wasserstein"}, {"pair", "many", "matching", "groups"}
 SCOPES = {
     "--order": (["1", "2", "3.5"], {"wasserstein"}, ALL), "--ground": (["inf", "2", "1"], {"wasserstein"}, ALL),
@@ -26,7 +26,7 @@ SENSELESS = {
 
 @dataclasses.dataclass
 class Task:
-    """What is asked for."""
+    """The requested results."""
     names: list
     bars: list
     aim: str

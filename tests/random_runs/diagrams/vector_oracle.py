@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of persistence diagrams by their definitions, bar by bar and value by value. Knows nothing of
-files, and shares nothing with libph. Needs NumPy and SciPy.
+"""Vectors of persistence diagrams by their definitions, bar by bar and value by value. Does not
+read files, and shares nothing with libph. Needs NumPy and SciPy.
 
 A diagram is a list of bars (birth, death) of one dimension, of positive length."""
 import math
@@ -92,7 +92,7 @@ def silhouette(bars, at, power):
 
 
 def shares_of_pixels(low, high, count, centre, sigma):
-    """What a normal distribution has in each pixel."""
+    """The mass of a normal distribution in each pixel."""
     ends = low + (high - low) * np.arange(count + 1) / count
     with np.errstate(over="ignore"):
         left, right = (ends[:-1] - centre) / sigma, (ends[1:] - centre) / sigma
@@ -123,11 +123,12 @@ def atol(bars, centres, widths, contrast):
 
 
 def are_means(points, centres, slack):
-    """Whether centres are where rounds of k-means end: each the mean of the points that are nearest to it."""
+    """True if the centres are a fixed point of k-means: each is the mean of the points nearest to
+    it."""
     points, centres = np.array(points), np.array(centres)
     far = np.sqrt(((points[:, None] - centres[None]) ** 2).sum(-1))
     nearest = far.argmin(1)
-    # A point between two centres may be of either.
+    # A point between two centres may belong to either.
     doubtful = (far <= far.min(1)[:, None] + slack).sum(1) > 1
     if doubtful.any():
         return True

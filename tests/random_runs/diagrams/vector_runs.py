@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise with random options on random barcodes and images, beside vectors by the definition."""
+"""Compares ph-vectorise with random options on random barcodes and images with vectors by the
+definition."""
 import csv
 import io
 import itertools
@@ -20,8 +21,8 @@ INF = math.inf
 
 
 def counted(task, dim):
-    """Bars of a dimension (of all, with their dimensions, where it is None) of each input that count, and
-    how many are left out."""
+    """The bars of a dimension (of all dimensions, if it is None) of each input that count, and the
+    number of omitted ones."""
     left_out, found = 0, []
     for own in task.bars:
         kept = []
@@ -41,7 +42,7 @@ def counted(task, dim):
 
 
 def expected_refusal(task):
-    """@return the exit codes with which it may end, words of which the message has one; or None."""
+    """@return the permitted exit codes and words, one of which the message has; or None."""
     used = [bar for own in task.bars for bar in own if task.kind == "euler" or bar[0] in task.dims]
     if not task.dims:
         return [65], ["no bars"]
@@ -71,10 +72,10 @@ def expected_refusal(task):
     return None
 
 
-# What is fitted.
+# The fitted values.
 
 def around(x, width):
-    """A range of one number, not narrower than doubles can be told apart."""
+    """A range around one number, wide enough for doubles to be distinguished."""
     half = max(width / 2, abs(x) * 2 ** -40)
     return x - half, x + half
 
@@ -89,7 +90,7 @@ def ends_of(diagrams):
 
 
 def changes(bars):
-    """Where an Euler curve changes, each as a bar of length 0."""
+    """The values at which an Euler curve changes, each as a bar of length 0."""
     at = {}
     for dim, birth, death in bars:
         for x, sign in ((birth, 1), (death, -1)):
@@ -120,11 +121,11 @@ def fitted_frame(task, diagrams):
     return births, across, task.sigma or longer / 20
 
 
-# Vectors, each with the errors that it may have.
+# Vectors, each with its permitted errors.
 
 def block_of(task, bars, dim, fit):
-    """@param fit the grid or what else was fitted. @return names of the columns, numbers, and how far off
-    they may be."""
+    """@param fit the grid or other fitted values. @return names of the columns, numbers, and their
+    permitted errors."""
     h = "" if dim is None else f"H{dim}_"
     kind, far = task.kind, max((abs(x) for bar in bars for x in bar[-2:] if math.isfinite(x)), default=0.0)
     if kind == "statistics":
@@ -140,7 +141,7 @@ def block_of(task, bars, dim, fit):
     if kind == "image":
         births, across, sigma = fit
         numbers, total = oracle.image(bars, births, across, sigma, task.power)
-        # Of a bar and the border of a pixel rounding decides how far they are apart.
+        # Rounding decides the distance of a bar from the border of a pixel.
         rounded = 4 * math.ulp(max(far, *map(abs, births[:2] + across[:2]))) / sigma
         names = [f"{h}p{j}_b{i}" for j, i in itertools.product(range(across[2]), range(births[2]))]
         return names, numbers, [max(total * (2e-14 + rounded), 1e-307)] * len(numbers)
@@ -158,7 +159,8 @@ def block_of(task, bars, dim, fit):
 
 
 def fit_of(task, diagrams, block):
-    """What is fitted, by the definition. @param block of the file of --fit, for what is learned by chance."""
+    """The fitted values, by the definition. @param block of the file of --fit, for values learned
+    at random."""
     if task.kind == "image":
         return fitted_frame(task, diagrams)
     if task.kind == "atol":
@@ -167,7 +169,7 @@ def fit_of(task, diagrams, block):
 
 
 def compare_fit(program, task, fit, block, dim, diagrams):
-    """What --fit wrote of a dimension, beside the definition."""
+    """Compares the output of --fit for a dimension with the definition."""
     def same(name, found, expected):
         if not all(a == b or math.isclose(a, b, rel_tol=1e-15) for a, b in zip(found, expected)):
             program.differ(f"H{dim}: found {name} {found} in {task.fit}, expected {expected}")
@@ -213,7 +215,7 @@ def read_table(program, task, folder):
 
 
 def compare(program, task, folder, fits=None):
-    """@param fits of a run before, by dimension. @return what was fitted, by dimension."""
+    """@param fits of an earlier run, by dimension. @return the fitted values, by dimension."""
     names, rows = read_table(program, task, folder)
     document = json.loads(pathlib.Path(folder, task.fit).read_text()) if task.fit else None
     blocks = document["blocks"] if document else [None] * len(task.dims)
@@ -309,7 +311,7 @@ def refused(program, task, folder, words):
 
 
 def fitted_run(rng, program, task, folder, fits, like):
-    """The vectors that were fitted, of other barcodes."""
+    """The fitted vectors, for other barcodes."""
     names, bars = random_barcodes(rng, folder, "e", *like)
     if task.output:
         pathlib.Path(folder, task.output).unlink()
@@ -337,7 +339,7 @@ def fitted_run(rng, program, task, folder, fits, like):
 
 
 def one_run(rng, program, folder):
-    """@return what it was, for the counts."""
+    """@return the kind of run, for the counts."""
     of_images = rng.random() < 0.1
     if of_images:
         task, options = image_task(rng, folder)

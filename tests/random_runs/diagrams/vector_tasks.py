@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random tasks for ph-vectorise: barcodes or images, options, and what these mean."""
+"""Random tasks for ph-vectorise: barcodes or images, options, and their meaning."""
 import dataclasses
 import math
 import pathlib
@@ -31,7 +31,7 @@ SENSELESS = {
 
 @dataclasses.dataclass
 class Task:
-    """What is asked for. Grids are [low, high, count]; None where they are fitted."""
+    """The requested results. Grids are [low, high, count]; None if they are fitted."""
     names: list
     bars: list
     kind: str
@@ -153,7 +153,8 @@ def random_barcodes(rng, folder, stem, style, infinite):
 
 
 def random_task(rng, folder):
-    """Of barcodes. @return the task, its options, what others may be made the same."""
+    """A task for barcodes. @return the task, its options, and the parameters with which others may
+    be made alike."""
     style = "vast" if rng.random() < 0.02 else rng.choice(diagram_files.STYLES)
     infinite = rng.choice([0, 0.05, 0.2])
     task = Task(*random_barcodes(rng, folder, "d", style, infinite), rng.choice(KINDS))

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """random_scenes.py PH_SEGMENT [--runs N] [--seed S] [--jobs J] [--keep FOLDER]
 
-Runs the whole program with random options on random small scenes in each format, and compares what it
-writes with the documentation (scene_oracle.py), which shares no line with it: voxels, components and cuts
-exactly where the documentation determines them, else by what must hold. Each run has a seed of its own:
---seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with the commands; the files
-are kept in FOLDER (default: where the script is run)."""
+Runs the whole program with random options on random small scenes in each format, and compares its
+output with the documentation (scene_oracle.py), which shares no code with it: voxels, components
+and cuts must agree exactly where the documentation determines them, and otherwise have the required
+properties. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the
+first differences, with the commands; the files are kept in FOLDER (default: where the script is
+run)."""
 import argparse
 import functools
 import json
@@ -35,7 +36,8 @@ from scene_checks import Wrong  # noqa: E402
 from scene_program import Program  # noqa: E402
 
 BARCODES = {"csv": "csv", "json": "json", "pers": "pers", "dipha": "dipha", "npy": "npy"}
-# Options that make no sense, or do nothing with these methods (none: with any, or with a cloud).
+# Options that make no sense, or have no effect with these methods (none: with any method, or with a
+# cloud).
 SENSELESS = [
     *((option, "surface supervoxels") for option in ("--distance 0.1", "--steps 3")),
     *((option, "paper") for option in ("--min-part 3", "--min-persistence 1", "--plane-noise 0.1", "--cut 1e39")),
@@ -50,7 +52,7 @@ SENSELESS = [
 
 
 def outputs_for(rng, scene, organised):
-    """Random outputs, the summary and the labels among them. @return name of each kind"""
+    """Random outputs, including the summary and the labels. @return name of each kind"""
     names = {"json": rng.choice(["s.json", "s.json", "-"])}
     ways = ["npy", "csv"] + (["png"] if organised else [])
     names["labels"] = f"l.{rng.choice(ways)}"
@@ -86,7 +88,7 @@ def side_options(rng):
 
 
 def expected_refusal(scene, asked):
-    """@return exit codes that the documentation has for this, or nothing; and what the message names."""
+    """@return the documented exit codes, or nothing, and the text that the message names."""
     if asked.method == "supervoxels" and asked.spacing < asked.voxel_edge():
         return (64,), "--supervoxels"
     if not 1e-30 <= asked.voxel_edge() <= 1e30:
@@ -99,7 +101,7 @@ def expected_refusal(scene, asked):
 
 
 def may_be_too_fine(scene, asked):
-    """Whether coordinates are beyond 2^52 voxels."""
+    """True if coordinates are beyond 2^52 voxels."""
     xyz = abs(oracle.as_floats(scene.xyz))
     top = xyz[np.isfinite(xyz)].max(initial=0)
     return top / asked.voxel_edge() >= 2.0 ** 52 - 1
@@ -158,7 +160,7 @@ def missing(rng, program, scene, file, asked, words):
 
 
 def one_run(path, seed, folder):
-    """@return what it was, for the counts. @throws Difference"""
+    """@return the kind of run, for the counts. @throws Difference"""
     rng, np_rng = random.Random(seed), np.random.default_rng(seed)
     program = Program(path, folder)
     scene = scenes.random_scene(rng, np_rng)
@@ -211,7 +213,7 @@ def one_run(path, seed, folder):
 
 
 def valid(program, summary, names):
-    """Whatever the bytes mean now: labels and segments agree."""
+    """Whatever the bytes mean now, labels and segments agree."""
     count = summary["input"]["points"]
     labels = scene_files.read_labels(program.output(names["labels"]), names["labels"], count, ())
     scene_checks.expect("labels", len(labels), count)

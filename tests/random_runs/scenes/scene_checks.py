@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether what ph-segment wrote of a scene is what it must be (scene_oracle.py), and agrees with itself."""
+"""Checks that the output of ph-segment for a scene is correct (scene_oracle.py) and consistent."""
 import math
 
 import numpy as np
@@ -27,7 +27,7 @@ def require(condition, what):
 
 
 def same_partition(found, expected):
-    """Whether labels are the same up to their names; 0 stays 0."""
+    """True if labels are the same up to renaming; 0 stays 0."""
     pairs = set(zip(found.tolist(), expected.tolist()))
     return len(pairs) == len({f for f, _ in pairs}) == len({e for _, e in pairs}) and \
         all((f == 0) == (e == 0) for f, e in pairs)
@@ -103,7 +103,7 @@ class Check:
         expect("options", self.json["options"], expected)
 
     def segments(self):
-        """What is said of each, by its points."""
+        """The properties of each segment, by its points."""
         j, labels = self.json, self.labels
         expect("labels", [s["label"] for s in j["segments"]], list(range(1, len(j["segments"]) + 1)))
         require(set(np.unique(labels)) - {0} == set(range(1, len(j["segments"]) + 1)), "labels without a segment")
@@ -149,7 +149,7 @@ class Check:
             require(abs(axes[2] @ plane["normal"]) > 1 - 1e-9, f"{name}: box does not stand on the plane")
 
     def scene_stages(self):
-        """Range, plane, voxels; for method paper what follows."""
+        """Range, plane, voxels; for method paper also the later stages."""
         j, a = self.json, self.asked
         kept = oracle.in_range(self.xyz, j["viewpoint"], a.max_range, a.crop)
         expect("points in range", self.points_of("range filter"), int(kept.sum()))
@@ -166,7 +166,7 @@ class Check:
             self.counted = True
 
     def before_plane(self, kept):
-        """@return marks of the points before the plane; None: not known."""
+        """@return marks of the points in front of the plane; None: unknown."""
         j, a, plane = self.json, self.asked, self.json["plane"]
         require(a.plane or not plane["found"], "a plane though it is off")
         if not plane["found"]:
@@ -190,7 +190,7 @@ class Check:
             raise Unsure("a point at the margin of the plane")
         beyond = kept & (height > margin)
         expect("points before the plane", self.points_of("plane"), int(beyond.sum()))
-        # Points that are there twice count once.
+        # Duplicate points count once.
         _, once = np.unique(self.xyz[kept] + 0.0, axis=0, return_index=True)
         share = (abs(height[kept][once]) <= margin).mean()
         require(math.isclose(share, plane["share"], rel_tol=1e-9), f"share: found {plane['share']}, expected {share}")
@@ -278,7 +278,8 @@ class Check:
             require(all(v["birth"] == 0 for v in tree["vertices"]), "a voxel that is born late")
 
     def cut(self, tree, of_point, of_vertex):
-        """Methods surface and supervoxels: whether the segments are basins, or unions of them."""
+        """Methods surface and supervoxels: checks that the segments are basins, or unions of
+        them."""
         a, count = self.asked, len(tree["vertices"])
         centroids = np.array([v["centroid"] for v in tree["vertices"]]).reshape(-1, 3)
         births = np.array([math.inf if v["birth"] is None else v["birth"] for v in tree["vertices"]])
@@ -318,13 +319,14 @@ class Check:
                        s["meets_at"] - births[of_vertex == s["label"]].min())
 
     def seeds(self, centroids, births):
-        """No voxel is farther from one than asked for."""
+        """No voxel is farther from a seed than requested."""
         seeds = centroids[births == 0]
         apart = np.sqrt(((centroids[:, None] - seeds[None]) ** 2).sum(axis=2).min(axis=1)) if len(seeds) else np.inf
         require(np.max(apart) <= self.asked.spacing * (1 + 1e-9), f"a voxel is {np.max(apart)} from all seeds")
 
     def meetings(self, pairs, lengths, births, of_vertex):
-        """The values at which segments meet, over edges that are surely there and over all that may be."""
+        """The values at which segments meet, over edges that certainly exist and over all that may
+        exist."""
         told = {(s["label"], n["label"]): n["meets_at"] for s in self.json["segments"] for n in s["neighbours"]}
         for far, sign in ((SURELY_ADJACENT, 1), (9, -1)):
             first = {}
@@ -342,7 +344,7 @@ class Check:
                         f"neighbours: found {told}, expected at most {first}")
 
     def stored(self, content, tree):
-        """--tree FILE.tree, beside that in JSON."""
+        """Compares --tree FILE.tree with the tree in JSON."""
         stored = scene_files.read_tree(content)
         for name in ("method", "voxel", "viewpoint", "edges"):
             expected = self.json["complex"]["edges"] if name == "edges" else self.json[name]
@@ -358,12 +360,12 @@ class Check:
                [(m["value"], set(m["edge"])) for m in tree["merges"]])
 
     def cloud(self, content, with_labels=True):
-        """-o: the same points with all their fields; --coloured: a colour a segment."""
+        """-o: the same points with all their fields; --coloured: one colour per segment."""
         columns, shape = scene_files.read_cloud(content)
         if shape is not None:
             expect("rows and columns", shape, self.file.shape or (1, len(self.xyz)))
         found, given = scene_files.unpacked(columns), scene_files.unpacked(dict(self.file.fields))
-        # PCD has coordinates in single precision, unless they are far away.
+        # PCD has coordinates in single precision, unless they are very large.
         near = np.nanmax([np.abs(given[c]) for c in "xyz"], initial=0) <= 1024
         single = not with_labels or (content.startswith(b"# .PCD") and near)
         for name, values in given.items():

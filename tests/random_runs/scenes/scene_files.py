@@ -17,19 +17,19 @@ CLOUDS = ("pcd-ascii", "pcd-binary", "pcd-compressed", "ply-ascii", "ply-little"
 
 
 class File:
-    """An input: its name, its bytes, and what was put into it."""
+    """An input: its name, its bytes, and its content."""
 
     def __init__(self, form, name, content, fields, shape=None, viewpoint=False):
         self.form, self.name, self.content = form, name, content
-        self.fields = fields  # name: values, in what is compared after reading back
-        self.shape = shape  # rows and columns that the file knows of
-        self.viewpoint = viewpoint  # whether it says where the sensor stood
+        self.fields = fields  # name: values, for comparison after reading back
+        self.shape = shape  # rows and columns that the file stores
+        self.viewpoint = viewpoint  # True if it stores the position of the sensor
         self.options = []
         self.others = []  # other files: name, content
 
 
 def word(value):
-    """A number as text: the shortest that reads back to the same."""
+    """A number as the shortest text that reads back to the same number."""
     return "nan" if value != value else str(value)
 
 
@@ -134,10 +134,10 @@ def npy(rng, scene):
 
 
 def text(rng, scene, form):
-    """x y z on each line; in csv under their names, in pts behind their number."""
+    """x y z on each line; in csv under their names, in pts after the number of points."""
     table, names = [scene.xyz[:, k] for k in range(3)], list("xyz")
     if scene.colours is not None and len(scene.xyz) > 0:
-        # Behind pts' coordinates and before its colours stands an intensity.
+        # In pts, an intensity follows the coordinates and precedes the colours.
         if form == "pts":
             table, names = [*table, np.full(len(scene.xyz), 0.5)], [*names, "intensity"]
         table += [scene.colours[:, k].astype("i8") for k in range(3)]
@@ -162,7 +162,7 @@ def text(rng, scene, form):
 
 
 def cloud_file(rng, scene, form=None):
-    """In any format, or the one asked for."""
+    """In any format, or the requested one."""
     if form is None:
         form = rng.choice(CLOUDS)
         if form == "pts" and len(scene.xyz) == 0:
@@ -222,10 +222,10 @@ def depth_file(rng, scene):
     return file
 
 
-# What the program writes.
+# Reads the output of the program.
 
 def read_labels(content, name, count, shape):
-    """@param shape None: not organised; (): whatever it is. @return one number a point."""
+    """@param shape None: not organised; (): any. @return one number per point."""
     if name.endswith(".csv"):
         return np.array([int(line) for line in content.decode().split("\n")[:-1]], int)
     if name.endswith(".png"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The same scene in another way: the labels must be the same."""
+"""Processes the same scene in another way: the labels must be the same."""
 import copy
 import dataclasses
 import json
@@ -34,7 +34,8 @@ def same_labels(program, check, words, shape, stdin=None):
 
 
 def same_bytes(rng, np_rng, program, check, tree, source, names):
-    """Options in another order, and other threads: all files are the same, but for times."""
+    """Options in another order, and another number of threads: all files are the same, except for
+    times."""
     words = [*plain_words(check, source), ["--threads", rng.choice("234")]]
     kept = {k: n for k, n in names.items() if k not in ("json", "report")}
     rng.shuffle(words)
@@ -51,7 +52,7 @@ def standard_input(rng, np_rng, program, check, tree, source, names):
 
 
 def other_format(rng, np_rng, program, check, tree, source, names):
-    """Every other format holds the same points, or as floats of 32 bits."""
+    """Every other format holds the same points, possibly as 32-bit floats."""
     scene = dataclasses.replace(check.scene, xyz=check.xyz, viewpoint=tuple(check.json["viewpoint"]), depth=None,
                                 extra=[])
     forms = [f for f in scene_files.CLOUDS if f != "pts" or len(check.xyz)]
@@ -80,7 +81,7 @@ def shuffled(rng, np_rng, program, check, tree, source, names):
 
 
 def table(rng, np_rng, program, check, tree, source, names):
-    """Without outputs: a line a segment."""
+    """Without outputs: one line per segment."""
     program.must(plain_words(check, source))
     lines = program.run.stdout.decode().splitlines()
     expect("header", lines[0].split()[:3], ["label", "points", "voxels"])
@@ -134,7 +135,7 @@ def stored_tree(rng, np_rng, program, check, tree, source, names):
 
 
 def cut_options(asked):
-    """What was not given stays as it was in the tree: all is given."""
+    """Values that are not given come from the tree; here all are given."""
     full = copy.copy(asked)
     full.cut, full.min_size = float(full.value()), full.least_voxels()
     if full.method != "paper":
@@ -145,9 +146,10 @@ def cut_options(asked):
 
 
 def stream(rng, np_rng, program, check, tree, source, names):
-    """Frames of a stream have the labels of each by itself. A frame that fails leaves the others."""
+    """Frames of a stream have the same labels as single frames. A failing frame does not affect the
+    others."""
     if check.scene.depth is not None or check.asked.plane or ".gz" in check.file.name:
-        return  # a plane is looked for where it was in the frame before
+        return  # a plane is searched for where it was in the previous frame
     folder = pathlib.Path(program.folder)
     other = dataclasses.replace(check.scene, xyz=check.xyz[::-1].copy(), shape=None, colours=None, normals=None,
                                 extra=[])
@@ -176,7 +178,7 @@ def stream(rng, np_rng, program, check, tree, source, names):
 
 
 def over_input(rng, np_rng, program, check, tree, source, names):
-    """An output that is the input is refused; with --force it is written over."""
+    """An output that is the input is refused; with --force it is overwritten."""
     if check.scene.depth is not None or not check.file.name.endswith((".pcd", ".ply")):
         return
     words = [*plain_words(check, source), ["-o", rng.choice(["", "./"]) + check.file.name]]
@@ -187,7 +189,7 @@ def over_input(rng, np_rng, program, check, tree, source, names):
 
 
 def little_memory(rng, np_rng, program, check, tree, source, names):
-    """A result, the same, or exit 75."""
+    """The same result, or exit code 75."""
     words = [*plain_words(check, source), ["--memory-limit", rng.choice(["1", "1kB", "20kB", "100kB", "1MB", "3MiB"])],
              ["--labels", "small.npy"]]
     if program(words) == 0:
@@ -197,7 +199,7 @@ def little_memory(rng, np_rng, program, check, tree, source, names):
 
 
 def signatures(rng, np_rng, program, check, tree, source, names):
-    """Of each segment: one piece that never dies, at 0."""
+    """For each segment, one piece that is born at 0 and never dies."""
     program.must([*plain_words(check, source), ["--signatures"], ["--json", "g.json"], ["--threads", rng.choice("12")]])
     for s in json.loads(program.output("g.json"))["segments"]:
         bars = s["signature"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What ph-segment must find, by docs/explanation/segmentation.md: points in range, voxels, components of
-the Vietoris-Rips complex, cuts of a merge tree. Comparisons that rounding decides are told from others."""
+"""Computes the required results of ph-segment by docs/explanation/segmentation.md: points in range,
+voxels, components of the Vietoris-Rips complex, cuts of a merge tree. Comparisons that rounding
+decides are treated separately."""
 import math
 from fractions import Fraction
 
@@ -12,7 +13,7 @@ MOST_EDGES = 60000
 
 
 class Unsure(Exception):
-    """Rounding decides, or it would take too long."""
+    """Rounding decides, or the computation would take too long."""
 
 
 class Sets:
@@ -26,7 +27,7 @@ class Sets:
         return v
 
     def join(self, u, v):
-        """@return whether they were apart"""
+        """@return True if they were separate"""
         u, v = self.find(u), self.find(v)
         self.up[max(u, v)] = min(u, v)
         return u != v
@@ -36,7 +37,7 @@ class Sets:
 
 
 def as_floats(xyz):
-    """Coordinates are floats of 32 bits; what they cannot hold is a hole."""
+    """Coordinates are 32-bit floats; coordinates beyond their range become holes."""
     with np.errstate(over="ignore"):
         return xyz.astype("f4").astype("f8")
 
@@ -75,7 +76,7 @@ class Voxels:
         sums = np.zeros((len(self.cells), 3))
         np.add.at(sums, self.of_point, inside)
         self.centroids = (self.cells + sums / self.counts[:, None]) * edge
-        # Exact where nothing is rounded: few bits, divided by a power of two.
+        # Exact if nothing is rounded: few bits, divided by a power of two.
         grain = inside * 2 ** 10
         rough = np.zeros(len(self.cells), bool)
         np.logical_or.at(rough, self.of_point, (grain != np.floor(grain)).any(axis=1))
@@ -158,7 +159,7 @@ class Rips:
 
 
 def basins(merges, count, value, least_part):
-    """The cut of a merge tree as its JSON has it. @return a name for each vertex."""
+    """The cut of a merge tree in the form of its JSON. @return a name for each vertex."""
     sets = Sets(count)
     for m in merges:
         separates = m["value"] - m["younger_birth"] >= value and \
@@ -169,7 +170,7 @@ def basins(merges, count, value, least_part):
 
 
 def replay(tree):
-    """What is wrong with the merges of a tree, by the elder rule; None: nothing."""
+    """A violation of the elder rule by the merges of a tree; None if there is none."""
     births = [math.inf if v["birth"] is None else v["birth"] for v in tree["vertices"]]
     sets, size, first = Sets(len(births)), [1] * len(births), list(range(len(births)))
     last = -math.inf
@@ -194,8 +195,8 @@ def replay(tree):
 
 
 def meeting(tree, labels, a, b):
-    """The value at which two segments join, which are one from the beginning; None: never.
-    @param labels of the vertices"""
+    """The value at which two segments join, the parts of each being joined from the start; None:
+    never. @param labels of the vertices"""
     sets = Sets(len(labels))
     ends = [np.nonzero(labels == x)[0].tolist() for x in (a, b)]
     for members in ends:

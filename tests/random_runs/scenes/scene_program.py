@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-segment, called in a folder; what it says is looked at."""
+"""Runs ph-segment in a folder, and checks its messages."""
 import pathlib
 import re
 import shlex
@@ -14,7 +14,7 @@ class Program:
         self.command, self.run, self.said, self.before = None, None, "", set()
 
     def __call__(self, options, stdin=None):
-        """@return the exit code. Files of earlier calls are left where they are."""
+        """@return the exit code. Files of earlier calls are kept."""
         self.command = [self.path, *sum(options, [])]
         self.before = {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
         given = {"input": stdin} if stdin is not None else {"stdin": subprocess.DEVNULL}
@@ -38,7 +38,7 @@ class Program:
         return pathlib.Path(self.folder, name).read_bytes()
 
     def expect_refusal(self, codes, named):
-        """A message, of one line with --quiet, that names what is wrong, and no output."""
+        """A message (one line with --quiet) that names the fault, and no output."""
         found = self.run.returncode
         last = self.said.splitlines()[-1] if self.said else ""
         if found not in codes or self.run.stdout or not self.said.endswith("\n"):

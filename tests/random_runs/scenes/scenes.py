@@ -10,13 +10,13 @@ import numpy as np
 class Scene:
     kind: str
     xyz: np.ndarray  # n x 3, float64; NaN: a hole
-    size: float = 0.3  # of what is in it
+    size: float = 0.3  # a description of its content
     shape: tuple = None  # rows and columns
     colours: np.ndarray = None
     normals: np.ndarray = None
     extra: list = dataclasses.field(default_factory=list)  # pairs of name and array
     viewpoint: tuple = (0.0, 0.0, 0.0)
-    voxel: float = None  # one that makes ties, if any does
+    voxel: float = None  # a length that makes ties, if any
     depth: np.ndarray = None
     depth_scale: float = 1000
     camera: tuple = None
@@ -60,14 +60,14 @@ def relief(rng, np_rng, size):
 
 
 def lattice(rng, np_rng, step):
-    """Whole multiples of a step, of a power of two: all sums are exact, with ties."""
+    """Multiples of a power of two: all sums are exact, with ties."""
     shape = rng.choice([(6, 6, 6), (12, 12, 1), (60, 1, 1), (4, 20, 3)])
     count = rng.randint(1, 150)
     return np.stack([np_rng.integers(-n // 2, n - n // 2, count) for n in shape], 1) * step
 
 
 def organised(rng, np_rng):
-    """Depths of a table and boxes before a pinhole camera: as floats in metres, by pixel."""
+    """Depths of a table and boxes in front of a pinhole camera: as floats in metres, by pixel."""
     rows, columns = rng.choice([(2, 2), (4, 6), (12, 16), (24, 32), (36, 48)])
     focal = columns * rng.choice([0.8, 1.0, 2.0])
     camera = (float(focal), float(focal * rng.choice([1, 1, 1.125])), (columns - 1) / 2, (rows - 1) / 2)
@@ -85,7 +85,7 @@ def organised(rng, np_rng):
 
 
 def points_of_depth(depth, camera, scale):
-    """Metres, as the definition of a pinhole camera says."""
+    """Metres, by the definition of a pinhole camera."""
     fx, fy, cx, cy = camera
     rows, columns = depth.shape
     u, v = (a.astype(float) for a in np.meshgrid(np.arange(columns), np.arange(rows)))
@@ -135,7 +135,7 @@ def random_scene(rng, np_rng):
     elif kind == "flat":  # all on a plane or a line
         xyz = np_rng.uniform(-0.3, 0.3, (rng.randint(3, 200), 3)) * rng.choice([[1, 1, 0], [1, 0, 0], [0, 0, 0]])
         xyz = xyz + [0, 0, 0.7]
-    else:  # rows and columns that are no picture
+    else:  # rows and columns that are not a picture
         shape = rng.randint(2, 12), rng.randint(1, 12)
         xyz = np_rng.normal(0, 0.1, (shape[0] * shape[1], 3))
     scene = Scene(kind, xyz, size, shape, voxel=voxel)
@@ -210,7 +210,7 @@ class Asked:
         return self.min_part or (8 if self.method == "supervoxels" else 200)
 
     def options(self):
-        """As on the command line."""
+        """The options as on the command line."""
         out = []
         if self.method == "supervoxels":
             out += [["--supervoxels", repr(self.spacing)]]
@@ -230,7 +230,7 @@ class Asked:
         return out + self.cut_options(self.cut_name)
 
     def cut_options(self, name="--cut"):
-        """Those that a stored tree takes, too."""
+        """Options that a stored tree also accepts."""
         out = [[name, repr(self.cut)]] if self.cut is not None else []
         for name in ("min_part", "min_size", "min_seam"):
             if getattr(self, name) is not None:

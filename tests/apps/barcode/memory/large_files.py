@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Inputs that are mapped, larger than the limit and all that may be beside it: whatever reads them,
-the limit holds, and what does not fit says so soon."""
+"""Mapped inputs that are larger than the limit plus all allowed extra memory: whatever reads them,
+the limit holds, and a run that does not fit reports this soon."""
 import gzip
 import os
 import shutil
@@ -12,7 +12,7 @@ from program import files, main  # noqa: E402
 from under_limit import BESIDE, UnderLimit  # noqa: E402
 
 SECONDS = 60  # of CPU: all of them end
-SECONDS_TO_REFUSE = 6  # of CPU; it is one or two
+SECONDS_TO_REFUSE = 6  # of CPU; it takes one or two
 MIDDLE = struct.pack("<4d", 1, 2, 1, 3)
 
 
@@ -73,14 +73,14 @@ class LargeFiles(UnderLimit):
                 with self.subTest(name=name, limit=limit, options=options):
                     code, peak, seconds, message = self.run_within(limit, SECONDS, (name, *options))
                     ends.add((name, code))
-                    # So many voxels have no merge tree.
+                    # Images with so many voxels have no merge tree.
                     self.assertIn(code, (64, 75) if "tree" in options else (0, 75), message)
                     self.assertLessEqual(peak, limit + BESIDE, f"exit code {code}")
                     if code != 0:
                         self.assertLess(seconds, SECONDS_TO_REFUSE)
                         self.assertEqual(message.count("\n"), 1, message)
                     self.forget("out", "o.html", "o.svg")
-        # What is done and what is not: else the rows would show nothing of one of them.
+        # Rows must include both outcomes; otherwise they would show nothing about one of them.
         self.assertLessEqual({("long.npy", 0), ("picture.npy", 0), ("floats.npy", 0),
                               ("bytes.npy", 75), ("floats.npy", 75), ("shown.npy", 75)}, ends)
 

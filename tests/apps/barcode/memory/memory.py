@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Memory that runs out, in more than a hundred ways: the limit holds, and the run says so.
+"""Memory runs out in more than a hundred ways: the limit holds, and the run says so.
 
-Each way to blow up runs under limits from 2 MiB to 128 MiB. It either succeeds or ends with 75, in
-one line that says how to go on, and never takes more than the limit and 32 MiB beside it.
+Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It either succeeds or ends with 75
+and one line that suggests a way out, and never takes more than the limit plus 32 MiB.
 """
 import os
 import random
@@ -22,7 +22,7 @@ from under_limit import BESIDE, INPUTS, UnderLimit, is_sanitized, peak_of  # noq
 MIB = 1 << 20
 LIMITS = (2, 16, 48, 128)  # MiB
 NOBODY = 65534
-SECONDS = 2  # of CPU; a run that fits takes its time: what it took until then counts
+SECONDS = 2  # of CPU; a run that fits may take longer: its memory until then counts
 BEYOND_LIMITS = ("--engine", "cohomology", "--min-persistence", "-1")  # soon
 LEAST_ENDED = 90  # runs; how many more reach an end in these seconds depends on the machine
 
@@ -34,7 +34,8 @@ def write_points(path, count, dim, digits=6):
 
 
 def write_image(path, extents):
-    """DIPHA's image, in pieces: what this process takes is counted with its children."""
+    """DIPHA's image, written in pieces, because the memory of this process counts with its
+    children's."""
     count = 1
     for n in extents:
         count *= n
@@ -137,7 +138,7 @@ class Limits(UnderLimit):
 
 
 class Alternatives(UnderLimit):
-    """What a run that was stopped says would fit, does."""
+    """The alternatives that a stopped run suggests do fit."""
     ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, alternatives at least
             ("space.txt", 12, 3),
             ("space.txt", 20, 3, "--max-dim", "2", "--threshold", "0.25", "--engine", "twist",
@@ -215,7 +216,7 @@ class System(ProgramTest):
                 stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (soft, -1))) as run:
             messages = [run.stderr.readline() for _ in inputs]
-            time.sleep(0.3)  # it goes on to the next one
+            time.sleep(0.3)  # it continues with the next one
             limit = resource.prlimit(run.pid, resource.RLIMIT_DATA)[0]
             run.communicate(b"0\n1\n", 60)
         self.assertTrue(all(b"--memory-limit" in line for line in messages), messages)
@@ -230,7 +231,7 @@ class System(ProgramTest):
         self.assertLess(often, 128 * MIB)
 
     def test_the_limit_of_the_user_stays(self):
-        soft = self.heap_limit_after(1, -1) - 6 * MIB  # below what the program would set
+        soft = self.heap_limit_after(1, -1) - 6 * MIB  # below the limit that the program would set
         self.assertEqual(self.heap_limit_after(3, soft), soft)
 
     def test_control_group(self):
@@ -267,7 +268,7 @@ class System(ProgramTest):
         if os.geteuid() == 0:  # limits on processes do not bind root
             user = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
             os.chmod(self.folder, 0o755)
-            # The program may lie in a folder of root's.
+            # The program may be in a folder that belongs to root.
             command = [shutil.copy(program.PROGRAM, self.path("program"))]
             try:
                 subprocess.run([*command, "--version"], cwd=self.folder, check=True,

@@ -12,7 +12,7 @@ import unittest
 import program
 from program import ProgramTest
 
-BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
+BESIDE = 32  # MiB that code, libraries and small allocations may take beyond the limit
 PEAK = os.path.abspath(sys.argv.pop(2))
 INPUTS = tempfile.TemporaryDirectory()  # of all tests of a script
 FILES = (".txt", ".dipha", ".values", ".npy", ".gz")
@@ -39,7 +39,8 @@ def peak_of(arguments, folder, seconds=None):
 
 
 class UnderLimit(ProgramTest):
-    """`write_inputs` of a class writes what its tests read, once for all that have the same."""
+    """`write_inputs` of a class writes the inputs of its tests, once for all classes that share
+    them."""
     written = set()
 
     @classmethod
@@ -51,12 +52,12 @@ class UnderLimit(ProgramTest):
             UnderLimit.written.add(cls.write_inputs)
 
     def forget(self, *names):
-        for name in os.listdir(self.folder):  # also what a run that was killed had begun
+        for name in os.listdir(self.folder):  # also the files that a killed run had begun
             if name in names or name.startswith(".ph-"):
                 os.remove(self.path(name))
 
     def run_within(self, limit, seconds, arguments):
-        """@param limit in MiB. @return as `peak_of`."""
+        """@param limit in MiB. @return like `peak_of`."""
         output = () if "--output-format" in arguments else ("--output-format", "csv")
         words = [os.path.join(INPUTS.name, word) if word.endswith(FILES) else word
                  for word in arguments]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""completion_tests.py PH_BARCODE PH_SEGMENT EXTENDED_BARCODE: what the shells complete, at a terminal. The last
-program has an engine and a complex that the first one has not."""
+"""completion_tests.py PH_BARCODE PH_SEGMENT EXTENDED_BARCODE: tests completion in shells at a
+terminal. The last program has an engine and a complex that the first one lacks."""
 import os
 import re
 import shutil
@@ -47,7 +47,7 @@ class Completion:
         return shell
 
     def shown(self, shell, line, is_expected=None):
-        """A busy machine is slow now and then: what is expected may come later."""
+        """A busy machine is sometimes slow: the expected text may come later."""
         for seconds in (0.05, 0.5, 5) if is_expected else (1,):
             text = shell.complete(line, seconds)
             if is_expected and is_expected(text):

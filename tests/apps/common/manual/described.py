@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the help of a program says of its options, for tests of what is made of the same
+"""Parses the options in a program's help, for tests of other output made from the same
 description."""
 import os
 import re
@@ -7,7 +7,7 @@ import subprocess
 
 
 class Option:
-    """names: "-o", "--output". value: its placeholder, empty of a flag."""
+    """names: "-o", "--output". value: its placeholder, empty for a flag."""
 
     def __init__(self, names, value):
         self.names, self.value = names, value

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""help_tests.py SOURCE_FOLDER PROGRAM…: --help is short, its topics are all options, its examples run as they
-stand."""
+"""help_tests.py SOURCE_FOLDER PROGRAM…: --help is short, its topics contain all options, and its
+examples run unchanged."""
 import collections
 import os
 import re
@@ -104,7 +104,7 @@ class Help(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
             made = re.findall(r"(?<![\w/])[a-z]+\.[a-z]+", example)
             self.assertEqual(sorted(made), sorted(set(os.listdir(folder)) - {"examples"}))
-            # What is not a file is an answer; nothing is asked for in vain.
+            # Every alternative that is not a file is an answer; none is useless.
             self.assertTrue(made or run.stdout)
             for name in made:
                 self.assertGreater(os.path.getsize(os.path.join(folder, name)), 0)

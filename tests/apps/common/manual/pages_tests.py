@@ -32,7 +32,7 @@ class ManPage(unittest.TestCase):
             self.pages[program] = path
 
     def shown(self, program, *formatter):
-        """The page as it is read, without bold and underlines."""
+        """The page as a reader sees it, without bold and underlines."""
         run = subprocess.run([*formatter, self.pages[program]], capture_output=True, text=True,
                              env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8",
                                   "MAN_KEEP_FORMATTING": ""}, timeout=60, check=False)
@@ -87,7 +87,7 @@ class ManPage(unittest.TestCase):
             with open(self.pages[program], encoding="utf-8") as file:
                 source = file.read().replace("\\:", "")
             for option in options_of(program).values():
-                # A plain dash is a hyphen, which no program takes for one.
+                # A plain dash is a hyphen, which no program accepts as a dash.
                 for text in (*option.names, option.value.replace("…", "...")):
                     self.assertIn(text.replace("-", "\\-"), source)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Shells at a terminal, to see what they complete."""
+"""Runs shells at a terminal, to test their completion."""
 import os
 import pty
 import re
@@ -16,7 +16,7 @@ TAB, KILL_LINE, ENTER = b"\t", b"\x15", b"\r"
 
 
 class Terminal:
-    """A shell that believes that somebody types."""
+    """A shell that believes that somebody is typing."""
 
     def __init__(self, command, folder, environment):
         self.pid, self.descriptor = pty.fork()
@@ -35,7 +35,7 @@ class Terminal:
         os.write(self.descriptor, keys)
 
     def read_until(self, pattern):
-        """All that is shown up to a pattern."""
+        """All output up to a pattern."""
         shown, end = b"", time.monotonic() + PATIENCE
         while not re.search(pattern, shown):
             if not select.select([self.descriptor], [], [], max(0, end - time.monotonic()))[0]:
@@ -44,15 +44,15 @@ class Terminal:
         return shown
 
     def run(self, line):
-        """Waits until it is done. What is typed differs from what is shown: the answer is seen, not
-        the question."""
+        """Waits until the command is done. The typed text differs from the expected one, so that
+        the answer is seen, not the echo."""
         self.asked += 1
         self.type(line.encode() + b"; echo an''swer" + str(self.asked).encode() + ENTER)
         return self.read_until(b"answer%d\r?\n" % self.asked)
 
     def complete(self, line, seconds):
-        """What is shown for a TAB behind a line: candidates, or the line as it is completed.
-        @param seconds that the shell has for it: it shows nothing once the next key is there."""
+        """The output for a TAB after a line: candidates, or the completed line. @param seconds that
+        the shell has to answer: it shows nothing after the next key."""
         self.type(line.encode() + TAB)
         time.sleep(seconds)
         self.type(KILL_LINE)
@@ -86,7 +86,7 @@ class Zsh(Terminal):
 
 
 class Fish:
-    """Says by itself what it would complete."""
+    """Prints its completions itself."""
 
     def __init__(self, folder, script):
         self.folder, self.script = folder, script

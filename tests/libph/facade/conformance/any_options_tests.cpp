@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSeeds = 1500;
 
-/// The bars of the oracle that the options ask for.
+/// The oracle's bars that the options request.
 template <class Complex>
 std::vector<Pair> expected_bars(const Complex& complex, const Options& options) {
   const Options all{.max_dim = options.max_dim, .field = options.field, .engine = Engine::standard};
@@ -34,7 +34,7 @@ void forget_cells(std::vector<Pair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
 }
 
-/// @param engines that can compute a complex of this kind, perhaps not all that the options ask.
+/// @param engines that can compute a complex of this kind, though perhaps not with all options.
 /// @return how many bars were compared.
 template <class Complex>
 std::size_t agree(Generator& random, const Complex& complex, const std::vector<Engine>& engines,
@@ -64,7 +64,7 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
     return 0;
   }
   std::vector<Pair> expected = expected_bars(complex, options);
-  // Where edges were collapsed others of the same value may be named.
+  // If edges were collapsed, other edges of the same value may be named.
   if (!options.cells || options.collapse != Collapse::off) {
     forget_cells(found);
     forget_cells(expected);

@@ -43,7 +43,7 @@ TEST(RandomConformance, WideRipsCells) {
   });
 }
 
-/// As many threads find them, each of which takes one column at a time.
+/// With many threads, each of which takes one column at a time.
 template <class F>
 std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, int threads,
                                    bool oldest_first = false) {
@@ -65,7 +65,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
     const auto check_threads = [&](const auto& f, int max_dim) {
       const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, threads), oracle);
-      // Whatever can be driven out is.
+      // Every column that can be displaced is displaced.
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, 1, true), oracle);
     };
     if (random.integer(0, 9) == 0) {
@@ -80,8 +80,8 @@ TEST(RandomConformance, AnyNumberOfThreads) {
   });
 }
 
-// Long columns that drive each other out; the bars are those of one thread, which is the sequential
-// algorithm.
+// Long columns that displace each other; the bars are those of one thread, which runs the
+// sequential algorithm.
 TEST(RandomConformance, ThreadsOnManyColumns) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(26, ties));
@@ -113,7 +113,7 @@ TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   EXPECT_TRUE(is_enough(late, std::size_t{1000})) << late;
 }
 
-// Many classes with long vectors: generators go and come back, and vectors become equal.
+// Many classes with long vectors: generators disappear and return, and vectors become equal.
 TEST(RandomConformance, LinkOfWideClasses) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(24, 34), ties));
@@ -143,7 +143,8 @@ TEST(RandomConformance, LinkOfManyVertices) {
   });
 }
 
-// Many classes of H1, which a few are here: formal from the first on, and solved at once or later.
+// Many classes of H1, where a few already count as many: formal from the first on, and solved at
+// once or later.
 TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
   for_each_seed(8000, [&](Generator& random, bool ties, std::int64_t) {
@@ -166,7 +167,7 @@ TEST(RandomConformance, LinkFormally) {
   EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test is about something
 }
 
-// The same where classes of edges are many: lists become rows, and more than once.
+// The same with many classes of edges: lists become rows, more than once.
 TEST(RandomConformance, LinkFormallyOfManyPoints) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
     const Rips rips(random.distances(random.integer(60, 150), ties));
@@ -292,7 +293,7 @@ TEST(RandomConformance, FilteredGraphs) {
   });
 }
 
-// Large enough for the ways that only pay off for many cells.
+// Large enough for the methods that only pay off for many cells.
 TEST(RandomConformance, MoreCells) {
   Generator random(7);
   for (const bool ties : {true, false}) {
@@ -303,7 +304,7 @@ TEST(RandomConformance, MoreCells) {
   }
 }
 
-// A chain complex that is no simplicial complex: columns of any length, over Z/2.
+// A chain complex over Z/2 that is not a simplicial complex: columns of any length.
 TEST(RandomConformance, BoundaryMatrices) {
   for_each_seed(1000, [](Generator& random, bool ties, std::int64_t) {
     BoundaryMatrix m;

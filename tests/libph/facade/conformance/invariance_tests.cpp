@@ -57,7 +57,7 @@ TEST(Invariance, PowersOfTwoScaleExactly) {
   });
 }
 
-// What dies after the threshold lives for ever, what is born after it is not born.
+// A bar that dies after the threshold never dies; a bar that is born after it does not exist.
 TEST(Invariance, AThresholdCutsTheBarcode) {
   for_each_cloud([](Generator& random, const Points& points) {
     const std::vector<Bar> full = rips_bars(points);
@@ -113,7 +113,7 @@ TEST(Invariance, TheOrderOfTheSimplicesDoesNotMatter) {
   }
 }
 
-// The persistent Kuenneth formula at work: a Rips complex is the flag complex of its edges.
+// The persistent Künneth formula at work: a Rips complex is the flag complex of its edges.
 TEST(Invariance, ARipsComplexIsTheListOfItsSimplices) {
   for_each_cloud([](Generator&, const Points& points) {
     const Rips rips(points);
@@ -181,8 +181,8 @@ TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
   EXPECT_EQ(bars[6].birth, 1e-300);
 }
 
-// A million copies of one point are 5 * 10^11 edges: within a budget the answer is an error at
-// once, not a machine brought to its knees.
+// A million copies of one point have 5 * 10^11 edges: within a budget, the result is an immediate
+// error, not an overloaded machine.
 TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
   const Points same = to_points(PointMatrix::Constant(1000000, 3, 2.0));
   RunContext context;

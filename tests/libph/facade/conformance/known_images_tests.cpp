@@ -43,7 +43,7 @@ TEST(KnownImages, ShellsAreSpheres) {
   }
 }
 
-// What never enters stays a hole.
+// Voxels that never enter remain a hole.
 TEST(KnownImages, InfiniteVoxelsAreHoles) {
   for (int dim = 2; dim <= 3; ++dim) {
     for (const Construction construction : kBoth) {
@@ -93,7 +93,7 @@ TEST(KnownImages, SolidTorus) {
   }
 }
 
-// Voxels that touch at a corner are neighbours as cells and strangers as vertices.
+// Voxels that touch at a corner are neighbours as cells but not as vertices.
 TEST(KnownImages, DiagonalNeighboursTellTheConstructionsApart) {
   const Image diagonal{{2, 2}, {0, 1, 1, 0}};
   const Cubical as_vertices(diagonal), as_cells(diagonal, {.construction = Construction::cells});

@@ -11,7 +11,7 @@ using Betti = std::vector<int>;
 using Intervals = std::vector<std::pair<double, double>>;
 constexpr double kInf = kInfinity;
 
-// Whatever the order in which a space is built up, what is left at the end is its homology.
+// Whatever the order in which a space is built, the classes left at the end are its homology.
 void expect_homology(const Simplices& space, int top, std::int64_t field, const Betti& expected) {
   for (const auto& complex : {all_at_once(space), vertex_by_vertex(space)}) {
     EXPECT_EQ(complex.top_dim(), top);

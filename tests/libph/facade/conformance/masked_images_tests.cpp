@@ -43,13 +43,13 @@ std::vector<Index> random_extents(Generator& random, int most_axes) {
   return extents;
 }
 
-/// The same numbers as another type, or in what counts as a file.
+/// The same numbers as another type, or in memory that counts as a file.
 Image stored_otherwise(Generator& random, const Image& image) {
   Image other = image;
   const std::vector<double> numbers = image.values.doubles();
   if (random.coin()) other.values = std::vector<float>(numbers.begin(), numbers.end());
   if (random.integer(0, 7) == 0) {
-    // Whole pages, which are given back while it is looked at.
+    // Whole pages, which are released during the computation.
     const std::size_t bytes = other.values.size() * bytes_of(other.values.type());
     auto file = std::make_shared<ScratchFile>(bytes);
     std::memcpy(file->data(), other.values.data(), bytes);
@@ -125,7 +125,7 @@ TEST(MaskedImages, VoxelsWithoutPointsAreAbsent) {
     }
 }
 
-// Whatever has the value infinity is never born, in any complex.
+// In any complex, a cell with the value infinity is never born.
 TEST(InfiniteBirths, AreNowhere) {
   const std::vector<double> values{kInfinity, 1, kInfinity, 0};
   SimplexList edges;

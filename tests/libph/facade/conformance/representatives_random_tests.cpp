@@ -25,7 +25,7 @@ TEST(RandomRepresentatives, RipsSurfaces) {
   });
 }
 
-// A class of edges may lose a generator and get it back: its edges must still come once.
+// A class of edges may lose a generator and get it back: its edges must still occur once.
 TEST(RandomRepresentatives, RipsOfWideClasses) {
   for_each_seed(16, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random.distances(34, false));

@@ -53,7 +53,7 @@ TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
                              R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
   EXPECT_TRUE(
       contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
-  // Of these only the cells come back.
+  // Of these, only the cells are read back.
   const Barcode read = back(text);
   EXPECT_EQ(read.representatives(), Representatives::none);
   EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));
@@ -116,7 +116,7 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
       bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
       "expected true or false"));
   EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
-  // What nobody said is not known, and not written.
+  // Unstated facts are unknown, and are not written.
   const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
   EXPECT_EQ(bare.info.complex, "");
   EXPECT_EQ(bare.info.threshold, std::nullopt);

@@ -51,7 +51,7 @@ TEST(ReadBarcode, EmptyOnesToo) {
   bad_data([] { back("\n# nothing\n"); });
 }
 
-// Significance writes them beside bars.
+// --significance writes them beside bars.
 TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
     return read_stored_barcode(Input::view(text, "b.csv"));
@@ -66,7 +66,7 @@ TEST(ReadBarcode, ValuesOfPMayFollow) {
                  "b.csv:2:7"));
 }
 
-// As pandas, R and other programs of this field order and name columns.
+// Columns as pandas, R and other programs of this field order and name them.
 TEST(ReadBarcode, ColumnsByName) {
   for (const char* text :
        {"birth,death,dim\n0,1,0\n0.5,inf,1\n", ",dim,birth,death\n0,0,0,1\n1,1,0.5,inf\n",
@@ -180,7 +180,7 @@ TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
   EXPECT_TRUE(contains(bad_data([&] { back(square, "b.npy"); }), "shape (3, 1)"));
 }
 
-// CubicalRipser: two places behind each bar, and the largest double for infinity.
+// CubicalRipser: two positions after each bar, and the largest double for infinity.
 TEST(ReadBarcode, RowsWithVoxels) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   for (const std::size_t width : {9, 11}) {

@@ -57,7 +57,7 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   for (const std::string& text : {kTopic, kTopic + kTopic, replaced(kTopic, "k:\n", "K:\n"),
                                   replaced(kTopic, "header:", "---\nheader:")})
     expect_usual(camera_of(text));
-  // Texts over several lines, mappings in braces, and colons within words say nothing of interest.
+  // Texts over several lines, mappings in braces, and colons within words are ignored.
   expect_usual(camera_of(replaced(
       kTopic, "height: 480",
       "by:  # whom\n  a:b: c\nnote: |\n  k: 1\n\n  width: 2\nmore: >-\n  d: 3\nroom: {k: 1}\n"
@@ -74,7 +74,7 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
       "   data: [ 0.1, 0., 0., 0., 0. ]\r\n");
   expect_usual(opencv);
   EXPECT_EQ(opencv.lens.model, Lens::Model::polynomial);
-  // OpenCV writes places for thin prisms and tilted sensors, too.
+  // OpenCV also writes coefficients for thin prisms and tilted sensors.
   const auto rational = [](const std::string& more) {
     return replaced(ros_file("x", "0.3, -0.2, 0.001, 0, 0.1, 0.2, -0.1, 0.05" + more),
                     "distortion_model: x", "more: x");
@@ -217,7 +217,8 @@ TEST(Lens, ShowsNothingBeyondItsEdge) {
   EXPECT_TRUE(barrel.straightened(0.6, 0, barrel.reach()));
   EXPECT_FALSE(barrel.straightened(0.75, 0, barrel.reach()));
   EXPECT_FALSE(barrel.straightened(0.6, 0.6, barrel.reach()));
-  // r (1 - 0.3 r^2 + 0.03 r^4) rises up to r = 1.2135, falls, and rises again: rays there are none.
+  // r (1 - 0.3 r^2 + 0.03 r^4) rises up to r = 1.2135, falls, and rises again: there are no rays
+  // there.
   const Lens wide{Lens::Model::polynomial, {-0.3, 0.03}};
   const double edge = wide.bent(1.2135, 0)[0];
   EXPECT_NEAR((*wide.straightened(edge - 0.01, 0, wide.reach()))[0], 1.2135, 0.2);

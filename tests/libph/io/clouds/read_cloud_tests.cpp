@@ -142,7 +142,8 @@ TEST(Pcd, RefusesLyingCompression) {
   }
   EXPECT_EQ(pcd(whole + std::string(4000, '\0')).size(), 40);  // PCL pads like that
   bad_data([&] { pcd(whole + std::string(70000, '\0')); });
-  // Every byte of the compressed data replaced: an answer or an error, never a read outside.
+  // Every byte of the compressed data is replaced: the result is an answer or an error, never a
+  // read out of bounds.
   for (std::size_t i = start + 8; i < whole.size(); ++i) {
     for (const int value : {0, 31, 32, 255}) {
       std::string bytes = whole;
@@ -240,7 +241,7 @@ TEST(ReadXyz, NamesColumns) {
   const Cloud named = xyz("label,Z,Y,X\n7,3,2,1\n");
   EXPECT_EQ(points_of(named), (Points{{1, 2, 3}}));
   EXPECT_EQ(points_of(xyz("//X Y Z R G B\n1 2 3 0 0 0\n")), (Points{{1, 2, 3}}));
-  // A column that has a name and no values does not take the place of others.
+  // A column with a name but without values does not replace others.
   EXPECT_TRUE(
       contains(bad_data([&] { xyz("i,x,y,z,note\n9,1,2,3,\n8,4,5,6,\n"); }),
                "c.xyz:2:1: ragged row, found 4 cells, expected 5, as the header has names"));

@@ -104,7 +104,7 @@ TEST(ImagesInFiles, MaskNan) {
   EXPECT_TRUE(contains(bad_data([&] { read_image(path, {.context = &context}); }), "[0, 0, 5]"));
 }
 
-// A raw image that begins at an odd byte cannot be looked at where it is.
+// A raw image that begins at an odd byte cannot be read in place.
 TEST(ImagesInFiles, OfAnyAlignment) {
   const std::vector<float> values = numbers<float>();
   std::string bytes(3, 'x');
@@ -225,7 +225,8 @@ class RandomFiles {
   std::mt19937 random_{3};
 };
 
-// Whatever is in a file: the same numbers, or the same words, with little memory as with much.
+// Whatever a file contains, little memory gives the same numbers, or the same message, as much
+// memory.
 TEST(ImagesInFiles, RandomFilesAndFaults) {
   struct Outcome {
     std::optional<Image> image;
@@ -273,7 +274,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
   EXPECT_LT(refused, 10);
 }
 
-// What must be in memory as a whole is refused as before.
+// Images that must be in memory as a whole are still refused.
 TEST(ImagesInFiles, OtherInputsDoNot) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));
@@ -290,7 +291,7 @@ TEST(ImagesInFiles, OtherInputsDoNot) {
   }
 }
 
-// Between a third of what is left and all of it they are read, and counted.
+// Images that take between a third of the remaining memory and all of it are read and counted.
 TEST(ImagesInFiles, OtherInputsAreCounted) {
   std::string text;
   while (text.size() < 600'000) text += "0.25 0.5 0.75\n";

@@ -74,7 +74,7 @@ TEST(ReadNifti, ScalingKeepsToTheBudget) {
       }
     }
   };
-  // What is stored and what becomes of it; doubles are scaled where they are.
+  // The stored numbers and the result; doubles are scaled in place.
   check(2, std::uint8_t{}, voxels * (1 + 8));
   check(4, std::int16_t{}, voxels * (2 + 8));
   check(16, float{}, voxels * (4 + 8));
@@ -88,7 +88,7 @@ TEST(ReadNifti, ScalingIsStopped) {
   context.stop = source.get_token();
   const Input input = held(n.with(std::vector<std::int16_t>(90000)), "a.nii", context);
   context.on_progress = [&](const Progress& progress) {
-    if (progress.done == progress.total)  // all was read: what is left is to scale it
+    if (progress.done == progress.total)  // everything has been read and only needs to be scaled
       source.request_stop();
     else
       std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too

@@ -47,7 +47,7 @@ TEST(ReadTable, ChoosesColumns) {
   const auto points = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(text, {.columns = std::move(columns)}).data);
   };
-  // A line with a number is a header if it has a name that is asked for; 2 may mean either.
+  // A line with a number is a header if it has a requested name; 2 may mean either.
   EXPECT_EQ(points({"x"}), (Points{{1}, {4}}));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x", "2"}); }));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"z"}); }));
@@ -85,7 +85,7 @@ TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
       contains(bad_data([&] { any(text, {.array = ArrayMeaning::points}); }), "1:1: empty cell"));
   const ReadResult kept = any(text, {.nan = NanPolicy::drop, .array = ArrayMeaning::points});
   EXPECT_EQ(std::get<Points>(kept.data), (Points{{0.5, 0.25}, {1, 2}}));
-  // What counts columns, or has names in its rows, is a header.
+  // A line that numbers columns, or stands above rows with names, is a header.
   EXPECT_EQ(std::get<Points>(any(",1,2\n1,1.5,2\n2,3.5,4\n").data), (Points{{1.5, 2}, {3.5, 4}}));
   const ReadResult labelled =
       any("\"\",\"34\",\"7\"\n\"34\",0,2.5\n\"7\",2.5,0\n", {.array = ArrayMeaning::distances});
@@ -116,7 +116,7 @@ TEST(ReadTable, ATabSeparatesTwoCells) {
             (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1\t2\t\t# c\n\t# c\n3\t4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_TRUE(contains(bad_data([&] { any("1\t\t2\n3\t\t4\n"); }), "write one tab between cells"));
-  // Where blanks separate, too, a tab is one.
+  // If blanks also separate, a tab is one blank.
   EXPECT_EQ(std::get<Points>(any("x y\t\n1 2\t\n3 4\t\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("x\t\ty\n1 2\n3 4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1 2\t3\n4\t\t5 6\n\t7 8 9\n").data),
@@ -223,7 +223,8 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
                        "from_correlation"));
 }
 
-// Rounding is what is small beside the largest entry, whatever the entry beside it is.
+// Differences that are small compared to the largest entry count as rounding, whatever the entry
+// itself is.
 TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
   const char* correlations = "1,1e-17,0.5\n-2e-17,1,0.25\n0.5,0.25,1\n";
   EXPECT_TRUE(contains(bad_data([&] { any(correlations); }), "from_correlation"));
@@ -247,7 +248,7 @@ TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
            {"0,inf,2\n1,0,3\n2,3,0\n", "t.csv:2:1: asymmetric"}}) {
     EXPECT_TRUE(contains(bad_data([&] { any(text); }), words)) << bad_data([&] { any(text); });
   }
-  // An infinity is near nothing.
+  // An infinity is not near any number.
   EXPECT_FALSE(says(any(npy("(3, 3)", {5, kInf, 2, 1, 5, 3, 2, 3, 5})), "symmetric"));
   const auto lower = [](const char* text) {
     return read_lower_distances(Input::view(text, "l"))(1, 0);
@@ -270,7 +271,7 @@ TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
   is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column counts the rows");
   EXPECT_TRUE(
       contains(bad_data([] { any("0,1,2\n1,.5,.2\n.5,1,.3\n.2,.3,1\n"); }), "from_correlation"));
-  // Images and points: nothing is left out, but said.
+  // Images and points: nothing is left out, but there is a note.
   const ReadResult slope = read_any(Input::view("0 1 2 3\n1 2 3 4\n2 3 4 5\n", "s"), Format::grid);
   EXPECT_EQ(std::get<Image>(slope.data).extents, (std::vector<Index>{3, 4}));
   EXPECT_EQ(std::get<Points>(
@@ -376,7 +377,7 @@ TEST(ReadTable, ArraysAreKnownByShapeAndDiagonal) {
   EXPECT_EQ(kind("(7, 2)", std::vector<double>(14, 1.5)), 3U);
   EXPECT_EQ(kind("(68, 17)", std::vector<double>(68 * 17, 1.5)), 3U);
   EXPECT_EQ(kind("(3, 3)", {0, 1, 2, 1, 0, 3, 2, 3, 0}), 1U);
-  // Distances that are damaged are no picture in silence; zeros are none.
+  // Damaged distances are not silently read as a picture; zeros are not damage.
   for (const std::vector<double>& damaged :
        {std::vector<double>{0, 1, 2, 1, 0, 3, 2, 4, 0}, {0, .5, -.5, .5, 0, .25, -.5, .25, 0}})
     bad_data([&] { kind("(3, 3)", damaged); });
