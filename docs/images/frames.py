@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the pictures of frames in gallery.md anew: frames.py SCENES [BUILD], by default build/release.
+"""Regenerates the pictures of frames in gallery.md: frames.py SCENES [BUILD], by default
+build/release.
 
 SCENES is a folder with frames of the modified Object Segmentation Database as PCD. Needs Pillow.
 """
@@ -13,7 +14,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZE = (400, 300)
-# Of each frame what is shown: left, upper, width; all are 4 : 3.
+# The section shown of each frame: left, upper, width; all are 4 : 3.
 FRAMES = {"learn23": (110, 90, 420), "learn27": (160, 140, 360), "learn29": (160, 90, 340),
           "learn33": (60, 150, 440), "test46": (80, 120, 480), "test60": (100, 90, 520)}
 

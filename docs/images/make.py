@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the pictures of the pages anew: make.py [BUILD], by default build/release.
+"""Regenerates the pictures of the pages: make.py [BUILD], by default build/release.
 
 pages/     what the commands of pages draw (tests/docs/commands_in_pages.py compares them)
 gallery/   the reports of gallery.md as a browser shows them; left out without Chromium
@@ -19,7 +19,7 @@ ROOT = IMAGES.parents[1]
 sys.path.insert(0, str(ROOT / "tests/docs"))
 from commands_in_pages import commands_of, pages_with_commands, pictures_of  # noqa: E402
 
-# Of each example its picture here and, if it takes some, its data.
+# For each example, its picture here and its data, if any.
 EXAMPLES = {"cluster_moons": ["cluster-moons"], "grow_loop": ["grow-loop"],
             "clouds_to_features": ["clouds-to-features"],
             "two_circles": ["two-circles", ROOT / "examples/data/two_circles.csv"],

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws what vectors say of one barcode: vectors.py BARS.csv OUT.png. Numbers are those of ph-vectorise,
-which is on the path; needs matplotlib."""
+"""Draws the vectors of one barcode: vectors.py BARS.csv OUT.png. The numbers come from
+ph-vectorise, which must be on the path; needs matplotlib."""
 import csv
 import subprocess
 import sys

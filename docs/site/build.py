@@ -12,7 +12,7 @@ printed/    the options of the programs, as they print them, if there are progra
 reports/    the reports of the gallery, if there are programs
 html/       the site
 
-Needs no network. A warning of Sphinx is an error. Exit code 77: something that it needs is missing.
+Needs no network. A warning of Sphinx is an error. Exit code 77: a requirement is missing.
 """
 import argparse
 import importlib.util
@@ -34,7 +34,7 @@ PROGRAMS = 4  # all of them, or none
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph", "libreport/include/ph/detail/report"]
-# What public headers declare elsewhere and a reader has to know.
+# Declarations outside the public headers that readers need.
 DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
           "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
 
@@ -74,7 +74,8 @@ def run_doxygen(folder):
 
 
 def with_namespaces(group):
-    """Breathe shows what a group has by its name alone, and looks for the types of its parameters in no namespace."""
+    """Breathe shows the members of a group by their bare names, and does not search namespaces for
+    parameter types."""
     def whole(match):
         name = re.search(r"<qualifiedname>(ph::[^<]*)</qualifiedname>", match[0])
         return re.sub(r"<name>[^<]*</name>", f"<name>{name[1]}</name>", match[0], count=1) if name else match[0]
@@ -89,7 +90,7 @@ def print_options(folder, programs):
 
 
 def make_reports(folder, programs):
-    """By the commands of the page."""
+    """Runs the commands of the page."""
     sys.path.insert(0, str(ROOT / "tests/docs"))
     from commands_in_pages import commands_of, has_page
     if not all(map(has_page, programs)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sphinx: how the pages of docs/ become a site. scripts/site.sh calls it."""
+"""Configures Sphinx, which makes a site from the pages of docs/. scripts/site.sh calls it."""
 import importlib.util
 import os
 import re
@@ -8,7 +8,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# What build.py made: the tree of sources, Doxygen's XML, what the programs print.
+# The files that build.py made: the tree of sources, Doxygen's XML, the output of the programs.
 MADE = Path(os.environ["PH_SITE_FOLDER"])
 sys.path[:0] = [str(HERE), str(HERE / "ext")]
 
@@ -27,11 +27,11 @@ site_root = str(ROOT)
 site_made = str(MADE)
 site_has_python = os.environ.get("PH_SITE_PYTHON") == "1"
 
-# Markdown. Anchors are those that a forge makes of headings.
+# Markdown. Anchors are the ones that a forge makes from headings.
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
 highlight_language = "text"
-# References in the docstrings of Python: `name` is one, where there is such a name.
+# References in Python docstrings: `name` is a reference if such a name exists.
 default_role = "py:obj"
 
 smartquotes = False
@@ -43,7 +43,7 @@ napoleon_use_ivar = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
-# Its names are described without it, too.
+# Its names can be described even without it.
 autodoc_mock_imports = [] if importlib.util.find_spec("torch") else ["torch"]
 python_use_unqualified_type_names = True
 
@@ -57,8 +57,8 @@ cpp_maximum_signature_line_length = None
 primary_domain = "py"
 
 nitpicky = True
-# What is not ours, or is no page of its own: the standard library, template parameters, what is
-# private to a header.
+# Names that are not ours or have no page: the standard library, template parameters, private parts
+# of a header.
 nitpick_ignore_regex = [("cpp:.*", ".*"), ("c:.*", ".*"), ("py:.*", ".*")]
 
 html_theme = "furo"
@@ -67,13 +67,13 @@ html_static_path = [str(HERE / "static")]
 html_css_files = ["site.css"]
 html_favicon = str(HERE / "static/icon.svg")
 html_search_scorer = str(HERE / "scorer.js")
-# A page that is opened as a file may not fetch others for their words.
+# A page opened as a file may not fetch other pages to search their words.
 html_show_search_summary = False
 html_copy_source = False
 html_show_sphinx = False
-html_use_index = False  # the search has all of its names
+html_use_index = False  # the search knows all of its names
 html_theme_options = {"navigation_with_keys": True}
-# Both have a contrast of 4.5 and more on the theme's grounds.
+# Both have a contrast of at least 4.5 on the theme's backgrounds.
 pygments_style = "default"
 pygments_dark_style = "github-dark"
 copybutton_prompt_text = r">>> |\.\.\. |\$ "

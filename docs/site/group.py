@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""group.py HEADER: prints a header for Doxygen, with what it declares in a group of its own, named
-after it: Breathe shows a group without the namespace around it, which many headers open."""
+"""group.py HEADER: prints a header for Doxygen with its declarations in a group named after it,
+because Breathe shows a group without its namespace, which many headers share."""
 import re
 import sys
 from pathlib import Path
@@ -12,14 +12,16 @@ def group_of(header):
 
 
 def head_of(text):
-    """What is said before all that a header declares, and holds for it. Doxygen passes over it."""
+    """The comment before all declarations of a header, which describes the whole header. Doxygen
+    ignores it."""
     head = re.match(r"// SPDX.*\n((?:///.*\n)+)#pragma once\n", text)
     return re.sub(r"^/// ?", "", head[1], flags=re.MULTILINE) if head else ""
 
 
 def grouped(text, group):
     begin = f"/** @addtogroup {group} */ /** @{{ */"
-    # Hashes of cells and friends say nothing to a reader; definitions of what a class declares say it again.
+    # Hashes of cells and friends are of no interest to readers; definitions of class members would
+    # repeat their declarations.
     text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^inline constexpr (\w+) \1::.*$", "", text, flags=re.MULTILINE)

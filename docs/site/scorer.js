@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the search shows first: pages for users before those for developers, and no parameters of
-// functions before either. The other numbers are those of Sphinx.
+// Ranks search results: pages for users come before pages for developers, and parameters of
+// functions come last. The other numbers are Sphinx's.
 var Scorer = {
   score: function (result) {
     const [page, , , description, score] = result;

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""What napoleon and autodoc make of docstrings that reads wrongly."""
+"""Corrects docstrings that napoleon and autodoc render wrongly."""
 import re
 
-# A name that ends in an underscore, as attributes of scikit-learn do, is a reference for reST.
+# reST takes a name that ends in an underscore, like scikit-learn's attributes, for a reference.
 TRAILING = re.compile(r"^(:(?:ivar|vartype) [^:]*?)_(?=[:,])")
 FIELD = re.compile(r"Alias for field number \d+")
 
 
 def mend(app, what, name, thing, options, lines):
-    if lines and FIELD.fullmatch(lines[0]):  # of a named tuple, which describes it
+    if lines and FIELD.fullmatch(lines[0]):  # from a named tuple, which describes the field
         lines[:] = []
     lines[:] = [TRAILING.sub(r"\1\\_", line) for line in lines]
 

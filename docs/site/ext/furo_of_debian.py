@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What Debian's Furo lacks, since other tools build it: its script imports another one, which a page
-opened as a file must not; its style sheet asks a web server for normalize.css, and has no dark colours
-for those whose browser asks for them; who goes by keyboard has to pass the menu on each page."""
+"""Fixes the defects of Debian's Furo, which other tools build. Its script imports another one,
+which a page opened as a file must not do. Its style sheet requests normalize.css from a web server,
+and lacks dark colours for browsers that ask for them. Keyboard users have to pass the menu on each
+page."""
 import re
 from pathlib import Path
 
@@ -9,7 +10,7 @@ NORMALIZE = Path("/usr/share/javascript/normalize.css/normalize.css")
 
 
 def whole_script(script, spy):
-    """The scroll spy and the script as one; as it is, if it imports nothing."""
+    """The scroll spy and the script combined; unchanged if the script imports nothing."""
     first, _, rest = script.partition("\n")
     return f"{spy}\n(() => {{\n{rest}\n}})();\n" if first.startswith("import Gumshoe") else script
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What the site fills in. A page has a line
+"""Fills in generated content. A page has a line
 
     <!-- site: KIND ARGUMENTS -->
 
-which those who read the file do not see. Kinds:
+which readers of the file do not see. Kinds:
 
     cpp HEADER…         what public headers declare, in the words of their comments
     python NAME…        functions and classes of the package libph, by their docstrings
@@ -41,7 +41,8 @@ def text_of(app, header):
 
 
 def members(thing):
-    """What a class has of libph itself, in the order of the source; bases of others are left out."""
+    """The members of a class from libph itself, in the order of the source; foreign bases are left
+    out."""
     own = [name for base in thing.__mro__ if base.__module__.startswith("libph") for name in vars(base)]
     return [name for name in dict.fromkeys(own) if not name.startswith("_")]
 
@@ -83,7 +84,7 @@ def report(app, name):
 
 
 def copy_reports(app):
-    """Beside the pages, as files of their own."""
+    """Placed beside the pages, as separate files."""
     made = Path(app.config.site_made, "reports")
     if app.builder.format == "html" and made.exists():
         shutil.copytree(made, Path(app.outdir, "reports"), dirs_exist_ok=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The menu of the site. A page `index` lists its pages as links, as it does for those who read the
-files; the menu has the same pages in the same order."""
+"""The menu of the site. A page `index` lists its pages as links, for readers of the files; the menu
+has the same pages in the same order."""
 import posixpath
 import re
 from pathlib import Path

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""A JSON Schema as tables: one of the document, one for each definition that is an object."""
+"""Shows a JSON Schema as tables: one for the document, one for each definition that is an
+object."""
 import json
 
 
 def type_of(schema):
-    """In a few words: "integer or null", `"rips"`, a list of bar."""
+    """The type in a few words: "integer or null", `"rips"`, a list of bar."""
     if "$ref" in schema:
         return name_of(schema["$ref"])
     if "const" in schema:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How code looks. Short code within a line, as `--min-size`, is not broken, though browsers break at
-each hyphen. A block does not end in an empty line, which doctest asks for before the fence."""
+"""The look of code. Short code within a line, such as `--min-size`, is not broken, although
+browsers break at each hyphen. The empty line that doctest needs at the end of a block is
+removed."""
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 

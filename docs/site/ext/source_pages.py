@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Links of pages to files outside docs/.
+"""Handles links from pages to files outside docs/.
 
-On a forge they lead to the file. On the site they lead to a page that shows it, and those to a folder
-to a list of what is in it. The repository has no address of its own, so the site has no other.
+On a forge, such a link leads to the file. On the site, it leads to a page that shows the file, or
+to a list of the files in a folder, because the site does not know the address of the repository.
 """
 import html
 import posixpath
@@ -60,7 +60,8 @@ class LinksOutside(SphinxTransform):
 
 
 class PathsInComments(SphinxTransform):
-    """A page that a comment of the source names, as docs/explanation/approximation.md, becomes a link."""
+    """A page named in a source comment, such as docs/explanation/approximation.md, becomes a
+    link."""
     default_priority = 399
 
     def apply(self):
@@ -93,7 +94,7 @@ def is_folder(config, path):
 
 
 def find_pages(app, config):
-    """Which file of the repository is which page: the tree of sources is made of links to them."""
+    """Maps pages to files of the repository: the tree of sources consists of links to the files."""
     tree = Path(app.srcdir)
     config.site_docs = {str(file.resolve()): file.relative_to(tree).as_posix()[:-len(".md")]
                         for file in tree.rglob("*.md")}
@@ -114,7 +115,7 @@ def merge(app, env, docnames, other):
 
 
 def shown(app):
-    """All paths that have a page: what is linked to, and the files of linked folders."""
+    """All paths that have a page: the targets of links, and the files of linked folders."""
     root = app.config.site_root
     tracked = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, text=True,
                              check=False).stdout.split("\0")
@@ -138,7 +139,7 @@ def page_of_file(app, path):
         lexer = "text"
     shown = PygmentsBridge("html", app.config.pygments_style).highlight_block(
         text, lexer, force=True, linenos="inline")
-    # Numbers that are no text are not copied along.
+    # Binary data are not copied.
     return re.sub(r'<span class="linenos">([^<]*)</span>', r'<span class="linenos" data-line="\1"></span>', shown)
 
 
@@ -152,7 +153,8 @@ def page_of_folder(path, names, files, inside):
 
 
 def page(app, menus, name, title, body):
-    """As Sphinx wants it. The menu is the same for all pages of one depth: making it takes long."""
+    """In the form that Sphinx expects. The menu is the same for all pages of one depth, and is
+    reused because making it takes long."""
     def menu(**how):
         key = (name.count("/"), *sorted(how.items()))
         if key not in menus:
