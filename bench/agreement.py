@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Whether two programs found the same bars, given that they round differently.
+"""Decides whether two programs found the same bars, allowing for different rounding.
 
-Programs compute distances in single or in double precision and print six digits: ends may differ in the
-last of them, and a bar that is empty for one may be short for the other.
+Programs compute distances in single or double precision and print six digits. Ends of bars may
+differ in the last digit, and a bar that is empty for one program may be short for another.
 """
 import bisect
 import math
 import re
 
-RELATIVE = 1e-5  # of the larger end
+RELATIVE = 1e-5  # relative to the larger end
 
 
 def read(text, max_dim):
@@ -48,7 +48,8 @@ def _unmatched(ours, theirs):
 
 
 def difference(ours, theirs):
-    """The first difference in words, or None. Bars short enough to be rounding are no difference."""
+    """The first difference in words, or None. Bars that are short enough to come from rounding do
+    not count."""
     for dim, bars in ours.items():
         other = theirs.get(dim, [])
         for owner, list_ in zip(("ours", "theirs"), _unmatched(bars, other)):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts the cells of a Rips complex one by one: what check_estimates.py compares estimates with.
+// Counts the cells of a Rips complex one by one; check_estimates.py compares estimates with this
+// count.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
         }
       });
     };
-    const ph::RipsGraph& graph =  // as ph-barcode has it
+    const ph::RipsGraph& graph =  // as in ph-barcode
         rips.graph(rips.has_form(ph::RipsForm::distinct_edges) ? ph::RipsForm::distinct_edges
                                                                : ph::RipsForm::edges);
     if (argv[5] == std::string_view("collapse"))

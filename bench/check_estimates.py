@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What --dry-run foresees beside what is true, on the inputs of compare_rips.py.
+"""Compares the predictions of --dry-run with the true values, on the inputs of compare_rips.py.
 
     check_estimates.py build/release --data FOLDER
 
-For each row: the interval of memory beside the peak resident memory of the run less that of starting the
-program (by small pages: a large one for the first bytes would hide what the run needs), and the cells beside those counted one by one. Ends with 1 if a peak lies outside its interval or
-a number of cells is off by more than a factor of 2.
+For each row, it compares the predicted interval of memory with the peak resident memory of the run
+minus that of starting the program, and the predicted with the counted cells. Small pages are used,
+because a large page for the first bytes would hide the need of the run. The exit code is 1 if a
+peak lies outside its interval or a number of cells is off by more than a factor of 2.
 """
 import argparse
 import pathlib
@@ -21,7 +22,7 @@ import rips_table
 from measuring import Limits, Meter
 
 UNITS = {"B": 1, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30, "TiB": 1 << 40}
-START_SLACK = 1.0  # MB: pages of code count where they are first used
+START_SLACK = 1.0  # MB: pages of code count when they are first used
 
 
 def size(text):
@@ -30,7 +31,7 @@ def size(text):
 
 
 class Foreseen:
-    """The text of --dry-run."""
+    """The output of --dry-run."""
 
     def __init__(self, text):
         self.engine = re.search(r"engine +(\w+)", text)[1]
@@ -66,7 +67,7 @@ class Checker:
             return [int(n) for n in output.read().split()] if taken.ok else None
 
     def row(self, row, path):
-        """@return a line of the table, and whether all holds."""
+        """@return a line of the table, and True if all predictions hold."""
         two = rips_rows.write_two_points(path, self.made)
         start = self.run(rips_rows.Row("two points", row.max_dim), two, meter=self.start_meter).peak
         foreseen, dry = self.foreseen(row, path)

@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Cubical persistence: ph-barcode beside other programs, on the same images, in one run.
+"""Compares cubical persistence in ph-barcode with other programs, on the same images, in one run.
 
     compare_images.py build/release --peer 'OTHER 1.0 = construction=cells PROGRAM {input} [--print]'
 
-A peer is NAME = COMMAND, the name with its version. Before the command stand construction=vertices or
-construction=cells, which it is compared in, and, where it takes images of so many axes only, axes=N. In the command
-{input} is a .npy file of float64 in C order and {threads} the number of threads (a command without it is measured with
-one). Words in [brackets] are used only in the run whose bars are compared, those of [A|B] are A in that run and B in
-those that are measured: there it prints `dim birth death`, a bar a line.
-Arguments may stand in a file, one a line, named as @FILE.
+A peer is NAME = COMMAND, the name with its version. The command is preceded by
+construction=vertices or construction=cells, the construction to compare, and by axes=N if it
+accepts only images with N axes. In the command, {input} is a .npy file of float64 in C order and
+{threads} the number of threads (a command without {threads} is measured with one). Words in
+[brackets] are used only in the run whose bars are compared; [A|B] means A in that run and B in
+measured runs. In that run the peer prints `dim birth death`, one bar per line. Arguments may be
+stored in a file, one per line, given as @FILE.
 
-Measured are user + system CPU seconds and peak resident memory of whole processes, reading the image included, output
-going nowhere; see bench/README.md for how. Needs numpy.
+The script measures user + system CPU seconds and peak resident memory of whole processes, including
+reading the image, with output discarded; bench/README.md explains how. Needs numpy.
 """
 import argparse
 import datetime
@@ -35,7 +36,7 @@ CONSTRUCTIONS = ("vertices", "cells")
 
 
 class Peer(Program):
-    """Words before the command say what it is compared in."""
+    """Words before the command select the comparison."""
 
     def __init__(self, name, command):
         self.construction, self.axes, words = None, None, []
@@ -119,7 +120,7 @@ class Comparison:
             found = self._bars(program, path)
             if program.name == OURS:
                 ours = found
-            elif found and ours is not None:  # not every program can print its bars
+            elif found and ours is not None:  # some programs cannot print their bars
                 result["bars"][program.name] = difference(ours, found) or "equal"
                 print(f"{name}: {program.name}: bars {result['bars'][program.name]}", file=sys.stderr, flush=True)
         reading = self._meter.best(["cat", path])

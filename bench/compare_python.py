@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Python package beside the packages people know: whole interpreters, on the same arrays, in one run.
+"""Compares the Python package with other packages: whole interpreters, on the same arrays, in one
+run.
 
     compare_python.py build/release --path FOLDER_WITH_A_PACKAGE --json results.json
 
-A package that is neither installed nor in a folder given by --path leaves its cells empty. Measured are user + system
-CPU seconds and peak resident memory of `python3 -c PROGRAM`: the start of the interpreter, imports and reading of the
-array count. What the same interpreter takes to import NumPy alone is the first row. In a run that is not measured the
-bars are compared with ours. Needs NumPy; see bench/README.md for how.
+A package that is neither installed nor in a folder given by --path leaves its cells empty. The
+script measures user + system CPU seconds and peak resident memory of `python3 -c PROGRAM`, which
+includes the start of the interpreter, imports and reading the array. The first row is the same
+interpreter importing only NumPy. An unmeasured run compares the bars with ours. Needs NumPy;
+bench/README.md explains the method.
 """
 import argparse
 import json
@@ -135,7 +137,7 @@ def bars_of(text, python):
 
 
 def compared(row, texts, python):
-    """The programs that ran, each with its difference from ours in words, or None."""
+    """The programs that ran, each with its difference from our bars in words, or None."""
     ours, complaint = bars_of(texts["libph"], python)
     if ours is None:
         raise SystemExit(f"{row.name}: libph: {complaint}")

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Vietoris-Rips persistence: ph-barcode beside other programs, on the same inputs, in one run.
+"""Compares Vietoris-Rips persistence in ph-barcode with other programs, on the same inputs, in one
+run.
 
     compare_rips.py build/release --data FOLDER --peer 'Ripser 1.2.1 = ripser {options}'
 
-A peer is NAME = COMMAND, the name with its version. In the command {options} stands for the input in
-Ripser's options (--format F --dim D [--threshold T] FILE), {threads} for the number of threads (a command
-without it is measured with one). Words in [brackets] are used only in the run whose bars are compared; those
-of [A|B] are A in that run and B in those that are measured.
-Arguments may stand in a file, one a line, named as @FILE.
+A peer is NAME = COMMAND, the name with its version. In the command, {options} stands for the input
+in Ripser's options (--format F --dim D [--threshold T] FILE), and {threads} for the number of
+threads (a command without {threads} is measured with one). Words in [brackets] are used only in the
+run whose bars are compared; [A|B] means A in that run and B in measured runs. Arguments may be
+stored in a file, one per line, given as @FILE.
 
-Measured are user + system CPU seconds and peak resident memory of whole processes, output going nowhere;
-see bench/README.md for how. Standard library only.
+The script measures user + system CPU seconds and peak resident memory of whole processes, with
+output discarded; bench/README.md explains how. Needs only the standard library.
 """
 import argparse
 import datetime
@@ -121,7 +122,8 @@ class Comparison:
         return self._startups[command]
 
     def measure(self, row, path):
-        """What each program takes, with each number of threads; they take turns."""
+        """The time and memory of each program with each number of threads; the programs take
+        turns."""
         calls = [(program, threads) for program in self.programs(row)
                  for threads in (self.arguments.threads if program.has_threads else [1])]
         runs = self._meter.best_in_turns([program.command(self.options(program, row, path), threads)
@@ -147,7 +149,8 @@ class Comparison:
             return agreement.read(output.read().decode(), row.max_dim) if ended.ok else None
 
     def check(self, row, path, programs):
-        """What the bars of each program that ended are, beside ours: "equal" or the first difference."""
+        """Compares the bars of each program that ended with ours: "equal" or the first
+        difference."""
         ours = self.bars(self.ours, row, path)
         result = {}
         for program in programs if ours is not None else []:
@@ -175,7 +178,7 @@ class Comparison:
 
 
 def merged(old, new):
-    """One row's results of an earlier run, those measured again replaced."""
+    """The results of one row of an earlier run, with repeated measurements replaced."""
     key = lambda entry: (entry["program"], entry["threads"])
     results = {key(entry): entry for entry in [*old.get("results", []), *new["results"]]}
     return {**old, **new, "results": list(results.values()), "bars": {**old.get("bars", {}), **new["bars"]}}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Vectors of 10,000 uniform bars beside those of GUDHI's representations:
-compare_vectors.py BUILD [--gudhi-python PYTHON]
+"""Compares vectors of 10,000 uniform bars with GUDHI's representations: compare_vectors.py BUILD
+[--gudhi-python PYTHON]
 
-Ours are the rows of bench_vectors. Both are computation only, CPU seconds, the least of three runs. Prints
-a table in Markdown."""
+Our times are the rows of bench_vectors. Both count only the computation, in CPU seconds, the least
+of three runs. Prints a table in Markdown."""
 import argparse
 import re
 import subprocess

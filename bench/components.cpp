@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// H0 of many points beside what any method must do at least: build a k-d tree and find the nearest
-// neighbour of each point. CPU seconds of all threads, the least of three runs.
+// Compares H0 of many points with the minimum work of any method: building a k-d tree and finding
+// the nearest neighbour of each point. Prints CPU seconds of all threads, the least of three runs.
 //
 //     bench_components [POINTS [DIM [THREADS]]]
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ constexpr std::pair<const char*, Shape> kShapes[] = {{"cube", Shape::cube},
                                                      {"line", Shape::line},
                                                      {"grid", Shape::grid}};
 
-// Clusters: a hundred, each of sixteen widths. The grid has copies and ties.
+// Clusters: a hundred, each with sixteen widths. The grid has copies and ties.
 ph::Points make_points(Shape shape, ph::Index n, ph::Index d) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every engine on small standard inputs: for profiles and for before/after.
+// Runs every engine on small standard inputs, for profiling and for comparing before and after a
+// change.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -47,7 +48,7 @@ void add(const std::string& input, const Complex& complex, const ph::EngineFacts
           ->Unit(benchmark::kMillisecond);
       return;
     } catch (const ph::Error&) {
-      // The engine is not for this complex, or not for this dimension.
+      // The engine does not support this complex, or not this dimension.
     }
 }
 
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
     add("rips_60/", small, engine, 1);
     add("cubical_12/", grid, engine, 1);
     if (engine.is_oracle) continue;
-    // Two dimensions up: every triangle would be listed.
+    // Two dimensions higher: every triangle would be listed.
     if (engine.listed_dim(1) < 2) add("rips_1000/", large, engine, 1);
     add("cubical_64/", volume, engine, 3);
   }

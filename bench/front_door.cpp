@@ -3,7 +3,7 @@
 // number of bars of each dimension and the sum of their finite lengths. front_door.py compares the
 // cost of this call with the cost of ph-barcode.
 //
-// The call names a context, which the README's does not, because one thread is compared with one.
+// Unlike the README's call, this one names a context, because one thread is compared with one.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the ways into the library cost beside ph-barcode, on the same Rips barcodes, in one run.
+"""Compares the cost of the ways into the library with ph-barcode, on the same Rips barcodes, in one
+run.
 
     front_door.py build/release [--large] [--rows WORD] [--csv FILE] [--check [CPU MEMORY]]
 
@@ -39,7 +40,7 @@ from measuring import Limits, Meter
 PROGRAM = "ph-barcode"
 DOORS = ("C++", "C++ moved", "C", "Python")
 CPU_BOUND, MEMORY_BOUND = 1.2, 1.5  # of --check
-CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0  # s, MB beyond the program's, below which a door counts as equal
+CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0  # s and MB above the program's cost that still count as equal
 START_NOISE = 0.25  # share of a door's start that is added to CPU_FLOOR: imports do not always take as long
 LENGTHS_AGREE = 1e-9  # relative: sums of the same lengths are rounded in different orders
 PYTHON = """import numpy as np
@@ -79,7 +80,8 @@ class Row:
 
 
 def rows_of(scale=1.0, large=False):
-    """@param scale of the numbers of points. @param large: also what takes minutes."""
+    """@param scale factor of the numbers of points. @param large also runs tasks that take
+    minutes."""
     def number(n):
         return max(2, round(n * scale))
 
@@ -106,7 +108,7 @@ class Files:
 
     def __init__(self, folder, name, array, is_matrix):
         self.array = folder / f"{name}.npy"
-        self.numbers = folder / f"{name}.doubles"  # as they lie in memory; of a matrix the strict lower triangle
+        self.numbers = folder / f"{name}.doubles"  # for a matrix, the strict lower triangle
         self.shape, self.is_matrix = array.shape, is_matrix
         np.save(self.array, array)
         with open(self.numbers, "wb") as file:
@@ -139,7 +141,7 @@ def commands(build, files, max_dim, python, prints=False):
 
 @dataclass(frozen=True)
 class Cost:
-    """What a process takes: CPU seconds and MB. `outcome` as of measuring.Run."""
+    """The cost of a process: CPU seconds and MB. `outcome` as in measuring.Run."""
     cpu: float = 0.0
     peak: float = 0.0
     outcome: str = "ok"
@@ -169,13 +171,13 @@ class Result:
         return CPU_FLOOR + START_NOISE * self.start
 
     def fault(self):
-        """What is wrong whatever the bounds are, in words, or None."""
+        """A fault that does not depend on the bounds, in words, or None."""
         if self.cost.outcome != "ok":
             return f"it did not end well: {self.cost.outcome}"
         return difference(self.bars, self.program_bars)
 
     def excess(self, cpu_bound, memory_bound):
-        """What is beyond the bounds, in words, or None."""
+        """A violation of the bounds, in words, or None."""
         beyond = []
         if self.cost.cpu > max(cpu_bound * self.program.cpu, self.program.cpu + self.cpu_floor):
             beyond.append(f"{self.cpu_ratio:.3g} times the CPU time ({self.cost.cpu:.3f} s, {PROGRAM} "
@@ -224,7 +226,8 @@ class Comparison:
         return commands(self.options.build, files, max_dim, self.options.python, prints)
 
     def measured(self, row, files):
-        """What each door takes on the input, and on ten points, which is its start. All take turns."""
+        """The cost of each door on the input, and on ten points, which measures its start. The
+        doors take turns."""
         ten = Files(self.folder, "ten", distances(10) if row.is_matrix else uniform(10, 2), row.is_matrix)
         calls, starts = self.commands(files, row.max_dim), self.commands(ten, row.max_dim)
         runs = self.meter.best_in_turns([*calls.values(), *starts.values()])

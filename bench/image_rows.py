@@ -16,7 +16,7 @@ class Row:
     name: str
     shape: tuple
     kind: str
-    usual: bool  # measured unless --rows says otherwise
+    usual: bool  # measured unless --rows selects other rows
 
 
 def noise(shape, generator):
@@ -36,7 +36,8 @@ def smooth(shape, generator):
 
 
 def smooth_8_bit(shape, generator):
-    """What a camera or a scanner makes of it: 256 values, most neighbours equal, a little noise between two of them."""
+    """The same image from a camera or a scanner: 256 values, most neighbours equal, a little noise
+    between two values."""
     values = smooth(shape, generator)
     values -= values.min()
     return numpy.floor(values * (255.99 / values.max()))
@@ -62,14 +63,15 @@ SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128),
 
 ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size, kind) == ("256³", "smooth"))
         for size, shape in SIZES.items() for kind in KINDS]
-# Those of the table of Guillou, Vidal & Tierny, Discrete Morse Sandwich, that can be made.
+# The synthetic images from the table of Guillou, Vidal & Tierny, Discrete Morse Sandwich.
 MADE = {"random": noise, "elevation": elevation, "Marschner-Lobb": marschner_lobb}
 ROWS += [Row(f"192³ {kind}", (192, 192, 192), kind, usual=False) for kind in MADE]
 ROWS.append(Row("16³ smooth", (16, 16, 16), "smooth", usual=False))  # for tests
 
 
 def inrimage(content):
-    """A volume of float32 in Inrimage-4, as CGAL's examples have: a text header of 256 bytes, x fastest."""
+    """A volume of float32 in Inrimage-4, as in CGAL's examples: a text header of 256 bytes, x
+    fastest."""
     header = dict(re.findall(r"^(\w+)=(\S+)", content[:256].decode("ascii"), re.MULTILINE))
     if (header["TYPE"], header["VDIM"]) != ("float", "1"):
         raise ValueError(f"Inrimage: found TYPE={header['TYPE']}, VDIM={header['VDIM']}, expected float, 1")
@@ -87,7 +89,7 @@ def nifti(content):
     return numpy.frombuffer(content, numpy.uint8, math.prod(shape), int(begin)).reshape(shape)
 
 
-# What Debian packages have: libcgal-demo (in data.tar.gz) and mricron-data.
+# Scans from Debian packages: libcgal-demo (in data.tar.gz) and mricron-data.
 SCANS = {"CT skull": ((64, 64, 64), "skull_2.9.inr", inrimage), "MRI head": ((181, 217, 181), "ch2.nii.gz", nifti)}
 ROWS += [Row(name, shape, "scan", False) for name, (shape, _, _) in SCANS.items()]
 
@@ -101,7 +103,8 @@ def values_of(row, scans):
 
 
 def input_file(row, made, scans):
-    """The path of a row's input, written now if it is not there. `scans` is the folder of the scans."""
+    """The path of a row's input, which is written first if it is missing. `scans` is the folder of
+    the scans."""
     path = made / (row.name.replace(" ", "_") + ".npy")
     if not path.exists():
         part = path.with_suffix(".part.npy")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a program takes: user and system CPU seconds, wall seconds, peak resident memory."""
+"""Measures programs: user and system CPU seconds, wall seconds, peak resident memory."""
 import ctypes
 import os
 import re
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 SHORT = 0.05  # s: a run below it is repeated often
 LONG = 10.0  # s: a run that takes as long is not repeated
-WALL_OVER_CPU = 6  # a run may wait for other programs this many times as long as it may compute
+WALL_OVER_CPU = 6  # the wall-clock limit of a run, as a multiple of its CPU limit
 PR_SET_THP_DISABLE = 41  # <linux/prctl.h>; lasts across execve
 
 
@@ -34,7 +34,8 @@ class Limits:
 
 @dataclass(frozen=True)
 class Run:
-    """One run. `outcome` is "ok", or what ended it: "time", "memory", or its exit status in words."""
+    """One run. `outcome` is "ok" or the reason for its end: "time", "memory", or its exit status in
+    words."""
     outcome: str
     user: float = 0.0
     system: float = 0.0
@@ -62,9 +63,10 @@ def _outcome(status, messages):
 
 
 class Meter:
-    """Runs programs through `bench_run`, which tells what each took.
+    """Runs programs through `bench_run`, which reports the cost of each.
 
-    Each is run `repeat` times, or once if that takes long; a short one until its runs have taken `together` seconds.
+    Each program is run `repeat` times, or once if it takes long; a short one is repeated until its
+    runs have taken `together` seconds.
     """
 
     def __init__(self, bench_run, limits=Limits(), repeat=3, together=0.5):
@@ -98,7 +100,8 @@ class Meter:
         return self.best_in_turns([command])[0]
 
     def best_in_turns(self, commands):
-        """The best run of each command. They take turns: a slow minute of the machine is one for all of them."""
+        """The best run of each command. The commands take turns, so that a slow minute of the
+        machine affects all of them."""
         taken = [[] for _ in commands]
         while waiting := [i for i, runs in enumerate(taken) if not self._enough(runs)]:
             for i in waiting:
@@ -106,7 +109,7 @@ class Meter:
         return [min(runs, key=lambda r: r.cpu) if runs[-1].ok else runs[-1] for runs in taken]
 
     def _turn(self, command):
-        """One run, or short ones for a share of the time that they are to take together."""
+        """One run, or several short ones for a share of their total time."""
         runs = [self.run(command)]
         while runs[-1].ok and runs[0].cpu < SHORT and sum(r.cpu for r in runs) < self._together / self._repeat:
             runs.append(self.run(command))

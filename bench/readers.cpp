@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Readers beside PCL's, where it is built in: bench_readers [FILE.pcd…] [--benchmark_…].
+// Compares readers with PCL's, if PCL is built in: bench_readers [FILE.pcd…] [--benchmark_…].
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Renders the tables of docs/notes/benchmarks.md from bench/results: render_tables.py [--check] [ROOT]
 
-The page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each table. What stands between
-them is replaced. With --check the page is left alone, and the exit code is 1 if it would change.
+The page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each table. The script
+replaces the text between them. With --check it does not change the page, and the exit code is 1 if
+the page would change.
 
-A CSV file has the columns of the table between a column `shown` (yes: the row is on the page) and the
-columns `script`, `machine`, `date` and `versions`. Of these the line above the table is made. Two
+A CSV file has the columns of the table between a column `shown` (yes: the row is on the page) and
+the columns `script`, `machine`, `date` and `versions`. These make up the line above the table. Two
 columns "X s" and "X MB" become one column X. Standard library only.
 """
 import argparse
@@ -51,7 +52,7 @@ def cell(row, name):
 
 
 def caption(rows, root):
-    """Where the rows come from. If they have several origins, what is other in which rows."""
+    """The origin of the rows. If they have several origins, the differences and their rows."""
     sentences, first, usual = [], 1, []
     for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
         if not (root / origin[0]).is_file():

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What no algorithm for H0 and H1 of a distance matrix can do without: reads the input, finds the
+// The minimum work of any algorithm for H0 and H1 of a distance matrix: reads the input, finds the
 // enclosing radius, and sorts the edges up to it by (value, u, v). The reference of
 // compare_rips.py.
 //
-// It shares no code with libph and is not to be tuned with it: a yardstick that gets shorter or
-// longer is none. The sort is a radix sort from the lowest digit, 11 bits at a time; it is stable,
-// and edges are made in the order of (u, v), so that only the 32 bits of the value are digits.
+// It shares no code with libph and must not be tuned with it, because a yardstick must not change
+// its length. The sort is a radix sort from the lowest digit, 11 bits at a time. It is stable, and
+// edges are created in the order of (u, v), so that only the 32 bits of the value are digits.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -44,7 +44,7 @@ struct Triangle {
   std::vector<float> values;
 };
 
-/// The float32 numbers of a file, little endian as the machines it is measured on.
+/// The float32 numbers of a file, little endian like the machines of the measurements.
 Triangle read_triangle(const std::string& bytes) {
   Triangle t;
   t.values.resize(bytes.size() / sizeof(float));
@@ -53,7 +53,7 @@ Triangle read_triangle(const std::string& bytes) {
   return t;
 }
 
-/// Distances of points, one a line, coordinates separated by blanks or commas.
+/// Distances of points, one point per line, coordinates separated by blanks or commas.
 Triangle read_points(std::string_view text) {
   std::vector<double> coordinates;
   Triangle t;
@@ -110,7 +110,7 @@ std::vector<Edge> edges_up_to(const Triangle& t, float radius) {
   return edges;
 }
 
-/// Floats that are not negative are in the order of their bits.
+/// Non-negative floats have the order of their bits.
 void sort_edges(std::vector<Edge>& edges) {
   constexpr int kBits = 11, kPasses = 3;
   constexpr std::size_t kBins = std::size_t{1} << kBits;

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The inputs of compare_rips.py: files of a data folder, and seeded samples that are written where needed.
+"""The inputs of compare_rips.py: files of a data folder, and seeded samples that are written when
+needed.
 
-Only `random.Random.random()` is drawn from, whose sequence Python promises to keep, so that a sample is
-the same file on every machine.
+Samples use only `random.Random.random()`, whose sequence Python promises to keep, so that a sample
+is the same file on every machine.
 """
 import math
 import os
@@ -103,13 +104,13 @@ SAMPLES = {sample.name: sample for sample in (
 
 @dataclass(frozen=True)
 class Row:
-    """One input of the table. Without a threshold the enclosing radius is the limit."""
+    """One input of the table. Without a threshold, the enclosing radius is the limit."""
     source: str  # a sample, or the name of a file in the data folder
     max_dim: int
     threshold: Optional[float] = None
     limit: bool = False  # compared with reading and sorting its edges
     peers: bool = True  # measured for the peers too, or for libph alone
-    usual: bool = True  # measured where no rows are chosen
+    usual: bool = True  # measured if no rows are selected
 
     @property
     def name(self):
@@ -162,7 +163,7 @@ ROWS = (
 
 
 def data_folder():
-    """The folder of the inputs that are not generated, where the command line names none."""
+    """The default folder of the inputs that are not generated."""
     root = os.environ.get("PH_TEST_DATA") or pathlib.Path(__file__).resolve().parents[2] / "shared"
     return pathlib.Path(root, "data")
 
@@ -180,12 +181,12 @@ def input_file(row, data, made):
 
 
 def is_matrix(path):
-    """Whether a file holds distances (a lower triangle) rather than points."""
+    """True if a file holds distances (a lower triangle) rather than points."""
     return path.suffix == ".bin"
 
 
 def write_two_points(like, made):
-    """The smallest input in the format of another: running on it shows what starting a program takes."""
+    """The smallest input in the same format: a run on it measures the start of a program."""
     path = made / f"two_points.{'bin' if is_matrix(like) else 'txt'}"
     if is_matrix(like):
         path.write_bytes(struct.pack("<f", 1))

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Runs a command and writes to a file descriptor what its process took: "status user system wall
-// peak", the status as wait4 gives it, seconds, and bytes.
+// Runs a command and writes the cost of its process to a file descriptor: "status user system wall
+// peak", with the status from wait4, seconds, and bytes.
 //
-// A process starts as a copy of the one that makes it, and the kernel counts that copy into its
-// peak: started by an interpreter, no program seems smaller than the interpreter. This one is
-// small.
+// A process starts as a copy of its parent, and the kernel counts that copy in its peak: if an
+// interpreter starts it, no program seems smaller than the interpreter. This program is small.
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -31,7 +30,7 @@ int main(int argc, char** argv) {
     return 64;
   }
   const int out = std::atoi(argv[1]);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a measurement that is given up leaves nothing running
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // an aborted measurement leaves no process running
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child == 0) {

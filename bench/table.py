@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Prints tables of engines and of readers of clouds beside peers: table.py BUILD_DIR [--ripser PROGRAM]
-[--gudhi-python PYTHON] [--scenes FOLDER] [--repeat N].
+"""Prints tables that compare engines and cloud readers with peers: table.py BUILD_DIR [--ripser
+PROGRAM] [--gudhi-python PYTHON] [--scenes FOLDER] [--repeat N].
 
-User + system CPU seconds and peak resident memory, one thread, the best of N runs, ours and the peer's
-one after the other in the same run. Peers print nothing or to /dev/null; ours write no output.
-Needs numpy for the inputs. A peer that is not given is left out."""
+Measures user + system CPU seconds and peak resident memory on one thread, the best of N runs; our
+program and the peer run alternately. Peers print nothing or to /dev/null; our programs write no
+output. Needs numpy for the inputs. A peer that is not given is left out."""
 import argparse
 import json
 import pathlib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of 10,000 bars, and Euler curves of images of N³ voxels, of noise and of smooth waves.
-// CPU seconds of one thread, the least of three runs; nanoseconds a voxel.
+// Measures vectors of 10,000 bars, and Euler curves of images of N³ voxels with noise and with
+// smooth waves. Prints CPU seconds of one thread, the least of three runs; nanoseconds per voxel.
 //
 //     bench_vectors [N]     (default 512; 0: no Euler curves)
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Debian's cross compiler for 64-bit ARM; what it makes runs here under QEMU. scripts/platforms.sh
+# Debian's cross compiler for 64-bit ARM; its programs run here under QEMU. scripts/platforms.sh
 # unpacks the libraries into PH_AARCH64_ROOT.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
@@ -16,5 +16,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
-# -L: where the dynamic linker and the C++ library of the other processor are.
+# -L: the folder of the other processor's dynamic linker and C++ library.
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L /usr/aarch64-linux-gnu)

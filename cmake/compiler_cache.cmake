@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Compiles through ccache where it is there, unless a launcher is named, an empty one too.
+# Compiles through ccache if it is installed, unless a launcher is named, even an empty one.
 find_program(CCACHE ccache)
 if(NOT CCACHE OR DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   return()
 endif()
-# Where it cannot write to its folder, as for users without a home, it fails whatever it compiles.
+# If ccache cannot write to its folder, as for users without a home, every compilation fails.
 file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/cached.cpp "")
 execute_process(COMMAND ${CCACHE} ${CMAKE_CXX_COMPILER} -c cached.cpp -o cached.o
                 WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/CMakeFiles

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# What others use of us: `cmake --install`, then find_package(ph CONFIG). One set of exported
-# targets a library, so that a library asks for its own dependencies only.
+# Installation for other projects: `cmake --install`, then find_package(ph CONFIG). Each library has
+# its own set of exported targets and thus requires only its own dependencies.
 #
-# `cmake --install BUILD --component NAME` takes a part: `c`, what programs need that were linked
-# with ph::c; `dev`, what it takes to compile and link others; `pcl` and `alpha`, the same of ph::pcl
-# and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a package of each,
-# but for `mpi` and `licence`.
+# `cmake --install BUILD --component NAME` installs one component: `c`, the files needed by programs
+# linked with ph::c; `dev`, the files for compiling and linking others; `pcl` and `alpha`, the same
+# for ph::pcl and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a
+# package of each, except for `mpi` and `licence`.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)
@@ -42,7 +42,8 @@ endif()
 if(TARGET ph-barcode-mpi)
   install(TARGETS ph-barcode-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
-# Links between pages hold: they lie as in the repository. A larger project has pages of its own.
+# Links between pages stay valid, because the pages keep the layout of the repository. A larger
+# project has its own pages.
 set(doc_dir ${CMAKE_INSTALL_DOCDIR})
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libph)
@@ -53,11 +54,11 @@ install(DIRECTORY docs examples DESTINATION ${doc_dir} COMPONENT doc
         PATTERN CMakeLists.txt EXCLUDE PATTERN docs/site EXCLUDE)
 install(FILES LICENSE DESTINATION ${doc_dir} COMPONENT licence)
 
-# Of component `dev` alone ph::c has a file that names it, and no library: a link that leads nowhere.
+# With component `dev` alone, the file for ph::c is installed without its library: a dangling link.
 set(c_library ${CMAKE_INSTALL_LIBDIR}/${CMAKE_SHARED_LIBRARY_PREFIX}ph_c${CMAKE_SHARED_LIBRARY_SUFFIX})
 configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-config.cmake
                               INSTALL_DESTINATION ${package_dir} PATH_VARS c_library)
-# Before 1.0 a minor version may change what a program calls.
+# Before 1.0, a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ph-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ph-config.cmake ${PROJECT_BINARY_DIR}/ph-config-version.cmake

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Debian's cross compiler for 64-bit Windows; what it makes runs here under Wine.
-# scripts/platforms.sh unpacks headers into PH_MINGW_ROOT.
+# Debian's cross compiler for 64-bit Windows; its programs run here under Wine. scripts/platforms.sh
+# unpacks headers into PH_MINGW_ROOT.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
-# The variant with threads of POSIX: the other one has no std::thread.
+# The variant with POSIX threads: the other one has no std::thread.
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
@@ -16,9 +16,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# Its headers are for any system; where the package has them depends on this one.
+# The headers suit any system; the place of the package depends on this system.
 file(GLOB fmt_DIR ${PH_MINGW_ROOT}/usr/lib/*/cmake/fmt)
 
-# No library of the compiler has to lie beside a program.
+# Programs need no compiler library beside them.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_CROSSCOMPILING_EMULATOR /usr/lib/wine/wine64)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-# What the programs say of themselves (--help man, and so on), as files: manual pages, completions, and
-# a reference page for a site of documentation, ${PROJECT_BINARY_DIR}/pages/options-PROGRAM.md.
+# Files from the output of the programs (--help man, and so on): manual pages, completions, and a
+# reference page for the documentation site, ${PROJECT_BINARY_DIR}/pages/options-PROGRAM.md.
 #
-# The programs print them, so they have to run here. Where they do not, PH_HOST_PROGRAMS names a folder
-# with programs of the same version that do; CMAKE_CROSSCOMPILING_EMULATOR is used if it is set.
+# The programs print their pages and therefore must run here. If they do not, PH_HOST_PROGRAMS names
+# a folder with programs of the same version that do; CMAKE_CROSSCOMPILING_EMULATOR is used if it is
+# set.
 include(GNUInstallDirs)
 set(PH_HOST_PROGRAMS "" CACHE PATH
     "When cross-building: a folder with the programs that run here, to print their pages")
-# Where zsh looks depends on who installed it: Debian's has a folder for what packages bring.
+# The folder of zsh completions depends on the distribution: Debian has one for packages.
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
   set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 else()
@@ -29,7 +30,7 @@ function(ph_program_pages program)
   set(folder ${PROJECT_BINARY_DIR}/pages)
   file(MAKE_DIRECTORY ${folder})
   set(pages "")
-  # A file has the name under which it is looked for.
+  # The file needs the name under which the shell searches for it.
   foreach(page man=${program}.1 markdown=options-${program}.md bash=${program} zsh=_${program}
                fish=${program}.fish)
     string(REGEX MATCH "^([a-z]+)=(.*)$" page ${page})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Programs that need no shared library: docs/development/adr/0018-static-programs.md. Sets
-# PH_IS_STATIC, and PH_FMT, what to link for fmt; makes ZLIB, PNG and FreeType be found as archives.
+# PH_IS_STATIC and PH_FMT, the target to link for fmt, and makes CMake find ZLIB, PNG and FreeType
+# as archives.
 ph_choice(PH_STATIC_PROGRAMS AUTO
           "Link the programs statically: ON, OFF, or AUTO: if all archives are there" AUTO ON OFF)
 set(PH_IS_STATIC FALSE)
@@ -9,7 +10,7 @@ if(PH_COMPILE_DEPENDENCIES)
   set(PH_FMT fmt::fmt-header-only)
 endif()
 
-# For each of our programs. The map lists what was linked in, whose licences a copy comes with.
+# For each of our programs. The map lists the linked archives, whose licences must come with a copy.
 function(ph_link_program program)
   if(WIN32)
     target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/apps/common/system/windows/utf8.rc)
@@ -17,7 +18,7 @@ function(ph_link_program program)
   if(NOT PH_IS_STATIC)
     return()
   endif()
-  # Not -Wl, for the map: it takes paths apart at commas.
+  # Not -Wl for the map, because it splits paths at commas.
   target_link_options(${program} PRIVATE -static -Wl,--gc-sections
                       -Xlinker -Map=${CMAKE_CURRENT_BINARY_DIR}/${program}.map)
 endfunction()
@@ -44,7 +45,7 @@ set(PH_ARCHIVES ${PH_ARCHIVE_FREETYPE} ${PH_ARCHIVE_PNG} ${PH_ARCHIVE_BROTLIDEC}
                 ${PH_ARCHIVE_BROTLICOMMON} ${PH_ARCHIVE_ZLIB})
 # Clang lacks -fkeep-inline-functions, see below.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT PH_ARCHIVES MATCHES NOTFOUND)
-  # Sanitizers, for one, cannot be linked statically.
+  # Sanitizers, for example, cannot be linked statically.
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_LINK_OPTIONS -static)
   set(CMAKE_REQUIRED_LIBRARIES ${PH_ARCHIVES})
@@ -73,7 +74,7 @@ endif()
 set(PH_IS_STATIC TRUE)
 
 target_compile_options(ph_options INTERFACE -ffunction-sections)
-# What find_package() takes, whatever it found when the programs were linked dynamically.
+# Makes find_package() choose these, whatever it found when the programs were linked dynamically.
 foreach(library ZLIB PNG FREETYPE)
   set(${library}_LIBRARY ${PH_ARCHIVE_${library}})
   set(${library}_LIBRARY_RELEASE ${PH_ARCHIVE_${library}})

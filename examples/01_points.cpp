@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The barcode of points in a file: how many components, how many loops, at which scale?
+// Computes the barcode of points in a file: how many components and loops are there, and at which
+// scale?
 #include <iostream>
 #include <ph/io/read.hpp>
 #include <ph/ph.hpp>
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
   }
   std::cout << bars.bars(0).size() << " components at scale 0, " << long_loops << " long loops\n";
 
-  // Each bar knows the cells that made it: here the edge that closed the longest loop.
+  // Each bar stores its cells: here the edge that closed the longest loop.
   const auto closing = bars.birth_cell(bars.longest(1)).numbers;
   std::cout << "the longest loop closed between points " << closing[0] << " and " << closing[1]
             << "\n";

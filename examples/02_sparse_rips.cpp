@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Many points, a threshold, another field: only pairs within reach are ever looked at.
+// Many points, a threshold and another field: only pairs within the threshold are examined.
 #include <cmath>
 #include <iostream>
 #include <numbers>
 #include <ph/ph.hpp>
 
 int main() {
-  // A sphere by the golden spiral.
+  // A golden spiral on a sphere.
   ph::Points sphere(600, 3);
   for (ph::Index i = 0; i < sphere.rows(); ++i) {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(sphere.rows());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A metric of your own: two functions. Here: great-circle distances between places on the Earth
-// that lie along the Pacific's Ring of Fire, whose one large loop is the ocean.
+// Your own metric needs two functions. Here it is the great-circle distance between places along
+// the Pacific's Ring of Fire, whose one large loop is the ocean.
 #include <cmath>
 #include <iostream>
 #include <numbers>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where is the loop? The longest bar of H1 as the shortest walk around it, from point to point.
+// Locates the loop of the longest bar of H1: prints the shortest walk around it, from point to
+// point.
 #include <iostream>
 #include <ph/io/read.hpp>
 #include <ph/ph.hpp>

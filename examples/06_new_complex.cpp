@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A complex of your own: three small functions, and every engine that needs no more runs on it.
-// Here: a polygon whose sides appear one by one, and at last the disc inside.
+// Your own complex needs three small functions, and every engine that requires no more runs on it.
+// Here it is a polygon whose sides appear one by one, followed by the disc inside.
 #include <iostream>
 #include <ph/custom.hpp>
 #include <ph/ph.hpp>
@@ -39,7 +39,7 @@ int main() {
   for (const ph::Bar& bar : bars)
     std::cout << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")\n";
 
-  // The oracle asks no more of a complex than this.
+  // The oracle needs no more from a complex than this.
   const ph::Barcode truth = ph::persistence(polygon, {.field = 3, .engine = ph::Engine::standard});
   std::cout << (ph::first_difference(bars, truth).empty() ? "agrees" : "disagrees")
             << " with the oracle\n";

@@ -17,13 +17,13 @@ int main() {
     points.set_row(i, {t * std::cos(angle), t * std::sin(angle)});
   }
 
-  // No distance is computed that the components do not need.
+  // Only the distances that the components need are computed.
   const ph::MergeTree tree = ph::merge_tree(ph::Rips(points));
   const auto rows = ph::linkage(tree);
   std::cout << "last merges at " << rows[rows.size() - 2].value << " and " << rows.back().value
             << ", the one before at " << rows[rows.size() - 3].value << "\n";
 
-  std::map<ph::Index, int> sizes;  // by the first point of each cluster
+  std::map<ph::Index, int> sizes;  // numbered by the first point of each cluster
   for (const ph::Index cluster : tree.components(rows[rows.size() - 3].value)) ++sizes[cluster];
   for (const auto& [first, size] : sizes)
     std::cout << "cluster of point " << first << ": " << size << " points\n";

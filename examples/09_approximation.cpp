@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// More points than one wants to pay for, and outliers: subsample, sparse filtration, DTM weights.
+// Handles too many points, and outliers, by subsampling, a sparse filtration and DTM weights.
 #include <cmath>
 #include <iostream>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Segments a box on a box with the manners of the Point Cloud Library.
-//   10_pcl stack.pcd
+// Segments a box on a box through the interface in the style of the Point Cloud Library. 10_pcl
+//   stack.pcd
 #include <iostream>
 #include <ph/pcl.hpp>
 
@@ -9,14 +9,14 @@ int main(int argc, char** argv) {
     std::cerr << "usage: 10_pcl CLOUD\n";
     return 64;
   }
-  // Any cloud of points with x, y, z will do; the strict reader is ours.
+  // Any cloud of points with x, y, z works; the strict reader is libph's.
   const ph::Cloud file = ph::segment::read_cloud(argv[1]);
   const std::vector<float> xyz = file.xyz();
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(
       static_cast<std::uint32_t>(file.width), static_cast<std::uint32_t>(file.height));
   for (std::size_t i = 0; i < cloud->size(); ++i)
     (*cloud)[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  cloud->is_dense = false;  // where the sensor saw nothing
+  cloud->is_dense = false;  // NaN where the sensor saw nothing
 
   ph::pcl::PersistenceSegmentation<pcl::PointXYZ> segmentation;
   segmentation.setInputCloud(cloud);
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
               << segmentation.getConfidences()[i] << ", box of " << size.transpose() << " m around "
               << centre.transpose() << "\n";
   }
-  // A coarser cut of the same tree: plane, voxels and normals are not looked for again.
+  // A coarser cut of the same tree: plane, voxels and normals are not computed again.
   segmentation.cut(30, clusters);
   std::cout << clusters.size() << " segments when cut at 30\n";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which objects have a handle or a hole? Segments a ring and a ball and asks for their homology.
-//   11_handles [CLOUD.pcd|.ply]
+// Finds the objects that have a handle or a hole: segments a ring and a ball and computes their
+//   homology. 11_handles [CLOUD.pcd|.ply]
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -22,7 +22,7 @@ std::vector<float> ring_and_ball() {
       const double r = 0.04 + 0.008 * std::cos(b);
       add(r * std::cos(a), r * std::sin(a), 0.8 + 0.008 * std::sin(b));
     }
-  for (double a = 0; a < turn / 4; a += step / 0.04)  // what a camera sees of it
+  for (double a = 0; a < turn / 4; a += step / 0.04)  // the part that a camera sees
     for (double b = 0; b < turn; b += step / 0.04)
       add(0.2 + 0.04 * std::sin(a) * std::cos(b), 0.04 * std::sin(a) * std::sin(b),
           0.8 - 0.04 * std::cos(a));

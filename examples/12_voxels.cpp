@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The loops and the hollow of a point cloud by way of voxels: the cost is that of the volume, not
-// that of the pairs of points.
+// Finds the loops and the hollow of a point cloud through voxels: the cost depends on the volume,
+// not on the pairs of points.
 #include <cmath>
 #include <iostream>
 #include <numbers>

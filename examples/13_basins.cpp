@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What dies with a component of an image, and what fills a hollow, as voxels.
+// Prints the voxels of a component of an image and of a hollow.
 #include <iostream>
 #include <ph/ph.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Goes on with PCL after a segmentation: normals of each object, its flat top, and where a suction
-// cup would hold it.
+// Continues with PCL after a segmentation: computes the normals of each object, its flat top, and
+// the place where a suction cup would hold it.
 //   15_pcl_features stack.pcd
 #include <pcl/common/centroid.h>
 #include <pcl/features/normal_3d.h>
@@ -13,7 +13,7 @@
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-/// Any cloud of points with x, y, z will do; the strict reader is ours.
+/// Any cloud of points with x, y, z works; the strict reader is libph's.
 Cloud::Ptr read(const char* path) {
   const ph::Cloud file = ph::segment::read_cloud(path);
   const std::vector<float> xyz = file.xyz();
@@ -21,7 +21,7 @@ Cloud::Ptr read(const char* path) {
                                              static_cast<std::uint32_t>(file.height));
   for (std::size_t i = 0; i < cloud->size(); ++i)
     (*cloud)[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  cloud->is_dense = false;  // where the sensor saw nothing
+  cloud->is_dense = false;  // NaN where the sensor saw nothing
   return cloud;
 }
 

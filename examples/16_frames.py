@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads what ph-segment --json - writes of a stream, and says of each frame what is nearest:
-ph-segment recording/ --json - | 16_frames.py"""
+"""Reads the output of ph-segment --json - for a stream, and prints the nearest object of each
+frame: ph-segment recording/ --json - | 16_frames.py"""
 import json
 import math
 import sys
@@ -11,10 +11,10 @@ def distance(segment, viewpoint):
     return math.dist(segment["oriented_box"]["centre"], viewpoint)
 
 
-for line in sys.stdin:  # a frame, as soon as it is done
+for line in sys.stdin:  # one frame, as soon as it is done
     frame = json.loads(line)
     path = frame["input"]["path"]
-    if "exit_code" in frame:  # the others go on
+    if "exit_code" in frame:  # the other frames continue
         print(f"{path}: failed", flush=True)
     elif not frame["segments"]:
         print(f"{path}: nothing", flush=True)

@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes all packages of HEAD, and tries them where nothing else is: check_packages.sh [PART]…
+# Makes all packages of HEAD and tests them on minimal systems: check_packages.sh [PART]…
 #
-#   archives    dist/ by scripts/package.sh, its checksums, and which files the archive of the
-#               sources has
-#   build       dpkg-buildpackage from them, with its tests, without a network
-#   lintian     neither an error nor a warning; the rest is counted
-#   reproduce   both again in other folders, with another umask, language, time zone and home
-#   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++, each
+#   archives    dist/ from scripts/package.sh: its checksums, and the list of files in the archive
+#               of the sources
+#   build       dpkg-buildpackage from these archives, with its tests, without a network
+#   lintian     no errors and no warnings; other remarks are counted
+#   reproduce   both again in other folders, with a different umask, language, time zone and home
+#   install     on a bare Debian 12: apt install, a first picture, Python, a C++ program, each
 #               with its time; autopkgtest
-#   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian, with the
+#   elsewhere   the static programs beside BusyBox alone, and on other releases of Debian, with the
 #               time from the archive to the picture
 #
-# install and elsewhere need root and a mirror of Debian (PH_MIRROR; default: debootstrap's own).
-# DEB_BUILD_OPTIONS is passed on: noautodbgsym saves minutes. Work is done in build/check-packages,
-# or PH_WORK; a part uses what earlier parts left there. PH_JOBS: how many compilers.
+# install and elsewhere need root and a Debian mirror (PH_MIRROR; default: debootstrap's own).
+# DEB_BUILD_OPTIONS is passed on: noautodbgsym saves minutes. The work folder is
+# build/check-packages, or PH_WORK; a part uses the files that earlier parts left there.
+# PH_JOBS: number of compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -27,10 +28,11 @@ mirror=(${PH_MIRROR:+"$PH_MIRROR"})
 
 fail() { echo "check_packages.sh: $1" >&2; exit 1; }
 
-# A build of Debian has no network; only root can take it away.
+# A Debian build has no network; only root can remove it.
 offline() { if [ "$(id -u)" -eq 0 ]; then unshare -n -- "$@"; else "$@"; fi; }
 
-# debs FOLDER [OPTIONS]: unpacks the sources there and builds all packages, with these options, too.
+# debs FOLDER [OPTIONS]: unpacks the sources there and builds all packages, with these additional
+# options.
 debs() {
   rm -rf "$1" && mkdir -p "$1"
   cp dist/debian/* "$1"
@@ -63,15 +65,16 @@ lintian_() {
   echo "all it said: $said"
 }
 
-# same A B: files of the same bytes.
+# same A B: checks that two files have the same bytes.
 same() {
   cmp -s "$1" "$2" && { sha256sum "$1" | sed "s|  .*/|  |"; return; }
   diffoscope --text "$work/diffoscope.txt" "$1" "$2" || true
   fail "$1 and $2 differ: $work/diffoscope.txt"
 }
 
-# The other folder's name has no spaces: dpkg-buildflags would not map it to "." then. The modes in
-# a source package that dpkg-buildpackage makes follow the umask, so the one in dist/ is compared.
+# The other folder's name has no spaces, because dpkg-buildflags would not map it to ".". In a
+# source package that dpkg-buildpackage makes, file modes follow the umask; therefore the one in
+# dist/ is compared.
 reproduce() {
   (
     umask 027
@@ -86,7 +89,7 @@ reproduce() {
   for file in dist/*.tar.xz dist/*.json dist/debian/*; do same "$file" "$work/clone/$file"; done
 }
 
-# bare SUITE: a system with nothing in it, as a folder.
+# bare SUITE: makes a minimal system in a folder.
 bare() {
   [ "$(id -u)" -eq 0 ] || fail "a bare system needs root"
   rm -rf --one-file-system "${work:?}/$1"
@@ -94,7 +97,7 @@ bare() {
     { tail "$work/debootstrap.log" >&2; fail "debootstrap $1 failed"; }
 }
 
-# run_in SYSTEM COMMAND: in it, without the host's processes.
+# run_in SYSTEM COMMAND: runs a command in the system, without the host's processes.
 run_in() {
   unshare -m -p -f --kill-child sh -c 'mkdir -p "$1/proc" && mount -t proc proc "$1/proc" &&
     exec chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive \
@@ -128,7 +131,8 @@ print(libph.rips([[0, 0], [1, 0], [1, 1], [0, 1]]).dgm(1))"'
   bare bookworm
   local tested
   mapfile -t tested < <(find "$work/one" -maxdepth 1 -name '*.deb' ! -name '*-dbgsym_*')
-  # Java, which PCL needs, is not installed without /proc, and dpkg writes no log without /dev/pts.
+  # Java, which PCL needs, cannot be installed without /proc, and dpkg writes no log without
+  # /dev/pts.
   time unshare -m -p -f --kill-child --mount-proc sh -ec 'bed=$1; shift
     mount -t proc proc "$bed/proc"; mount -t devpts devpts "$bed/dev/pts"
     exec autopkgtest "$@" -- chroot "$bed"' \
@@ -137,7 +141,7 @@ print(libph.rips([[0, 0], [1, 0], [1, 1], [0, 1]]).dgm(1))"'
   sed -n '/@@@.* summary/,$p' "$work/autopkgtest.log"
 }
 
-# draw SYSTEM: the command of the archive's README, where it was unpacked.
+# draw SYSTEM: runs the command from the archive's README in the unpacked folder.
 draw() {
   tar -C "$work/$1" --strip-components=1 -xf "$binary"
   run_in "$1" "$(sed -n 's/^    \(bin\/ph-barcode .*\)/\1/p' "$work/$1/README.md") >/dev/null"

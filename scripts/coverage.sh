@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# coverage.sh [readers|engines]…: the lines that tests reach. Without arguments: both. Exits 1 below the
-# least part of either.
+# coverage.sh [readers|engines]…: measures the share of lines that tests reach. Without arguments:
+# both. Exits with 1 if a share is below its minimum.
 #   readers  99 %; tests of readers, the samples, their prefixes, seeds of fuzzing, the corpus of bad
 #            inputs, random runs
-#   engines  97 %; the C++ tests with a fiftieth of their random inputs; all of libph/src but files and
-#            pictures, and the headers inside the library
-# COVERAGE_BUILD: another build folder. A line for each comes last.
+#   engines  97 %; the C++ tests with a fiftieth of their random inputs; all of libph/src except files
+#            and pictures, and the internal headers
+# COVERAGE_BUILD: another build folder. The last lines have the result of each.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${COVERAGE_BUILD:-build/coverage}
@@ -16,11 +16,12 @@ export PH_TEST_PATIENCE=20  # without optimisation
 summary=()
 failed=0
 
-# report NAME LEAST ARGUMENT…: what gcovr says of some files.
+# report NAME LEAST ARGUMENT…: prints gcovr's report about some files.
 report() {
   local name=$1 least=$2 table=$build/$1.txt
   shift 2
-  # Threads count without a lock, since locks make tests far slower: a counter may become negative.
+  # Threads count without a lock, because locks make tests far slower; a counter may become
+  # negative.
   gcovr --root . --object-directory "$build" --gcov-ignore-parse-errors --fail-under-line "$least" \
     "$@" -o "$table" || failed=1
   cat "$table"
@@ -30,16 +31,17 @@ report() {
 readers() {
   cmake --build "$build" -j "$(nproc)" --target io_read_tests io_write_tests truncation_tests fuzz_replay \
     ph-barcode ph-segment ph-distance ph-vectorise peak
-  # A test of time means nothing in a build without optimisation.
+  # Tests of speed are meaningless in a build without optimisation.
   for test in libph/io_read_tests libph/io_write_tests fuzz/truncation_tests; do
     "$build/tests/$test" --gtest_brief=1 --gtest_filter=-Gzip.BombsEndSoon
   done
   "$build/tests/fuzz/fuzz_replay" tests/corpus "$build/tests/fuzz/samples"
-  # What fails here is slow, or writes about counts to standard error: the tests of a release say more.
+  # Failures here come from slowness, or from messages about counts on standard error; the tests of
+  # a release are more reliable.
   ctest --test-dir "$build" --no-tests=error \
     -R '^(faults_corpus|random_runs|samples_are_read|ph_barcode_(formats|guesses|guesses_tables|masks|stored))$' ||
     echo "coverage.sh: what failed is counted all the same"
-  # What only writes is not counted.
+  # Code that only writes is not counted.
   report readers 99 --filter libph/src/io/ \
     --exclude 'libph/src/io/(bytes/output_file|clouds/cloud_write|complexes/surface_write|barcodes/barcode_(io|json|binary|text))\.[ch]pp'
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The main job on real data: a barcode of a point set, one of a volume, and an RGB-D frame cut into
-# objects. Installs what is missing, builds, runs, and names what it wrote in out/.
+# Demonstrates libph on real data: the barcode of a point set, the barcode of a volume, and an RGB-D
+# frame cut into objects. Installs missing packages, builds, runs, and lists the files that it wrote
+# to out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=out
@@ -14,17 +15,17 @@ barcode=build/release/apps/barcode/ph-barcode
 segment=build/release/apps/segment/ph-segment
 /usr/bin/python3 scripts/demo_data.py "$out/data"
 
-# Pages to look at, unless the packages that bundle them could not be had.
+# Builds report pages, unless the packages that bundle them are unavailable.
 report() { :; }
 with_cells() { :; }
 if $barcode --version --verbose | grep -q '^reports *built in'; then
   report() { printf -- '--report %s' "$out/$1.html"; }
-  with_cells() { printf -- '--representatives %s' "$1"; }  # to be drawn on the data
+  with_cells() { printf -- '--representatives %s' "$1"; }  # drawn on the data
 else
   echo "no pages to look at: npm could not install what bundles them; see $out/build.log"
 fi
 
-# The five longest bars of a dimension: longest DIM FILE.csv
+# longest DIM FILE.csv: prints the five longest bars of a dimension
 longest() {
   awk -F, -v dim="$1" '$1 == dim { printf "%.4g [%.4g, %.4g)\n", $3 - $2, $2, $3 }' "$2" |
     sort -gr | sed -n '1,5s/^/    /p'

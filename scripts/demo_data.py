@@ -60,8 +60,8 @@ def write_motorcycle(folder):
 
 
 def write_table(path):
-    """What a camera 0.9 m from the table sees that looks down by 40 degrees, with noise of depth that
-    grows with the square of the range."""
+    """The view of a camera 0.9 m from the table that looks down by 40 degrees, with depth noise
+    that grows with the square of the range."""
     width, height, focal = 640, 480, 525.0
     tilt = numpy.radians(40)
     u, v = numpy.meshgrid(numpy.arange(width) - 319.5, numpy.arange(height) - 239.5)
@@ -111,7 +111,7 @@ def write_table(path):
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    # First what needs no other package: the others stop where theirs is not there.
+    # The first function needs no other package; the others stop if their package is missing.
     write_table(folder / "table.npy")
     write_kitten(folder / "kitten.csv")
     write_skull(folder / "skull.npy")

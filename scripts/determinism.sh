@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# determinism.sh [COMPILER-LEVEL[-ARCH]|Nehalem|max]…: whether the programs write the same bytes however they
-# were compiled: gcc or clang, O0 to O3, with the instructions of x86-64 (default), x86-64-v3 (AVX2,
-# FMA) or x86-64-v4 (AVX-512), such as clang-O2 or gcc-O3-v3; and, without another build, on a
-# processor that QEMU translates: Nehalem (SSE 4.2) or max (AVX2, FMA). 64-bit ARM and other
-# C++ libraries: platforms.sh. REFERENCE: the build to compare with (default: build/release, built
-# here); JOBS: how many at a time. The last lines have the counts of each.
+# determinism.sh [COMPILER-LEVEL[-ARCH]|Nehalem|max]…: checks that the programs write the same bytes
+# whatever the compiler (gcc or clang), the level (O0 to O3) and the instructions: x86-64 (default),
+# x86-64-v3 (AVX2, FMA) or x86-64-v4 (AVX-512), such as clang-O2 or gcc-O3-v3. Without another build,
+# it also checks processors that QEMU emulates: Nehalem (SSE 4.2) or max (AVX2, FMA). platforms.sh
+# checks 64-bit ARM and other C++ libraries. REFERENCE: the build to compare with (default:
+# build/release, built here); JOBS: number of parallel jobs. The last lines have the counts of each.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# What was compiled in another clone counts here, precompiled headers included.
+# The compiler cache shares results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
@@ -21,7 +21,8 @@ build_with() {
   local flags=-$level compilers=(-D CMAKE_C_COMPILER=gcc -D CMAKE_CXX_COMPILER=g++)
   [ "$compiler" = gcc ] || compilers=(-D CMAKE_C_COMPILER=clang-19 -D CMAKE_CXX_COMPILER=clang++-19)
   [ -z "$arch" ] || flags+=" -march=x86-64-$arch"
-  # Neither Release, whose level it would be, nor linked statically: valgrind looks at them, too.
+  # Neither Release, which sets an optimisation level, nor linked statically, because valgrind
+  # checks these programs as well.
   cmake -G Ninja -B "build/determinism/$variant" "${compilers[@]}" -D CMAKE_BUILD_TYPE=None \
     -D CMAKE_CXX_FLAGS="$flags" -D PH_UNITY=ON -D PH_STATIC_PROGRAMS=OFF -D PH_WITH_REPORT=OFF \
     -D PH_BUILD_TESTS=OFF -D PH_BUILD_EXAMPLES=OFF -D PH_INSTALL=OFF >/dev/null
@@ -43,7 +44,7 @@ for variant; do
     gcc-O[0-3]|gcc-O[0-3]-v[34]|clang-O[0-3]|clang-O[0-3]-v[34])
       build_with "$variant" || { summary+=("$variant: not built"); failed=1; continue; }
       other=build/determinism/$variant
-      case $variant in  # what this processor lacks is translated
+      case $variant in  # instructions that this processor lacks are emulated
         *-v3) grep -qw avx2 /proc/cpuinfo || emulator=(qemu-x86_64-static -cpu max) ;;
         *-v4) grep -qw avx512f /proc/cpuinfo || { summary+=("$variant: built, not run: no AVX-512 here"); continue; } ;;
       esac ;;

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# fuzz.sh [--fast] [TARGET [libFuzzer options…]]: looks for bytes that break what tests/fuzz promises.
-# Without a target: each for a minute. What it learns stays in build/fuzz/corpus/TARGET, what it finds
-# in build/fuzz/findings/TARGET. FUZZ_BUILD: another build folder.
-# --fast: two to six times as many executions, without sanitizers; then what was learned runs through
-# the sanitizers. Only readers and command lines are watched.
+# fuzz.sh [--fast] [TARGET [libFuzzer options…]]: searches for bytes that break the promises in
+# tests/fuzz. Without a target, each target runs for a minute. Learned inputs stay in
+# build/fuzz/corpus/TARGET, findings in build/fuzz/findings/TARGET. FUZZ_BUILD: another build folder.
+# --fast: two to six times as many executions, without sanitizers; afterwards the learned inputs run
+# through the sanitizers. Only readers and command lines are instrumented.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${FUZZ_BUILD:-build/fuzz}

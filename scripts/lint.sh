@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: what is found without running anything. Layout
-# (clang-format) is that of all C++; naming and habits (clang-tidy) and faults (cppcheck) are those of
-# libraries and programs; GCC's analyzer looks at C, the one language it is made for. Without arguments: each. Installs what is
-# missing. A line for each comes last. What is found and is none: tests/analysis.
+# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: static checks; without arguments: all. layout
+# (clang-format) checks all C++; clang-tidy checks naming and habits, and cppcheck faults, of the
+# libraries and programs; GCC's analyzer checks C, the only language that it supports. Installs
+# missing packages. The last lines have the result of each. tests/analysis lists false positives.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes what is given to others, in dist/: package.sh [source|binary]… (default: both)
+# Makes the archives for distribution in dist/: package.sh [source|binary]… (default: both)
 #
-#   libph-VERSION.tar.xz               the sources of HEAD, with the page of the reports ready in them
-#   debian/                            the same as a source package of Debian
-#   libph-VERSION-linux-MACHINE.tar.xz the programs, linked statically: for any Linux of the machine
-#   libph-VERSION-linux-MACHINE.spdx.json   what is in them (SPDX 2.3)
+#   libph-VERSION.tar.xz               the sources of HEAD, with the bundled page of the reports
+#   debian/                            the same as a Debian source package
+#   libph-VERSION-linux-MACHINE.tar.xz the programs, linked statically, for any Linux on MACHINE
+#   libph-VERSION-linux-MACHINE.spdx.json   the contents of the programs (SPDX 2.3)
 #   SHA256SUMS
 #
-# The same commit on the same packages of Debian gives the same bytes. PH_JOBS: how many compilers.
+# The same commit with the same Debian packages gives the same bytes. PH_JOBS: number of compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C TZ=UTC
@@ -22,7 +22,7 @@ work=$PWD/build/package
 
 fail() { echo "package.sh: $1" >&2; exit "$2"; }
 
-# pack FOLDER ARCHIVE: in the order of names, without users, with the time of the commit.
+# pack FOLDER ARCHIVE: packs in the order of names, without users, with the time of the commit.
 pack() {
   tar -C "$(dirname "$1")" --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
     --mode=u+rwX,go+rX,go-w --mtime="@$SOURCE_DATE_EPOCH" -c "$(basename "$1")" |
@@ -30,7 +30,7 @@ pack() {
   echo "${2#"$PWD"/}: $(stat -c %s "$2") bytes"
 }
 
-# The page, and the files of npm packages that are in it, as they were before they were bundled.
+# The page, and the npm package files in it, in their original form before bundling.
 add_page() {
   (cd viewer && npm ci --no-audit --no-fund --prefer-offline --silent && npm run --silent build)
   mkdir -p "$1/viewer/build"
@@ -50,7 +50,7 @@ make_source() {
   git archive --prefix="$name/" HEAD | tar -C "$work/source" -x
   add_page "$work/source/$name"
   pack "$work/source/$name" "$dist/$name.tar.xz"
-  # The time is that of debian/changelog, as dpkg-buildpackage has it.
+  # The time comes from debian/changelog, as in dpkg-buildpackage.
   rm -rf "$dist/debian" && mkdir "$dist/debian"
   cp "$dist/$name.tar.xz" "$dist/debian/libph_$version.orig.tar.xz"
   git -c tar.umask=0022 archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x
@@ -72,7 +72,7 @@ $name.tar.xz builds the programs anew, with another one if you like.
 END
 }
 
-# From the archive of the sources: it is whole if this succeeds.
+# Builds from the archive of the sources; success shows that the archive is complete.
 make_binary() {
   scripts/setup.sh build
   [ -f "$dist/$name.tar.xz" ] || make_source

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # platforms.sh [clang-libcxx|aarch64|mingw]…: builds libraries and programs for another C++ library,
-# another processor or another system, and runs the tests of libph; without arguments: for each.
-# Installs what is missing first. The last line of each shows the counts. JOBS: how many at a time.
+# another processor or another system, and runs the tests of libph; without arguments: for all three.
+# Installs missing packages first. The last line of each shows the counts. JOBS: number of parallel
+# jobs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# What was compiled in another clone counts here, precompiled headers included.
+# The compiler cache shares results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
-# The libraries for the other processor, unpacked and not installed: neither root nor a foreign
-# architecture in dpkg is needed, and no package here has to have the version of one there.
+# The libraries for the other processor are unpacked, not installed. This needs neither root nor a
+# foreign architecture in dpkg, and versions need not match those of local packages.
 unpack_arm64() {
   local root=$PWD/build/aarch64-root
   [ -e "$root/complete" ] && return
@@ -28,7 +29,7 @@ unpack_arm64() {
   touch "$root/complete"
 }
 
-# What is there as packages is unpacked, as above; libpng and FreeType are built of Debian's sources.
+# Available packages are unpacked, as above; libpng and FreeType are built from Debian's sources.
 unpack_mingw() {
   local root=$PWD/build/mingw-root
   [ -e "$root/complete" ] && return
@@ -67,7 +68,7 @@ test_libph() {
     --output-junit "$PWD/build/$1/tests.xml"
 }
 
-# What programs print and write is the same bytes as here.
+# Checks that programs print and write the same bytes as here.
 compare_outputs() {
   cmake --preset release >/dev/null
   cmake --build --preset release -j "$jobs" --target ph-barcode ph-distance ph-segment ph-vectorise
@@ -81,9 +82,9 @@ run() {
     aarch64) unpack_arm64 ;;
     mingw) unpack_mingw
       export WINEPREFIX=$PWD/build/wine WINEDEBUG=-all
-      # Else programs that begin at once would each set it up.
+      # Otherwise programs that start together would each set it up.
       [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1
-      # Nor does a program begin while the server of the last one ends.
+      # This also prevents a program from starting while the previous server ends.
       /usr/lib/wine/wineserver -p60 || true ;;
   esac
   cmake --preset "$platform"
@@ -91,7 +92,7 @@ run() {
   case $platform in
     clang-libcxx) test_libph "$platform" || status=$?
       compare_outputs "build/$platform" || status=$? ;;
-    aarch64)  # instructions are translated: a tenth of the random inputs, ten times as long
+    aarch64)  # instructions are emulated: a tenth of the random inputs, ten times the time limit
       PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?
       compare_outputs "build/$platform" qemu-aarch64-static || status=$? ;;
     mingw) PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?

@@ -1,26 +1,27 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# sanitize.sh [asan-ubsan|tsan|debug|valgrind|integers]…: builds with what finds faults while it runs, runs the
-# C++ tests with few random inputs, and the programs over the commands of tests/platforms, whose
-# outputs have to be those of build/release. Without arguments: the first four. Installs what is missing.
+# sanitize.sh [asan-ubsan|tsan|debug|valgrind|integers]…: builds with run-time checks, then runs the
+# C++ tests with few random inputs, and the programs with the commands of tests/platforms, whose
+# outputs must equal those of build/release. Without arguments: the first four. Installs missing
+# packages.
 #   asan-ubsan  Clang: addresses, leaks, undefined behaviour, numbers that do not fit an integer
 #   tsan        Clang: threads
 #   debug       GCC: the checks of libstdc++'s debug mode
-#   valgrind    each eighth of the commands, without CGAL: memory that was never written
-#   integers    Clang: a list, to be judged, of where integers wrap or lose digits, which is defined
-# EVERY=N: each Nth of the commands; SECONDS_EACH: what takes longer is left out, and counted;
-# REFERENCE: the build to compare with (default: build/release, built here); JOBS: how many at a time;
-# TESTS: a regular expression of the tests that are run. A line for each kind comes last.
+#   valgrind    every eighth command, without CGAL: memory that was never written
+#   integers    Clang: a list, for review, of places where integers wrap or lose digits legally
+# EVERY=N: every Nth command; SECONDS_EACH: commands that take longer are left out and counted;
+# REFERENCE: the build to compare with (default: build/release, built here); JOBS: number of parallel
+# jobs; TESTS: a regular expression of the tests to run. The last lines have the result of each kind.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# What was compiled in another clone counts here, precompiled headers included.
+# The compiler cache shares results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
 export PATH=/usr/lib/llvm-19/bin:$PATH  # llvm-symbolizer
-export PH_TEST_PATIENCE=20  # what is checked takes longer
+export PH_TEST_PATIENCE=20  # checked programs run longer
 export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 summary=()
 
@@ -38,7 +39,7 @@ build() {
     { summary+=("$kind: not built"); return 1; }
 }
 
-# outputs KIND BUILD [WHAT RUNS IT…]: the commands, and the line that counts them.
+# outputs KIND BUILD [LAUNCHER…]: runs the commands and prints the line that counts them.
 outputs() {
   local kind=$1 status=0
   shift
@@ -63,7 +64,7 @@ run() {
     asan-ubsan|tsan|debug)
       build "$kind" || return
       tests "$kind" || status=$?
-      # In debug mode each search in a sorted range looks at all of it.
+      # In debug mode, each search in a sorted range checks the whole range.
       if [ "$kind" = debug ]; then SECONDS_EACH=${SECONDS_EACH:-20}; fi
       outputs "$kind" "build/$kind" || status=$? ;;
     valgrind)
@@ -74,7 +75,7 @@ run() {
       build integers --target "${programs[@]}" || return
       rm -rf build/integers/reports && mkdir build/integers/reports
       UBSAN_OPTIONS=log_path=$PWD/build/integers/reports/run outputs integers build/integers || status=$?
-      # Each place once, however often it is met.
+      # Lists each place once, however often it occurs.
       cat build/integers/reports/* 2>/dev/null | grep 'runtime error' | sed "s#$PWD/##" |
         sed -E 's/(: runtime error: [a-z -]*).*/\1/' | sort -u | tee build/integers/places.txt
       counts="$(wc -l <build/integers/places.txt) places; $counts" ;;

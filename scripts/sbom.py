@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the static programs have in them, as SPDX 2.3: sbom.py BUILD [-o FILE] [--licences FOLDER].
+"""Lists the contents of the static programs as SPDX 2.3: sbom.py BUILD [-o FILE] [--licences
+FOLDER].
 
-Found in a build folder with PH_STATIC_PROGRAMS, not listed by hand:
+The contents are found in a build folder with PH_STATIC_PROGRAMS, not listed by hand:
 
 archives    the maps that the linker wrote (apps/*/*.map): those of which a member was taken
 headers     the dependencies that Ninja knows of each object of the programs
 the font    PH_PLOT_FONT in CMakeCache.txt
 the page    report-template.inputs, which viewer/build.mjs writes beside the page
 
-dpkg says which package and version a file is of; package.json says it of npm packages. A package
-whose licence LICENCES does not name is an error: whoever links something new looks at its licence.
---licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH sets the date.
+dpkg knows the package and version of a file; package.json states them for npm packages. A package
+whose licence is missing from LICENCES is an error, so that whoever links something new checks its
+licence. --licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH sets the
+date.
 """
 import argparse
 import hashlib
@@ -27,8 +29,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAMS = "apps/*/*.map"
-# By source package, as SPDX expressions. All of them let a program be passed on under any terms,
-# together with its source or with a way to link it anew (glibc: LGPL).
+# By source package, as SPDX expressions. All of them allow passing on a program under any terms,
+# together with its source or with a way to relink it (glibc: LGPL).
 LICENCES = {
     "brotli": "MIT",
     "cli11": "BSD-3-Clause",
@@ -42,7 +44,7 @@ LICENCES = {
     "linux": "GPL-2.0-only WITH Linux-syscall-note",
     "zlib": "Zlib",
 }
-# Headers that give declarations and numbers, no code.
+# Headers that contain declarations and numbers, but no code.
 BUILD_ONLY = {"linux"}
 
 
@@ -56,7 +58,8 @@ def output_of(*command):
 
 
 def linked_files(build):
-    """Archives of which a member was taken, and objects, that are not ours."""
+    """Archives and objects that are not ours and were linked in; an archive counts if one of its
+    members was."""
     maps = sorted(build.glob(PROGRAMS))
     if not maps:
         fail(f"found no {build}/{PROGRAMS}, expected a build with PH_STATIC_PROGRAMS")
@@ -69,7 +72,7 @@ def linked_files(build):
 
 
 def included_files(build):
-    """Headers of others that the objects of the programs were compiled with."""
+    """Third-party headers that the objects of the programs include."""
     programs = [path.relative_to(build).with_suffix("") for path in sorted(build.glob(PROGRAMS))]
     inputs = set(output_of("ninja", "-C", build, "-t", "inputs", *programs).splitlines())
     files, wanted = set(), False
@@ -95,7 +98,7 @@ def debian_packages(files):
     """@return {name: (version, source, source version, architecture)} of the packages of files."""
     files = sorted({os.path.realpath(file) for file in files})
     owners, found = set(), set()
-    # Files of a system whose /lib is a link have their old names in the lists of packages.
+    # On systems whose /lib is a link, package lists have the old names of files.
     names = files + [file[len("/usr"):] for file in files if file.startswith("/usr/lib")]
     said = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True, check=False).stdout
     for line in said.splitlines():
@@ -111,7 +114,7 @@ def debian_packages(files):
 
 
 def npm_packages(page):
-    """@return {name: (version, licence, folder)} of what is bundled into the page."""
+    """@return {name: (version, licence, folder)} of the packages bundled into the page."""
     viewer = ROOT / "viewer"
     packages = {}
     for line in page.with_suffix(".inputs").read_text().splitlines():
@@ -202,7 +205,7 @@ def document(build):
 
 
 def write_licences(folder, debian, npm):
-    """A file for each package, and the texts that these refer to."""
+    """One file per package, and the texts that these files refer to."""
     folder.mkdir(parents=True, exist_ok=True)
     common = Path("/usr/share/common-licenses")
     named = set()

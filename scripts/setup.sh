@@ -1,37 +1,38 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|determinism|sanitize|clang-libcxx|aarch64|mingw]…
+# Installs missing Debian packages: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|determinism|sanitize|clang-libcxx|aarch64|mingw]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
        zlib1g-dev libpng-dev libfreetype-dev fonts-dejavu-core libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
-# Peers and tools that tests compare with or look through.
+# Other programs that tests compare with, and tools that tests use.
 test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       python3-open3d jq strace
       locales zsh fish man-db groff mandoc abigail-tools slurm-wlm
       libopenmpi-dev openmpi-bin libmpich-dev mpich)
-# The Python package, and what its tests compare with.
+# The Python package, and the packages that its tests compare with.
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
         python3-matplotlib python3-skimage pymol-data python3-pytest python3-mypy python3-venv python3-nbclient
         python3-ipykernel python3-distributed)
-# What bundles the page of the reports; Node may be there from elsewhere.
+# The tools that bundle the page of the reports; Node may come from elsewhere.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
-viewer=("${page[@]}" chromium)  # its tests in a browser, too
+viewer=("${page[@]}" chromium)  # also its tests in a browser
 # The site of the documentation.
 docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
       python3-jsonschema hunspell hunspell-en-gb)
-# What makes Debian packages, and what tries them.
+# Tools that make Debian packages, and tools that test them.
 packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev libcgal-dev lintian diffoscope-minimal
           debootstrap autopkgtest busybox-static)
 lint=(clang-format-14 clang-tidy-19 cppcheck libgtest-dev libcgal-dev)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
 coverage=(gcovr libgtest-dev libcgal-dev)
 determinism=(clang-19 libcgal-dev qemu-user-static)
-# Valgrind wants the symbols of the C library; libstdc++'s debug mode wants fmt and GoogleTest compiled along.
+# Valgrind needs the symbols of the C library; in libstdc++'s debug mode, fmt and GoogleTest must be
+# compiled as well.
 sanitize=(clang-19 libclang-rt-19-dev llvm-19 valgrind libc6-dbg googletest libgtest-dev libcgal-dev)
-# Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
+# For scripts/platforms.sh; GoogleTest and fmt are compiled as well.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
 aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
 mingw=(g++-mingw-w64-x86-64-posix wine64 googletest dpkg-dev)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Builds the page of the reports, viewer/build/report-template.html, and runs its tests in headless
-# Chromium: viewer.sh [build|test]. Installs what is missing first.
+# Chromium: viewer.sh [build|test]. Installs missing packages first.
 set -euo pipefail
 cd "$(dirname "$0")/../viewer"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // bench_alpha delaunay|bars FILE [THREADS]: CGAL's triangulation of points alone, or all bars of
-// their alpha complex. Prints CPU seconds without those of reading, and how many cells or bars
-// there are.
+// their alpha complex. Prints the CPU seconds, without reading, and the number of cells or bars.
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

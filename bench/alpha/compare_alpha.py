@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Alpha complexes beside CGAL's triangulation alone and beside GUDHI:
-compare_alpha.py BUILD [--gudhi-python PYTHON] [--million] [ROW…]
+"""Compares alpha complexes with CGAL's triangulation alone and with GUDHI: compare_alpha.py BUILD
+[--gudhi-python PYTHON] [--million] [ROW…]
 
-Whole programs, one thread, reading included: CPU seconds, the least of three runs (of long ones: one), and
-peak memory. Of GUDHI the fastest of its modes `safe` and `exact`; `fast` promises nothing. Bars are
-compared by their total length in each dimension. Prints a table in Markdown."""
+Measures whole programs on one thread, including reading: CPU seconds, the least of three runs (one
+for long runs), and peak memory. GUDHI runs in the faster of its modes `safe` and `exact`; `fast`
+makes no promises. Bars are compared by their total length in each dimension. Prints a table in
+Markdown."""
 import argparse
 import math
 import os
@@ -81,7 +82,7 @@ def write(path, rows):
 
 
 def measure(command, folder):
-    """@return CPU seconds, peak in MB, what it printed."""
+    """@return CPU seconds, peak in MB, output."""
     best = None
     for _ in range(3):
         out = open(folder / "out", "w+")
@@ -99,7 +100,7 @@ def measure(command, folder):
 
 
 def bars_of(path):
-    """By dimension how many finite bars, and their total length."""
+    """For each dimension, the number of finite bars and their total length."""
     found = {}
     with open(path) as file:
         next(file)
@@ -112,7 +113,8 @@ def bars_of(path):
 
 
 def agree(ours, peers):
-    """Numbers of bars differ: GUDHI may have some of a last place, where ours have length 0."""
+    """Numbers of bars differ: GUDHI may have bars as long as a rounding error that have length 0
+    here."""
     for dim, line in enumerate(peers.splitlines()):
         length = float(line.split()[1])
         if not math.isclose(ours.get(dim, (0, 0.0))[1], length, rel_tol=1e-6, abs_tol=1e-9):

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Distances of diagrams beside Hera, as GUDHI has it: compare_distances.py [ROW…]
+"""Compares distances of diagrams with Hera, through GUDHI: compare_distances.py [ROW…]
 
-Needs libph and gudhi in one Python. Computation only, one thread, CPU seconds: ours the least of three runs,
-Hera's of one. Both results are compared: within 1e-9, or within what was asked for. Of a matrix Hera gets some
-pairs, and its time is that of all as these say. Prints a table in Markdown."""
+Needs libph and gudhi in one Python. Counts only the computation, on one thread, in CPU seconds: the
+least of three runs for libph, one run for Hera. The results must agree within 1e-9 or within the
+requested error. For a matrix, Hera computes some pairs, and its time is extrapolated to all pairs.
+Prints a table in Markdown."""
 import sys
 import time
 
@@ -13,7 +14,7 @@ import numpy as np
 
 import libph as ph
 
-PAIRS = 60  # of a matrix that Hera is given
+PAIRS = 60  # number of pairs of a matrix that Hera computes
 
 
 def uniform(count, seed):
@@ -21,14 +22,14 @@ def uniform(count, seed):
 
 
 def near(count, seed):
-    """Two diagrams of which one is the other, moved a little."""
+    """Two diagrams; the second is the first one, moved a little."""
     bars = uniform(count, seed)
     moved = bars + np.random.default_rng(seed + 1).uniform(-1e-3, 1e-3, bars.shape)
     return bars, np.sort(moved, axis=1)
 
 
 def of_bytes(count, seed):
-    """Values of images of bytes: ties everywhere."""
+    """Values as in images of bytes: ties everywhere."""
     bars = np.sort(np.random.default_rng(seed).integers(0, 256, (count, 2)), axis=1).astype(float)
     return bars[bars[:, 0] < bars[:, 1]]
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// H0 of points in parts, one after another, beside the same points as one: CPU seconds, the largest
-// memory of a part beside the points themselves, bytes of all parts. Says whether the bars are the
-// same. One thread.
+// Compares H0 of points in parts, one after another, with the same points as a whole: CPU seconds,
+// the largest memory of a part beside the points themselves, bytes of all parts. Prints whether the
+// bars are the same. One thread.
 //
 //     bench_cloud_parts [POINTS [PARTS…]]
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 
 namespace {
 
-// A cube, or clusters of many widths in a cube.
+// Points in a cube, or clusters of many widths in a cube.
 ph::Points make_points(ph::Index n, bool clusters) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform;

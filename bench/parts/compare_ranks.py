@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""An image on ranks of MPI beside one process, and beside other programs that use MPI.
+"""Compares an image on ranks of MPI with one process, and with other programs that use MPI.
 
     compare_ranks.py build/release --rows 128³ --ranks 1,2,4 --peer 'OTHER 1.0 = PROGRAM {input} {output}'
 
-In a peer's command {input} is a .npy file of float32 in C order and {output} a path that it may write to. It is run
-under mpirun, as ph-barcode-mpi is. Measured are user + system CPU seconds of all ranks together, wall seconds, and the
-peak resident memory of the largest rank; bars of ph-barcode-mpi have to be those of ph-barcode, byte for byte.
-Needs numpy and scipy.
+In a peer's command, {input} is a .npy file of float32 in C order and {output} a path that it may
+write to. The peer runs under mpirun, like ph-barcode-mpi. The script measures user + system CPU
+seconds of all ranks together, wall seconds, and the peak resident memory of the largest rank. The
+bars of ph-barcode-mpi must equal those of ph-barcode, byte for byte. Needs numpy and scipy.
 """
 import argparse
 import filecmp
@@ -21,7 +21,7 @@ import tempfile
 import numpy
 from scipy.ndimage import gaussian_filter
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # what all benchmarks share
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # shared code of all benchmarks
 from measuring import Limits, Meter  # noqa: E402
 
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}  # in containers
@@ -53,7 +53,7 @@ def mebibytes(text):
 
 
 def sent(command):
-    """What all ranks sent together, in MiB, as they say themselves."""
+    """The data that all ranks sent together, in MiB, as they report it."""
     said = subprocess.run([*command, "--verbose"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
     return sum(mebibytes(size) for size in re.findall(r"sent ([\d.]+ \w+)", said))
 

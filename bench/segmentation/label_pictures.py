@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of labels: ground truth and segments side by side, PNG.
+"""Draws pictures of labels: ground truth and segments side by side, as PNG.
 
-Nothing of the frame itself is in them but where there is no depth, unless they are shaded. A
-segment has the colour of the object that it is matched with; one that is matched with none has a
-colour of its own and stripes."""
+Unless they are shaded, the pictures show nothing of the frame itself except where depth is missing.
+A segment has the colour of its matched object; an unmatched segment has its own colour and
+stripes."""
 import pathlib
 import struct
 import zlib
@@ -12,7 +12,8 @@ import numpy
 
 import segmentation_metrics as metrics
 
-# Okabe & Ito's colours, told apart by most of the colour-blind, and darker and lighter ones.
+# Okabe & Ito's colours, which most colour-blind people can distinguish, and darker and lighter
+# ones.
 COLOURS = numpy.array(
     [
         (230, 159, 0),
@@ -74,7 +75,7 @@ def shaded(image, points, sensor_light=0.45):
 
 
 def surroundings(shown, margin=24):
-    """The rows and columns where something is shown, and some around."""
+    """The rows and columns where something is shown, with a margin."""
     rows, columns = numpy.flatnonzero(shown.any(axis=1)), numpy.flatnonzero(shown.any(axis=0))
     if len(rows) == 0:
         return slice(None), slice(None)
@@ -85,8 +86,8 @@ def surroundings(shown, margin=24):
 
 
 def beside(truth_labels, predictions, parts=False, points=None, step=2):
-    """Ground truth, then each prediction, where there are objects or segments. @param points rows x
-    columns x 3: shade with them. @param step keep each step-th pixel."""
+    """Ground truth, then each prediction, cropped to objects and segments. @param points rows x
+    columns x 3, for shading. @param step keep every step-th pixel."""
     seen = truth_labels > 0
     truth, objects = metrics.truth_of(truth_labels, parts)
     images = [painted(truth, seen)]

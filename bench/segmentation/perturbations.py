@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Frames made worse, each in one way and by a stated amount; the same for the same frame, kind and
-amount."""
+"""Degrades frames, each in one way and by a stated amount; the result is always the same for the
+same frame, kind and amount."""
 import dataclasses
 import typing
 import zlib
@@ -26,7 +26,7 @@ def noise(scene, millimetres, generator):
 
 
 def dropout(scene, percent, generator):
-    """Points lose their depth, each by itself."""
+    """Points lose their depth independently."""
     return without(scene, generator.random(len(scene.truth)) < percent / 100)
 
 
@@ -40,7 +40,8 @@ def blocks(scene, percent, generator):
 
 
 def stride(scene, step, _):
-    """A smaller image: each step-th row and column; of a frame without them each step²-th point."""
+    """A smaller image: every step-th row and column; for a frame without them, every step²-th
+    point."""
     index = numpy.arange(len(scene.truth)).reshape(scene.height, scene.width)
     index = index[::step, ::step] if scene.organised else index[:, :: step * step]
     return dataclasses.replace(
@@ -64,7 +65,7 @@ def subset(scene, percent, generator):
 @dataclasses.dataclass(frozen=True)
 class Kind:
     apply: typing.Callable
-    what: str  # what the amount says
+    what: str  # the meaning of the amount
     unharmed: float  # the amount that changes nothing
 
 

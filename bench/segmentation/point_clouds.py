@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Point clouds in PCD files with ground truth, and images of labels."""
+"""Reads point clouds in PCD files with ground truth, and images of labels."""
 import pathlib
 from dataclasses import dataclass
 
@@ -42,7 +42,7 @@ def decompressed(data, size):
                 raise ValueError("LZF: a reference before the beginning")
             if start + length <= len(result):
                 result += result[start : start + length]
-            else:  # it overlaps what it makes
+            else:  # the copy overlaps its own output
                 period = result[start:]
                 result += (period * (length // len(period) + 1))[:length]
     except IndexError:
@@ -53,8 +53,8 @@ def decompressed(data, size):
 
 
 def read_pcd(path):
-    """The columns label, x, y, z that a PCD file has, with its width and height. Other fields are
-    not looked at."""
+    """The columns label, x, y, z of a PCD file, with its width and height. Other fields are
+    ignored."""
     data = pathlib.Path(path).read_bytes()
     header, at = {}, 0
     while "DATA" not in header:
@@ -96,8 +96,9 @@ def read_pcd(path):
 
 @dataclass
 class Scene:
-    """One frame. `points` are rows x, y, z, NaN where there is no depth; `truth` holds a label a
-    point: 0 no depth, 1 to 9 the table, from 10 on the parts of objects (label // 10 is which)."""
+    """One frame. `points` are rows x, y, z, NaN where there is no depth; `truth` holds one label
+    per point: 0 no depth, 1 to 9 the table, from 10 on the parts of objects (label // 10 is the
+    object)."""
 
     name: str
     points: numpy.ndarray
@@ -158,8 +159,8 @@ def read_pgm(path):
 
 
 def read_labels(stem):
-    """Labels, one a point, that a program wrote to `stem` with .npy, .pgm (binary) or .pcd behind
-    it; None if it wrote none."""
+    """Labels, one per point, that a program wrote to `stem` plus .npy, .pgm (binary) or .pcd; None
+    if it wrote none."""
     for ending, read in (
         (".npy", numpy.load),
         (".pgm", read_pgm),
@@ -173,7 +174,7 @@ def read_labels(stem):
 
 @dataclass(frozen=True)
 class Pinhole:
-    """A camera that puts the points of a frame without rows and columns back on its pixels."""
+    """A camera that maps the points of a frame without rows and columns back to its pixels."""
 
     focal: float = 525.0
     centre_x: float = 319.5
@@ -182,7 +183,7 @@ class Pinhole:
     height: int = 480
 
     def image(self, scene, labels):
-        """`labels` as an image; of two points on one pixel the later counts."""
+        """`labels` as an image; if two points share a pixel, the later one counts."""
         seen = numpy.isfinite(scene.points).all(axis=1) & (scene.points[:, 2] > 0)
         x, y, z = scene.points[seen].T.astype(float)
         u = numpy.rint(self.focal * x / z + self.centre_x).astype(int)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What segmentation_scores.py does: scores, times, curves, cross-validation, pictures."""
+"""The tasks of segmentation_scores.py: scores, times, curves, cross-validation, pictures."""
 import concurrent.futures
 import itertools
 import sys
@@ -49,12 +49,12 @@ class Benchmark:
         return self.folder / str(next(self._numbers))
 
     def each(self, do, items):
-        """do(item) for all, on --jobs threads, in their order."""
+        """Calls do(item) for all items on --jobs threads; results keep their order."""
         with concurrent.futures.ThreadPoolExecutor(self.arguments.jobs) as pool:
             return list(pool.map(do, items))
 
     def images(self, scene, *labels):
-        """Labels as images; those of a frame without rows and columns on the camera's pixels."""
+        """Labels as images; for a frame without rows and columns, on the camera's pixels."""
         if scene.organised:
             return [array.reshape(scene.height, scene.width) for array in labels]
         return [self.camera.image(scene, array) for array in labels]
@@ -137,7 +137,7 @@ class Benchmark:
         }
 
     def grid_scores(self, truth, options):
-        """F of each frame with these options of ours."""
+        """F of each frame with these options of ph-segment."""
         program = ours(self.arguments.build, f"--no-check --{truth} {options}")
 
         def f(path):
@@ -148,7 +148,7 @@ class Benchmark:
         return dict(zip([path.stem for path in self.paths], self.each(f, self.paths)))
 
     def cross_validation(self, truth, categories):
-        """Each category scored with the options that have the best mean on the others."""
+        """Scores each category with the options that have the best mean on the other categories."""
         options = self.arguments.grid
         f = {}
         for values in itertools.product(*options.values()):
@@ -183,7 +183,7 @@ class Benchmark:
 
 
 def cross_validated(f, categories):
-    """@param f F of each frame for each choice; of equally good ones the first counts."""
+    """@param f F of each frame for each choice; among equally good choices, the first counts."""
     groups, chosen, scores = sorted(set(categories.values())), {}, {}
     of = lambda options, kept: segmentation_tables.mean(
         v for frame, v in f[options].items() if kept(categories[frame])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What --perturb of segmentation_scores.py found, as a figure: a panel a kind, a line a program."""
+"""Draws the results of --perturb of segmentation_scores.py: one panel per kind, one line per
+program."""
 import math
 from xml.sax.saxutils import escape
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How well labels agree with ground truth: overlap and boundary F, as in the evaluation of
-UOIS-Net (Xie et al.); and how well supervoxels keep to objects.
+"""Measures how well labels agree with ground truth (overlap and boundary F, as in the evaluation of
+UOIS-Net, Xie et al.) and how well supervoxels respect objects.
 
 Truth: 0 no depth (left out), 1 to 9 the table, from 10 on the parts of objects, label // 10 being
 the object.
@@ -16,7 +16,7 @@ FIRST_OBJECT = 10
 
 @dataclass(frozen=True)
 class Scores:
-    """Shares from 0 to 1. Those of boundaries are None where there is no image."""
+    """Shares from 0 to 1. The scores of boundaries are None if there is no image."""
 
     precision: float
     recall: float
@@ -31,7 +31,7 @@ class Scores:
 
 
 def assignment(cost):
-    """The column of each row such that the sum is least; rows <= columns. Shortest augmenting
+    """Assigns a column to each row such that the sum is least; rows <= columns. Shortest augmenting
     paths, O(rows² columns)."""
     rows, columns = cost.shape
     potential_of_row, potential = numpy.zeros(rows), numpy.zeros(columns)
@@ -61,7 +61,7 @@ def assignment(cost):
 
 
 def dense(labels, kept):
-    """Labels where `kept` as 0, 1, …, elsewhere -1, and how many there are."""
+    """Labels where `kept` is true as 0, 1, …, elsewhere -1, and the number of labels."""
     values, numbers = numpy.unique(labels[kept], return_inverse=True)
     result = numpy.full(labels.shape, -1)
     result[kept] = numbers
@@ -85,8 +85,8 @@ def matching(common, objects, segments):
 
 
 def outside(mask):
-    """What is 4-connected to the border through pixels not in the mask. None of the border is in
-    the mask."""
+    """The pixels that are 4-connected to the border through pixels outside the mask. The mask has
+    no border pixels."""
     seen = numpy.zeros_like(mask)
     seen[0] = seen[-1] = seen[:, 0] = seen[:, -1] = True
     while True:
@@ -138,14 +138,14 @@ def boundary_scores(truth, segments, objects, count, pairs):
 
 
 def truth_of(labels, parts):
-    """Ground truth as dense numbers: of the parts, or of the objects that they make."""
+    """Ground truth as dense numbers of parts, or of the objects that consist of them."""
     return dense(labels if parts else labels // FIRST_OBJECT, labels >= FIRST_OBJECT)
 
 
 def score(labels, prediction, parts, boundaries=True):
     """Scores of one frame; arrays of one shape, which is that of an image if boundaries count.
 
-    @param parts whether the visible parts of an object count as objects of their own.
+    @param parts if true, the visible parts of an object count as separate objects.
     """
     truth, objects = truth_of(labels, parts)
     segments, count = dense(prediction, (labels > 0) & (prediction > 0))
@@ -165,7 +165,7 @@ def score(labels, prediction, parts, boundaries=True):
 
 @dataclass(frozen=True)
 class SupervoxelScores:
-    """Of the pixels of objects. Shares from 0 to 1, None where there is nothing to share."""
+    """Scores over the pixels of objects. Shares from 0 to 1, None if there are no pixels."""
 
     supervoxels: int
     boundary_recall: float
@@ -175,7 +175,7 @@ class SupervoxelScores:
 
 
 def borders(labels):
-    """Pixels whose right or lower neighbour has another label; both have one (from 0 on)."""
+    """Pixels whose right or lower neighbour has a different label; both labels are at least 0."""
     found = numpy.zeros(labels.shape, bool)
     for here, there, mark in (
         (labels[:, :-1], labels[:, 1:], found[:, :-1]),
@@ -188,10 +188,10 @@ def borders(labels):
 def supervoxel_scores(labels, prediction, radius=2):
     """Scores of pieces of objects in one image.
 
-    Boundary recall: the share of pixels at borders between objects that have a border of pieces
-    within the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and
-    comparison, 2012): what of a piece lies outside an object that it is partly in, or inside if
-    that is less, over all pixels of objects.
+    Boundary recall: the share of pixels at borders between objects with a border of pieces within
+    the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and comparison,
+    2012): for each piece and each object that it overlaps, the smaller of its parts inside and
+    outside the object, summed and divided by the number of pixels of objects.
     """
     truth, objects = truth_of(labels, parts=False)
     pieces, count = dense(prediction, truth >= 0)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Segmentation of RGB-D frames with ground truth: ph-segment beside other programs, on the same
-frames, in one run.
+"""Compares ph-segment with other programs on RGB-D frames with ground truth, on the same frames, in
+one run.
 
     segmentation_scores.py build/release SCENES \\
       --peer 'NAME 1.0 = PROGRAM {input} --labels {output}.npy'
@@ -10,17 +10,17 @@ SCENES is a folder of PCD files with fields x y z label: 0 no depth, 1 to 9 the 
 parts of the first object, 30 to 39 those of the second, … The category of each frame is in a CSV
 file (frame,category).
 
-A peer is NAME = COMMAND, the name with its version. In the command {input} is the frame, {folder}
-and {name} its folder and its name without .pcd. It writes a label a point, in the order of the
-input, to {output}.npy, {output}.pgm or {output}.pcd; {outputs} is the folder of that. Before the
-command may stand background=B (labels up to B are no segment; default 0) and stages=FILE (CSV with
-the seconds of each stage in columns t_NAME).
-Arguments may stand in a file, one a line, named as @FILE.
+A peer is NAME = COMMAND, the name with its version. In the command, {input} is the frame, {folder}
+and {name} are its folder and its name without .pcd. The peer writes one label per point, in the
+order of the input, to {output}.npy, {output}.pgm or {output}.pcd; {outputs} is the folder of this
+file. The command may be preceded by background=B (labels up to B are not segments; default 0) and
+stages=FILE (CSV with the seconds of each stage in columns t_NAME). Arguments may be stored in a
+file, one per line, given as @FILE.
 
-Scores are always taken; of a program with "supervoxels" in its name or options those of pieces of
-objects: borders met and under-segmentation error. --times measures CPU seconds and memory, --perturb makes the frames worse,
---cross-validate chooses options on other categories, --pictures draws labels; see
-docs/notes/segmentation-benchmarks.md. Needs numpy.
+Scores are always computed; for a program with "supervoxels" in its name or options, they are the
+scores of pieces of objects: boundary recall and under-segmentation error. --times measures CPU
+seconds and memory, --perturb makes the frames worse, --cross-validate chooses options on other
+categories, --pictures draws labels; see docs/notes/segmentation-benchmarks.md. Needs numpy.
 """
 import argparse
 import csv
@@ -32,7 +32,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # what all benchmarks share
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # shared code of all benchmarks
 import perturbations
 import segmentation_curves
 import segmentation_tables
@@ -164,7 +164,7 @@ def parse():
 
 
 def fill(report, benchmark, arguments, keep):
-    """Adds to the report what is asked for; keep() after each piece."""
+    """Adds the requested results to the report; calls keep() after each piece."""
     categories = report["categories"]
     for program in benchmark.programs if arguments.scores else []:
         report["scores"][program.name] = {

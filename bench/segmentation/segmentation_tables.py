@@ -15,7 +15,7 @@ def table(header, rows):
 
 
 def share(value):
-    """0.9 as .900, as is usual for scores."""
+    """A score such as 0.9 in the usual form .900."""
     return "–" if value is None else f"{value:.3f}".removeprefix("0")
 
 
@@ -25,7 +25,7 @@ def mean(values):
 
 
 def categories(report):
-    """Names of the categories that there are, with their frames, and all."""
+    """The categories with their frames, and all frames together."""
     frames = report["categories"]
     names = [name for name in ORDER if name in frames.values()]
     names += sorted(set(frames.values()) - set(ORDER))
@@ -81,7 +81,7 @@ def by_category(report, truth, key):
 
 
 def departures(options, grid):
-    """What is chosen other than the default, the first of each list."""
+    """The chosen options that differ from the default, which is the first of each list."""
     words = options.split()
     others = [
         f"{name} {value}"
@@ -163,7 +163,7 @@ def stages(report):
 
 
 def unharmed(report):
-    """F of the frames as they are, the mean, for each program and truth."""
+    """The mean F of the unmodified frames, for each program and truth."""
     return {
         program: {
             truth: mean(frames[f][truth]["f"] for f in report["categories"] if f in frames)

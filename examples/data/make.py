@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes data of this folder that pages of docs/ use: make.py. Standard library only; the same numbers
-each time."""
+"""Makes the data of this folder that pages of docs/ use: make.py. Needs only the standard library;
+the numbers are the same each time."""
 import gzip
 import math
 import random
@@ -26,8 +26,8 @@ def torus():
 
 
 def phantom():
-    """A head as in a scanner, 32 x 40 x 32 voxels as NIfTI: a bright skull around a brain, in which
-    two ventricles and a small lesion are dark."""
+    """A head as a scanner sees it, 32 x 40 x 32 voxels as NIfTI: a bright skull around a brain with
+    two dark ventricles and a small dark lesion."""
     rng = random.Random(2)
     shape = (32, 40, 32)
 
@@ -84,7 +84,7 @@ def hills():
 
 
 def waves(rng, count, samples):
-    """Signals of one wave, each a step later than the one before."""
+    """Signals of one wave, each one step later than the previous one."""
     return [[math.cos(2 * math.pi * (5 * i / samples - k / count)) + rng.gauss(0, 0.2) for i in range(samples)]
             for k in range(count)]
 
