@@ -39,7 +39,7 @@ int main() {
   std::cout << long_loops(ph::persistence(sparse), 0.5) << " loop in 1/"
             << all / *ph::facts(sparse, ph::plan(sparse)).edges << " of the edges\n";
 
-  // Where points are few, they enter late.
+  // Points in sparse regions enter late.
   const ph::Rips weighted(points, {.dtm_neighbours = 40});
   std::cout << long_loops(ph::persistence(weighted), 0.5) << " loop among the outliers\n";
 }

@@ -114,7 +114,7 @@ def outer_boundary(mask):
 
 
 def near(boundary, others, shape, radius):
-    """How many pixels of a boundary lie within the radius of another one."""
+    """The number of pixels of a boundary that lie within the radius of another one."""
     around = numpy.zeros((shape[0] + 2 * radius, shape[1] + 2 * radius), bool)
     for dy in range(-radius, radius + 1):
         for dx in range(-radius, radius + 1):

@@ -19,7 +19,7 @@ class Gripper(NamedTuple):
 
 
 class Grasp(NamedTuple):
-    """Where to close the gripper: x is the closing direction, z the approach."""
+    """A pose of the gripper: x is the closing direction, z the approach."""
 
     pose: np.ndarray  # its origin is between the tips of the fingers
     width: float      # size of the object along x

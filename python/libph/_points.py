@@ -44,7 +44,7 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
     Parameters
     ----------
     X : array_like
-        Points of 1 to 8 coordinates, one a row.
+        Points of 1 to 8 coordinates, one per row.
     voxel : float
         The edge of a voxel, in the unit of the points.
     value : {"distance", "occupancy", "density"}

@@ -28,7 +28,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "libph"
-# What a build needs, and what an archive of the sources has.
+# The files that a build needs and that an archive of the sources contains.
 SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "libreport", "viewer", "python",
            "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
            "docs/reference/python.md")
@@ -138,7 +138,7 @@ def run(*command):
 
 
 def words_of(setting):
-    """What newer versions of pip hand over as a list if it is given twice."""
+    """The words of a setting, which newer versions of pip pass as a list if it is given twice."""
     return shlex.split(setting if isinstance(setting, str) else " ".join(setting))
 
 
@@ -173,7 +173,7 @@ def build(settings):
 
 
 def pybind11_folder():
-    """Where pip has put pybind11, if it has."""
+    """The folder where pip installed pybind11, if it did."""
     try:
         import pybind11
     except ImportError:

@@ -110,7 +110,8 @@ scene.labels.sort(axes=0)                            # call-arg: "axes"
 
 @pytest.fixture(scope="module")
 def mypy(tmp_path_factory):
-    """Runs mypy or a part of it in an empty folder; its remarks. What it has read it keeps."""
+    """Runs mypy or a part of it in an empty folder and returns its remarks. Its cache is kept
+    between runs."""
     pytest.importorskip("mypy", reason="mypy is missing, which looks at types")
     cache = tmp_path_factory.mktemp("cache")
     settings = {**os.environ, "PYTHONPATH": str(Path(ph.__file__).parents[1])}

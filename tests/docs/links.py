@@ -33,7 +33,7 @@ def endings_of(files, root):
 
 
 def anchors_of(text):
-    """As GitHub makes anchors from headings."""
+    """The anchors that GitHub makes from the headings."""
     found = set()
     for heading in re.findall(r"^#+ +(.*?)\s*$", BLOCK.sub("", text), re.MULTILINE):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)

@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-# Made by other tools, and tested there.
+# Pages that other tools make and test.
 REPORTS = "reports/"
 LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 LEFTOVERS = {"an entity as text": r"&amp;#\w+;", "half a sentence": r"<p>\.\s[^<]{0,20}",

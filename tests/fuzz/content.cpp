@@ -24,7 +24,7 @@ bool are_offsets(const std::vector<std::size_t>& offsets, std::size_t size) {
          std::is_sorted(offsets.begin(), offsets.end());
 }
 
-/// How many voxels an image has; its sizes and values agree.
+/// The number of voxels of an image, whose sizes and values agree.
 void require_image(const Image& image) {
   std::size_t voxels = 1;
   for (const Index extent : image.extents) {

@@ -16,7 +16,7 @@ constexpr std::size_t kBudget = std::size_t{64} << 20;
 /// Extra memory for a message, the input's name and other small things.
 constexpr std::size_t kFree = std::size_t{1} << 20;
 
-/// How an attempt to read ended.
+/// The outcome of an attempt to read.
 struct Outcome {
   std::optional<Content> content;
   std::string message;

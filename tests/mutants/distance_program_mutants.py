@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Those of ph-distance that plant_program_mutants.py plants; as in program_mutants.py."""
+"""The mutants of ph-distance for plant_program_mutants.py, in the form of program_mutants.py."""
 
 MUTANTS = [
     ("distances: bars of infinite kinds that agree are the reason", "apps/common/distances/distance_choice.cpp",

@@ -95,7 +95,7 @@ def replaced(old, new):
     return lambda text: re.sub(old, new, text, count=1)
 
 
-# What ph_c.abi is turned into, and whether programs that were linked with such a library break.
+# Changes of ph_c.abi, and whether each one breaks programs linked with the old library.
 PLANTED = [
     ("a function is gone", replaced(r"(<elf-symbol name=')ph_version('[^\n]*\n)",
                                     r"\1ph_version\2    \1ph_older\2"), True),

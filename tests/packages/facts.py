@@ -29,7 +29,7 @@ FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "
 OF_NO_PACKAGE = {"licence", "mpi"}
 # Folders whose targets belong to no package.
 NOT_PACKAGED = {"bench", "violations", "build", "install", "node_modules"}
-# Of debian/control alone, or of scripts/setup.sh alone: a compiler is always there.
+# Packages in debian/control alone, or in scripts/setup.sh alone: a compiler is always there.
 FOR_DEBIAN = {"debhelper-compat", "dh-sequence-python3"}
 FOR_PEOPLE = {"build-essential", "ccache", "pkg-config"}
 # Only an archive has these, see scripts/package.sh.

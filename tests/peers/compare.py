@@ -81,7 +81,8 @@ def gudhi_bars(case):
 
 
 def distance_failures(cases):
-    """How many bottleneck distances differ from GUDHI's, which are exact but for rounding."""
+    """Counts the bottleneck distances that differ from GUDHI's, which are exact but for
+    rounding."""
     import gudhi
 
     failed = 0

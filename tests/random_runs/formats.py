@@ -29,7 +29,7 @@ def fits(values, kind):
 
 
 def descr(kind, big=False):
-    """As in NumPy."""
+    """The description of a type, as in NumPy."""
     return ("|" if kind.endswith("int8") else ">" if big else "<") + TYPES[kind]
 
 

@@ -10,7 +10,7 @@
 
 namespace ph::distance_program {
 
-/// How the bars of one dimension are paired.
+/// The matching of the bars of one dimension.
 struct DimMatching {
   int dim;
   std::array<std::span<const Bar>, 2> bars;

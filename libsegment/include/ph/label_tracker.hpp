@@ -77,7 +77,7 @@ class LabelTracker {
   std::vector<Standing> standings_;
 };
 
-/// How a camera moved between two frames, as the supporting planes of both tell. Motion within the
+/// The motion of a camera between two frames, found from both supporting planes. Motion within the
 /// plane does not show.
 struct CameraMotion {
   double turn = 0;   ///< angle between the planes, degrees

@@ -76,7 +76,7 @@ struct SceneSurface {
 /// A point stores its surface in one byte.
 inline constexpr std::size_t kMostSurfaces = 255;
 
-/// How concave a flat surface looks at a range: the sensor's noise in the filtration.
+/// The concavity of a flat surface at a range, caused by the sensor's noise.
 struct NoiseAt {
   double range = 0;      ///< from the viewpoint, metres
   double concavity = 0;  ///< the value below which 84 % of the free supporting plane lies
@@ -97,7 +97,7 @@ struct Neighbour {
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
 
-/// What a segment stands on: a surface, a segment or neither.
+/// The support of a segment: a surface, another segment or neither.
 struct StandsOn {
   std::uint32_t surface = 0;  ///< number, from 1, of a support among the surfaces of the scene
   std::uint32_t segment = 0;  ///< label of a segment

@@ -62,7 +62,7 @@ struct SegmentOptions {
   std::optional<Vec3> viewpoint = {};
   bool check = true;  ///< compare union-find with the reduction of the boundary matrix
 
-  // Methods surface and supervoxels. Not given: see cut.
+  // For methods surface and supervoxels. For fields without a value, see cut.
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
   bool objects = true;  ///< surface: join the visible parts of an object; false: keep them apart
   std::optional<Index> min_part = {};  ///< fewest voxels of a part; a smaller one joins, >= 1
@@ -99,7 +99,7 @@ struct SegmentOptions {
   }
 };
 
-/// What one stage left and how long it took.
+/// The points that one stage left, and the time it took.
 struct Stage {
   std::string_view name;
   Index points = 0;    ///< points (from the voxel grid on, voxels) after the stage

@@ -31,7 +31,7 @@ struct PlaneSearch {
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
                        const std::optional<Plane>& guess = {});
 
-/// How near to a plane a point must be to count as part of it.
+/// The greatest distance of a point that still counts as part of a plane.
 struct PlaneMargin {
   double distance;  ///< metres
   /// The least margin in metres at a range of one metre: the noise of depth from disparity, which

@@ -31,7 +31,7 @@ bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
   return share_behind(cloud, plane, margin) <= most_behind;
 }
 
-/// The area of a plane that some voxels cover, square metres.
+/// The area of a plane that some voxels cover, in square metres.
 double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
                     double voxel) {
   const double side = 2 * voxel;  // no gaps

@@ -7,7 +7,7 @@
 
 namespace ph::segment {
 
-/// How far a voxel on a plane may lie from it at range r, metres: depth from disparity is noisy.
+/// The margin of a plane at range r, in metres: it allows for the noise of depth from disparity.
 double flatness(double square_of_range);
 
 /// The plane of a flat object's voxels, facing the viewpoint; empty if they do not lie on a plane.
@@ -16,7 +16,7 @@ double flatness(double square_of_range);
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint);
 
-/// How many of the voxels lie on a plane.
+/// The number of voxels that lie on a plane.
 Index count_on(const Plane& plane, const Points& centroids, std::span<const Index> voxels,
                const Vec3& viewpoint);
 /// The share of the voxels that lie on a plane.

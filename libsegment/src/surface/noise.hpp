@@ -7,7 +7,7 @@
 
 namespace ph::segment {
 
-/// How concave a flat surface looks because of the sensor's noise, by range.
+/// The concavity of a flat surface that the sensor's noise causes, by range.
 class ConcavityNoise {
  public:
   ConcavityNoise() = default;

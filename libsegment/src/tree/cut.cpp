@@ -15,7 +15,7 @@
 namespace ph::segment {
 namespace {
 
-/// Where segments first meet. There may be many edges between them: they are not stored.
+/// The edges where segments first meet. All edges between them may be many and are not stored.
 Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
                      const SceneCut& cut, const RunContext& context) {
   Contacts contacts(&context.memory);

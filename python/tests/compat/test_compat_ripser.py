@@ -240,7 +240,7 @@ def test_run_options():
     assert same(ripser(SQUARE, threads=2)["dgms"], ripser(SQUARE)["dgms"])
 
 
-# ---- the rest of the module
+# ---- other functions of the module
 
 
 def test_the_class(capsys):

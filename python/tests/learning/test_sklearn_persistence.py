@@ -116,7 +116,7 @@ def test_bars_that_never_die(clouds):
     assert RipsPersistence(infinity=9.0).fit_transform(clouds)[0][0][-1].tolist() == [0, 9]
     with pytest.raises(ph.UsageError, match="H0: row 11: found a bar that never dies"):
         RipsPersistence(infinity="error").fit_transform(clouds)
-    # Of two components, the eldest is left out.
+    # The eldest of the two components is left out.
     image = [[0.0, np.inf, 1.0]]
     assert CubicalPersistence(homology_dimensions=0, reduced=True).fit_transform(image)[0].tolist() \
         == [[1, np.inf]]

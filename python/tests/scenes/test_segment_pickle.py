@@ -184,7 +184,7 @@ def test_another_version_is_refused(table):
     (lambda s: s.update(tree=s["tree"].astype(np.int32)), "damaged members"),
     (lambda s: s.update(tree=np.stack([s["tree"], s["tree"]])), "damaged members"),
     (lambda s: s.update(tree=s["tree"][::2]), "damaged members"),
-    (lambda s: s.update(tree=s["tree"][:0]), "no stored tree"),
+    (lambda s: s.update(tree=s["tree"][:0]), "not a stored tree"),
     (lambda s: s.update(tree=s["tree"][:-1]), "truncated"),
     (lambda s: s.update(tree=np.append(s["tree"], s["tree"][:1])), "trailing data"),
     (lambda s: s.update(cloud=3), "damaged members"),

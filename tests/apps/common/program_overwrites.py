@@ -128,7 +128,7 @@ class Overwrites(unittest.TestCase):
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
-        # In a folder that does not exist yet.
+        # The folder does not exist yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
                           ["-o", "new/*.svg", "--output-format", "csv", "--plot",

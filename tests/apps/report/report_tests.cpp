@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a report is written: its encodings, its metadata, its page. What programs make of it:
+// How a report is written: its encodings, its metadata, its page. Reports of programs are tested in
 // barcode_report.py, barcode_report_data.py, segment_report.py.
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 namespace ph::report {
 namespace {
 
-/// What `write(const Sink&)` writes.
+/// The text that `write(const Sink&)` writes.
 template <class Write>
 std::string written(Write&& write) {
   std::string text;

@@ -124,7 +124,7 @@ class Results(ProgramTest):
                          ["a.csv"], [entropy / math.log(2)])
 
     def test_atol(self):
-        # As many centres as bars: the centres are the bars.
+        # If there are as many centres as bars, the centres are the bars.
         points = sorted({*finite(A, 1), *finite(B, 1)})
         for contrast, decay in (("laplace", lambda d, w: math.exp(-d / w)),
                                 ("gauss", lambda d, w: math.exp(-(d / w)**2))):

@@ -115,7 +115,7 @@ TEST(AlphaAdverse, SquaresThatNoDoubleHolds) {
   EXPECT_NO_THROW(Alpha(times(uniform_points(20, 3, 2), 1e150), options));
 }
 
-// Of a flat triangle, in units of the largest coordinate.
+// The radii of a flat triangle, in units of the largest coordinate.
 TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   for (const bool weighted : {false, true}) {
     AlphaOptions options{.unit = AlphaOptions::Unit::squared};

@@ -32,7 +32,7 @@ struct ExactSphere {
   Rational squared_radius;
 };
 
-/// Nothing if the points are affinely dependent.
+/// Returns nothing if the points are affinely dependent.
 inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>& points,
                                                const std::vector<Rational>& weights) {
   const std::size_t m = points.size() - 1;
@@ -119,7 +119,7 @@ class AlphaOracle {
     return result;
   }
 
-  /// Of positive length, over Z/p: the textbook's reduction.
+  /// Bars of positive length over Z/p, by the textbook's reduction.
   std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, unsigned>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);

@@ -65,7 +65,7 @@ class PeriodicOracle {
 
   const std::map<Simplex, Rational>& values() const { return values_; }
 
-  /// Of positive length, over Z/p: the textbook's reduction.
+  /// Bars of positive length over Z/p, by the textbook's reduction.
   std::vector<AlphaOracle::OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, Simplex>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);

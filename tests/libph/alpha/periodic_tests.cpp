@@ -30,7 +30,7 @@ struct PeriodicCloud {
   }
 };
 
-/// A few points, inside and outside a box with some periodic axes: anywhere; on a grid, with copies
+/// A few points inside and outside a box with some periodic axes: anywhere; on a grid, with copies
 /// and on its border; in layers; on a grid that doubles cannot represent.
 PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool weighted) {
   PeriodicCloud cloud{"", Points(random.integer(1, static_cast<int>(most)), dim), {}, {}};

@@ -100,7 +100,7 @@ TEST(MemoryBudgets, HoldForImages) {
 constexpr Engine kListCells[] = {Engine::standard, Engine::twist, Engine::cohomology,
                                  Engine::union_find};
 
-/// How many voxels ever enter.
+/// The number of voxels that ever enter.
 std::size_t entering(const Image& image) {
   return static_cast<std::size_t>(std::count_if(image.values.begin(), image.values.end(),
                                                 [](double v) { return v < kInfinity; }));

@@ -119,7 +119,7 @@ TEST(PartForecast, LayersWithMuchInThemAreShared) {
   }
 }
 
-// Layers of few rows, and long ones: of these, too, some voxels are looked at.
+// Layers with few rows, and layers with long rows: some voxels of these are also examined.
 TEST(PartForecast, LongRowsAreSeen) {
   Generator random(3);
   for (const std::vector<Index>& extents :

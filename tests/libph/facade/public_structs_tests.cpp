@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a user of the library fills in himself is looked at like a file: each struct and constructor
-// says what it found, whatever it is given. To be run with sanitizers, too.
+// Structs that callers fill in are checked like files: each struct and constructor reports what it
+// found, whatever it is given. These tests should also run with sanitizers.
 #include <gtest/gtest.h>
 
 #include <climits>

@@ -492,7 +492,7 @@ TEST(RipsEstimates, OfGraphsThatWereGiven) {
   EXPECT_EQ(estimate(used).cells, expected.cells);
 }
 
-// Few edges of many points: they are made and counted.
+// If many points have few edges, the edges are made and counted.
 TEST(RipsEstimates, OfFewEdgesAreExact) {
   Points copies(4'000, 2);
   for (Index i = 0; i < copies.rows(); ++i) {

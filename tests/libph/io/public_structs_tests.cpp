@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a user of the library fills in himself is looked at like a file: clouds and pictures. To be
-// run with sanitizers, too.
+// Clouds and pictures that callers fill in are checked like files. These tests should also be run
+// with sanitizers.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -230,7 +230,7 @@ TEST(ReadPhat, TakesValues) {
   const std::vector<double> expected{0, 0, 1.5};
   EXPECT_EQ(read_phat(matrix, text).matrix.values, expected);
   EXPECT_EQ(read_phat(matrix, raw).matrix.values, expected);
-  // Doubles whose bytes text may have, too, but that are no UTF-8.
+  // Doubles whose bytes could also occur in text, but are not valid UTF-8.
   EXPECT_EQ(read_values(Input::view("\xda\x29\xc1\xd3\xbc\x3b\xd3\x3f", "v"), 1).size(), 1U);
   bad_data([] { read_values(Input::view("1.5 abc\n", "v"), 1); });
   const ReadResult any = read_any(matrix, Format::automatic, {}, raw);

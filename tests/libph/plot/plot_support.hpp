@@ -11,7 +11,7 @@ namespace ph::test {
 
 inline constexpr std::array kPlotKinds{PlotKind::barcode, PlotKind::diagram, PlotKind::betti};
 
-/// Of bars with any cells.
+/// A barcode of these bars, with arbitrary cells.
 inline Barcode barcode_of(const std::vector<Bar>& bars) {
   Barcode barcode;
   const std::array<Index, 1> cell{0};

@@ -290,7 +290,7 @@ TEST(TreePlot, ManyClassesStaySmall) {
   for (const bool ties : {false, true}) {
     std::vector<Branch> tree{{0, kInfinity, -1}};
     for (Index i = 1; i < 100'000; ++i) {
-      // Joins an elder branch that survives.
+      // The branch joins an elder one that survives.
       const Index elder = static_cast<Index>(random()) % i;
       const double death = std::min(1.0, tree[static_cast<std::size_t>(elder)].death);
       tree.push_back({0, ties ? 1 : death * number(random), elder});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points alone against all edges: the same pairs, cell by cell, whatever the ties.
+// Edges found from points alone give the same pairs as all edges, cell by cell, whatever the ties.
 #include <cmath>
 #include <numbers>
 #include <stop_token>

@@ -65,7 +65,7 @@ TEST(ConfidenceRadius, IsTheQuantileOverAllSubsets) {
       for (const double alpha : {0.05, 0.3, 0.9}) {
         const double found =
             confidence_radius(points, {.alpha = alpha, .subsamples = 20000, .size = size});
-        // What the quantile is within the error of 20 000 draws.
+        // The quantile must be right within the error of 20 000 draws.
         const auto at = [&](double share) {
           const double place = share * static_cast<double>(all.size());
           return 2 * all[static_cast<std::size_t>(

@@ -42,7 +42,7 @@ struct Table {
     return {static_cast<int>(std::floor(xyz[k] / kSide)),
             static_cast<int>(std::floor(xyz[k + 1] / kSide))};
   }
-  /// How many points were taken, by square.
+  /// The number of points taken from each square.
   std::map<Square, int> squares() const {
     std::map<Square, int> counts;
     for (const Index i : free()) ++counts[square_of(i)];

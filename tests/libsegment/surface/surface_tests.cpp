@@ -56,7 +56,7 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   EXPECT_GT(s.segments[1].persistence, 10);
   EXPECT_LE(s.segments[1].persistence, s.segments[1].meets_at);
   EXPECT_EQ(s.difference, "");
-  // By distance alone they are one.
+  // By distance alone they are one segment.
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).segments.size(), 1U);
 }
 
@@ -235,7 +235,7 @@ TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
 }
 
 TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
-  // As of a sensor by disparity: a deviation of 1.4 mm at one metre.
+  // Noise like that of a disparity sensor: a deviation of 1.4 mm at one metre.
   TableScene scene = TableScene::two_boxes();
   std::vector<float> xyz = scene.xyz();
   std::mt19937 random(5);

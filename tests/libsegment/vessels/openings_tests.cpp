@@ -92,7 +92,7 @@ TEST(Openings, EachVesselHasItsOwn) {
     voxels.insert(found.to[k]);
   }
   EXPECT_EQ(voxels.size(), 2U);
-  // As one object they have no rim that is round.
+  // Taken as one object, they have no round rim.
   EXPECT_TRUE(find(scene).points.empty());
 }
 

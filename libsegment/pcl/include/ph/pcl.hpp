@@ -152,7 +152,7 @@ template <class PointT>
       cloud, labels, [&](std::size_t i, ::pcl::PointXYZL& p) { p.label = labels[i]; });
 }
 
-/// The points in the colours of their segments, the rest in grey.
+/// The points in the colours of their segments; points without a segment are grey.
 template <class PointT>
 ::pcl::PointCloud<::pcl::PointXYZRGB> coloured_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                                      const segment::SceneCut& cut) {

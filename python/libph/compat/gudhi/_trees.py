@@ -140,7 +140,7 @@ class FlagTree(Persistence):
         return weights
 
     def _values(self, u: NDArray[np.int64], v: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Of edges."""
+        """The values of edges."""
         data = np.asarray(self._data, dtype=np.float64)
         if self._options["metric"] == "precomputed":
             distances = data[v, u]

@@ -109,7 +109,7 @@ class Completion:
         self.check(shell, "ph-barcode x --plot pa", ["of.svg"])
 
     def hidden(self, files):
-        """Fish shows files with another ending, too, below."""
+        """Fish also shows files with another ending, below the others."""
         return [] if self.shell == "fish" else files
 
     def test_the_first_word(self):

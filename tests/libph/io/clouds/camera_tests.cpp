@@ -10,7 +10,7 @@
 namespace ph::test {
 namespace {
 
-/// As camera_calibration of ROS writes it.
+/// A calibration as written by camera_calibration of ROS.
 std::string ros_file(const std::string& model, const std::string& coefficients) {
   return "image_width: 640\nimage_height: 480\ncamera_name: narrow_stereo\n"
          "camera_matrix:\n  rows: 3\n  cols: 3\n"
@@ -20,7 +20,7 @@ std::string ros_file(const std::string& model, const std::string& coefficients) 
          "]\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n";
 }
 
-/// As `ros2 topic echo` prints it.
+/// A calibration as printed by `ros2 topic echo`.
 const std::string kTopic =
     "header:\n  stamp:\n    sec: 1\n    nanosec: 5\n  frame_id: camera\nheight: 480\nwidth: 640\n"
     "distortion_model: plumb_bob\nd:\n- 0.0\n- 0.0\n- 0.0\n- 0.0\n- 0.0\nk:\n- 520.5\n- 0.0\n"
@@ -249,7 +249,8 @@ TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
   for (const auto& [name, camera, images] : camera_presets()) {
     const Intrinsics& k = camera.intrinsics;
     EXPECT_FALSE(images.empty()) << name;
-    // Kinect v1 and Xtion: the colour camera, to which depth is registered, of 525 pixels.
+    // Kinect v1 and Xtion: the focal length of the colour camera, 525 pixels; depth is registered
+    // to it.
     const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
     EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;
     EXPECT_NEAR(degrees(camera.height, k.fy), realsense ? 42.5 : second ? 60 : 49.1, 0.3) << name;
