@@ -11,10 +11,10 @@ int main(int argc, char** argv) {
   }
   const auto cloud = ph::segment::read_cloud(argv[1]);
   const auto parts = ph::segment::segment(cloud, {.voxel = 0.01});  // metres
-  for (const auto& segment : parts.segments) {
+  for (const auto& segment : parts.cut.segments) {
     std::cout << "segment " << segment.label << ": " << segment.points << " points, "
               << segment.voxels << " voxels around (" << segment.centroid[0] << ", "
               << segment.centroid[1] << ", " << segment.centroid[2] << ")\n";
   }
-  ph::segment::write_cloud(argv[2], cloud, parts.labels);
+  ph::segment::write_cloud(argv[2], cloud, parts.cut.labels);
 }

@@ -34,8 +34,8 @@ std::vector<float> ring_and_ball() {
 int main(int argc, char** argv) {
   const auto scene = argc > 1 ? ph::segment::segment(ph::segment::read_cloud(argv[1]))
                               : ph::segment::segment({ring_and_ball(), {}}, {.plane = false});
-  for (const auto& segment : scene.segments) {
-    const auto shape = ph::segment::signature(scene, scene, std::span(&segment.label, 1));
+  for (const auto& segment : scene.cut.segments) {
+    const auto shape = ph::segment::signature(scene.tree, scene.cut, std::span(&segment.label, 1));
     std::cout << "segment " << segment.label << ":";
     for (const auto& loop : shape.bars(1))
       if (loop.death - loop.birth > 0.01)  // metres

@@ -78,22 +78,22 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
 
 /// Another cut of the stored tree.
 void cut_again(Segmentation& s, const CutOptions& options, const RunContext& context) {
-  static_cast<SceneCut&>(s) = cut(s, options, context);
-  s.first_cut = options;
+  s.cut = cut(s.tree, options, context);
+  s.tree.first_cut = options;
 }
 
 Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
                          const RunContext& context) {
   Segmentation s;
-  static_cast<SceneTree&>(s) = read_tree(input);
+  s.tree = read_tree(input);
   require_input(arguments.given, kStoredTree);
-  require_method(arguments.given, s.method);
-  if (!s.plane) s.plane_note = "the tree was made without one";
-  s.barcode = barcode_of(s.tree);
+  require_method(arguments.given, s.tree.method);
+  if (!s.tree.plane) s.plane_note = "the tree was made without one";
+  s.barcode = barcode_of(s.tree.merge_tree);
   const auto start = std::chrono::steady_clock::now();
-  cut_again(s, arguments.cut.over(s.first_cut), context);
+  cut_again(s, arguments.cut.over(s.tree.first_cut), context);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  s.stages.push_back({"cut", s.vertices.rows(), seconds.count()});
+  s.stages.push_back({"cut", s.tree.vertices.rows(), seconds.count()});
   return s;
 }
 
@@ -135,7 +135,7 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
     s = cut_of_tree(*input, arguments, context);
     stop_reading();
     result.read_seconds -= s.stages.front().seconds;
-    outputs.require_suitable(s.height);
+    outputs.require_suitable(s.tree.height);
     return result;
   }
   input.reset();
@@ -146,21 +146,21 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
   SegmentOptions options = arguments.options;
   options.plane_guess = plane_guess;
   s = segment_within_limits(*result.cloud, options, context);
-  const CutOptions asked = arguments.cut.over(s.first_cut);
-  if (asked != s.first_cut) cut_again(s, asked, context);
+  const CutOptions asked = arguments.cut.over(s.tree.first_cut);
+  if (asked != s.tree.first_cut) cut_again(s, asked, context);
   return result;
 }
 
 /// The signature of each segment. If memory does not suffice for one, it stays empty, with a note:
 /// the other results are not lost.
 std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Session& session) {
-  std::vector<std::optional<Barcode>> signatures(s.segments.size());
-  for (const Segment& g : s.segments) {
+  std::vector<std::optional<Barcode>> signatures(s.cut.segments.size());
+  for (const Segment& g : s.cut.segments) {
     const auto note = [&](std::string_view why) {
       session.note(fmt::format("segment {}: no signature: {}", g.label, why));
     };
     try {
-      signatures[g.label - 1] = signature(s, s, std::span(&g.label, 1), session.context());
+      signatures[g.label - 1] = signature(s.tree, s.cut, std::span(&g.label, 1), session.context());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::resource) throw;
       note(error.marked());
@@ -178,14 +178,14 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
         fmt::format("{:12} {:8} points {:9.3f} ms", stage.name, stage.points, 1e3 * stage.seconds));
   }
   const SegmentOptions& options = arguments.options;
-  if (s.method == options.method && !options.voxel && s.voxel > options.voxel_size()) {
+  if (s.tree.method == options.method && !options.voxel && s.tree.voxel > options.voxel_size()) {
     session.explain(
-        fmt::format("voxels of {:.4g} m instead of {} m: most points are too far apart "
-                    "to touch in smaller voxels",
-                    s.voxel, options.voxel_size()));
+        fmt::format("voxels of {:.4g} m in place of {} m: most points are too far apart "
+                    "to touch in smaller ones",
+                    s.tree.voxel, options.voxel_size()));
   }
-  if (!s.plane) return;
-  const auto& [normal, offset, share] = *s.plane;
+  if (!s.tree.plane) return;
+  const auto& [normal, offset, share] = *s.tree.plane;
   session.explain(fmt::format(
       "plane {:.4f} x + {:.4f} y + {:.4f} z + {:.4f} = 0, {:.1f} % of the points in range",
       normal[0], normal[1], normal[2], offset, 100 * share));
@@ -219,14 +219,14 @@ std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
 
 /// The view for the next frame; warns if the camera moved since the last one.
 void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
-  if (!s.plane) return;
-  if (const auto motion = camera_motion(remembered.last, s))
+  if (!s.tree.plane) return;
+  if (const auto motion = camera_motion(remembered.last, s.tree))
     warned.push_back(
         fmt::format("the camera moved: since the last frame the plane turned by {:.1f} degrees and "
                     "its distance changed by {:.1f} mm",
                     motion->turn, 1e3 * motion->shift));
-  remembered.last.plane = s.plane;
-  remembered.last.viewpoint = s.viewpoint;
+  remembered.last.plane = s.tree.plane;
+  remembered.last.viewpoint = s.tree.viewpoint;
 }
 
 Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
@@ -256,8 +256,8 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
                .sha256 = result.sha256,
                .warnings = std::move(warned)};
   if (remembered) {
-    info.numbers = remembered->tracker.update(s, s);
-    for (Segment& segment : s.segments) {
+    info.numbers = remembered->tracker.update(s.tree, s.cut);
+    for (Segment& segment : s.cut.segments) {
       const Standing& standing = remembered->tracker.standings()[segment.label - 1];
       segment.role = standing.role;
       segment.on = standing.on;

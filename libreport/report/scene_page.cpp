@@ -87,22 +87,22 @@ std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& point
 
 void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
                 const ShownPoints& points, std::span<const std::uint32_t> leaves) {
-  add_positions(report, std::span<const float>(points.xyz), 3, s.voxel / kStepsAVoxel);
-  if (points.index.size() != s.cloud_size())
+  add_positions(report, std::span<const float>(points.xyz), 3, s.tree.voxel / kStepsAVoxel);
+  if (points.index.size() != s.tree.cloud_size())
     report.add("points/index", points.index, {.delta = true});
   add_labels(report, "points/leaf", leaves, true);
-  if (cloud && s.removed > 0) {
+  if (cloud && s.tree.removed > 0) {
     std::vector<std::uint8_t> surfaces;
-    for (const std::uint32_t i : points.index) surfaces.push_back(s.removed_with[i]);
+    for (const std::uint32_t i : points.index) surfaces.push_back(s.tree.removed_with[i]);
     report.add("points/surface", surfaces, {.delta = true});
   }
-  if (s.normals.rows() > 0) {
+  if (s.tree.normals.rows() > 0) {
     std::vector<std::int8_t> normals;
     for (const std::uint32_t v : points.vertex) {
       const double none = std::nan("");
-      const auto stored = v == kNone
-                              ? octahedral(none, none, none)
-                              : octahedral(s.normals(v, 0), s.normals(v, 1), s.normals(v, 2));
+      const auto stored =
+          v == kNone ? octahedral(none, none, none)
+                     : octahedral(s.tree.normals(v, 0), s.tree.normals(v, 1), s.tree.normals(v, 2));
       normals.insert(normals.end(), stored.begin(), stored.end());
     }
     report.add("points/normal", normals, {.shape = {points.index.size(), 2}, .delta = true});
@@ -122,10 +122,10 @@ void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
 /// The bars of positive length, in the order of the barcode file. Their cells are points, one of
 /// each voxel, because the page shows no voxels.
 Barcode bars_of(const Segmentation& s) {
-  std::vector<Index> point(s.cells.size(), -1);
-  for (std::size_t k = 0; k < s.points.size(); ++k) {
-    Index& first = point[s.vertex_of_point[k]];
-    if (first < 0) first = s.points[k];
+  std::vector<Index> point(s.tree.cells.size(), -1);
+  for (std::size_t k = 0; k < s.tree.points.size(); ++k) {
+    Index& first = point[s.tree.vertex_of_point[k]];
+    if (first < 0) first = s.tree.points[k];
   }
   Barcode bars(CellKind::vertices);
   for (std::size_t i = 0; i < s.barcode.size(); ++i) {
@@ -156,49 +156,50 @@ void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree&
   std::vector<std::uint32_t> labels(leaves);
   std::vector<std::uint8_t> surfaces(leaves);
   const auto is_leaf = [&](std::uint32_t leaf) { return leaf != kNone; };
-  for (std::size_t v = 0; v < s.vertex_labels.size(); ++v)
-    if (is_leaf(contracted.leaf_of[v])) labels[contracted.leaf_of[v]] = s.vertex_labels[v];
-  for (std::size_t k = 0; k < s.points.size(); ++k)
-    if (const auto leaf = contracted.leaf_of[s.vertex_of_point[k]]; is_leaf(leaf))
-      surfaces[leaf] = s.surface_labels[static_cast<std::size_t>(s.points[k])];
+  for (std::size_t v = 0; v < s.cut.vertex_labels.size(); ++v)
+    if (is_leaf(contracted.leaf_of[v])) labels[contracted.leaf_of[v]] = s.cut.vertex_labels[v];
+  for (std::size_t k = 0; k < s.tree.points.size(); ++k)
+    if (const auto leaf = contracted.leaf_of[s.tree.vertex_of_point[k]]; is_leaf(leaf))
+      surfaces[leaf] = s.cut.surface_labels[static_cast<std::size_t>(s.tree.points[k])];
   report.add("tree/leaf_label", labels, {.delta = true});
   report.add("tree/leaf_surface", surfaces);
-  const std::size_t found = s.surfaces.size() - static_cast<std::size_t>(s.removed);
+  const std::size_t found = s.tree.surfaces.size() - static_cast<std::size_t>(s.tree.removed);
   if (found == 0) return;
-  report.add("tree/leaf_on", segment::voxels_on_surfaces(s, contracted.leaf_of, leaves),
+  report.add("tree/leaf_on", segment::voxels_on_surfaces(s.tree, contracted.leaf_of, leaves),
              {.shape = {leaves, found}});
 }
 
 SceneMeta scene_meta(const ScenePage& page) {
   const Segmentation& s = page.segmentation;
-  const std::vector<std::uint32_t> colours = segment::shown_colours(page.cloud, s, page.numbers);
+  const std::vector<std::uint32_t> colours =
+      segment::shown_colours(page.cloud, s.cut, page.numbers);
   const auto number_of = [&](std::uint32_t label) {
     return label == 0 || page.numbers.empty() ? label : page.numbers[label - 1];
   };
   SceneMeta meta;
-  for (const segment::Segment& g : s.segments)
+  for (const segment::Segment& g : s.cut.segments)
     meta.segments.push_back({number_of(g.label), colours[g.label - 1], g.persistence,
                              segment::role_name(g.role), g.on.surface, number_of(g.on.segment)});
-  for (const segment::SceneSurface& surface : s.surfaces)
+  for (const segment::SceneSurface& surface : s.tree.surfaces)
     meta.surface_roles.push_back(segment::role_name(surface.role));
-  meta.removed = s.removed;
+  meta.removed = s.tree.removed;
   meta.flat = segment::kLeastShareOnSurface;
-  if (s.method != Method::surface) return meta;
-  meta.min_seam = s.first_cut.min_seam;
-  meta.objects = s.first_cut.objects;
+  if (s.tree.method != Method::surface) return meta;
+  meta.min_seam = s.tree.first_cut.min_seam;
+  meta.objects = s.tree.first_cut.objects;
   return meta;
 }
 
 TreeMeta tree_meta(const Segmentation& s, const ScenePage& page) {
   TreeMeta meta;
-  const bool paper = s.method == Method::paper;
+  const bool paper = s.tree.method == Method::paper;
   meta.rule = paper ? CutRule::value : CutRule::persistence;
   meta.label = paper ? "distance" : "least persistence";
-  if (s.method != Method::surface) meta.unit = "m";
-  meta.cut = s.first_cut.value;
-  if (paper) meta.to = s.distance;
-  meta.min_size = s.first_cut.min_size;
-  meta.what = s.method == Method::supervoxels ? "supervoxel" : "segment";
+  if (s.tree.method != Method::surface) meta.unit = "m";
+  meta.cut = s.tree.first_cut.value;
+  if (paper) meta.to = s.tree.distance;
+  meta.min_size = s.tree.first_cut.min_size;
+  meta.what = s.tree.method == Method::supervoxels ? "supervoxel" : "segment";
   meta.command = page.cut_command;
   return meta;
 }
@@ -206,29 +207,32 @@ TreeMeta tree_meta(const Segmentation& s, const ScenePage& page) {
 Metadata metadata_of(const ScenePage& page) {
   const Segmentation& s = page.segmentation;
   Metadata meta;
-  const bool surface = s.method == Method::surface;
+  const bool surface = s.tree.method == Method::surface;
   meta.title = page.title;
   meta.value_label = std::string_view(surface ? "Concavity" : "Distance");
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
-  CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
-  // Cameras have y downwards; other clouds have z upwards.
-  if (s.height > 1)
+  CloudMeta cloud{.unit = "m", .viewpoint = s.tree.viewpoint};
+  // A camera sees y downwards; what else there may be has z upwards.
+  if (s.tree.height > 1)
     cloud.up = {0, -1, 0};
-  else if (s.plane)
-    cloud.up = s.plane->normal;
+  else if (s.tree.plane)
+    cloud.up = s.tree.plane->normal;
   meta.cloud = cloud;
   meta.tree = tree_meta(s, page);
   meta.scene = scene_meta(page);
   Provenance& p = meta.provenance = page.provenance;
   p.run.input_description =
-      s.height > 1 ? fmt::format("{} points, {} x {}", s.cloud_size(), s.width, s.height)
-                   : fmt::format("{} points", s.cloud_size());
-  p.notes.emplace_back("Method", segment::kMethodNames[static_cast<std::size_t>(s.method)]);
-  p.notes.emplace_back("Voxels", fmt::format("{} of {} m", s.vertices.rows(), shortest(s.voxel)));
-  p.notes.emplace_back("Plane", s.plane ? fmt::format("removed, {:.1f} % of the points in range",
-                                                      100 * s.plane->share)
-                                        : s.plane_note);
+      s.tree.height > 1
+          ? fmt::format("{} points, {} x {}", s.tree.cloud_size(), s.tree.width, s.tree.height)
+          : fmt::format("{} points", s.tree.cloud_size());
+  p.notes.emplace_back("Method", segment::kMethodNames[static_cast<std::size_t>(s.tree.method)]);
+  p.notes.emplace_back("Voxels",
+                       fmt::format("{} of {} m", s.tree.vertices.rows(), shortest(s.tree.voxel)));
+  p.notes.emplace_back("Plane", s.tree.plane
+                                    ? fmt::format("removed, {:.1f} % of the points in range",
+                                                  100 * s.tree.plane->share)
+                                    : s.plane_note);
   p.notes.emplace_back("Cross-check", !s.checked             ? "skipped"
                                       : s.difference.empty() ? "equal to boundary-matrix reduction"
                                                              : s.difference);
@@ -240,28 +244,30 @@ Metadata metadata_of(const ScenePage& page) {
 void write_page(const Sink& sink, const ScenePage& page, const RunContext& context) {
   const Segmentation& s = page.segmentation;
   const Cloud* cloud = page.cloud;
-  const ShownPoints points = shown_points(cloud, s);
+  const ShownPoints points = shown_points(cloud, s.tree);
   const MemoryClaim claim(context.memory,
                           points.index.size() * (2 * sizeof(std::uint32_t) + 3 * sizeof(float)));
-  std::vector<std::uint32_t> points_of_vertex(s.cells.size());
-  for (const std::uint32_t v : s.vertex_of_point) ++points_of_vertex[v];
+  std::vector<std::uint32_t> points_of_vertex(s.tree.cells.size());
+  for (const std::uint32_t v : s.tree.vertex_of_point) ++points_of_vertex[v];
 
   const Metadata meta = metadata_of(page);
   const CutRule rule = meta.tree->rule;
-  const Index min_part = s.method == Method::paper ? 1 : s.first_cut.min_part;
-  const auto kept = contracted(s.tree, rule, meta.tree->from, min_part, points_of_vertex, context);
+  const Index min_part = s.tree.method == Method::paper ? 1 : s.tree.first_cut.min_part;
+  const auto kept =
+      contracted(s.tree.merge_tree, rule, meta.tree->from, min_part, points_of_vertex, context);
   const Barcode bars = bars_of(s);
   ReportFile report(sink, meta, context);
   add_pictures(report, std::span(&bars, 1), meta);
   add_bars(report, bars);
-  add_tree(report, s.tree, kept, linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
+  add_tree(report, s.tree.merge_tree, kept,
+           linked_bars(s.tree.merge_tree, bars, birth_vertices(s.barcode)), rule);
   add_answer(report, s, kept);
   std::vector<std::uint32_t> leaves;
   leaves.reserve(points.vertex.size());
   for (const std::uint32_t v : points.vertex)
     leaves.push_back(v == kNone ? kNone : kept.leaf_of[v]);
-  if (s.height > 1) {
-    const auto touching = touching_in_picture(points.index, leaves, s.width);
+  if (s.tree.height > 1) {
+    const auto touching = touching_in_picture(points.index, leaves, s.tree.width);
     report.add("tree/touching", touching, {.shape = {touching.size() / 2, 2}, .delta = true});
   }
   add_points(report, cloud, s, points, leaves);

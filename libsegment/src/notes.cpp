@@ -31,8 +31,8 @@ std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& v
 /// For results without segments: a hint that the lengths may not be metres.
 std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
                         const Segmentation& s) {
-  constexpr double room = 50, crumb = 0.02;  // metres: no table top is so far away, or so small
-  const auto found = distances(cloud, s.viewpoint);
+  constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
+  const auto found = distances(cloud, s.tree.viewpoint);
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
   const auto [nearest, farthest] = *found;
@@ -60,10 +60,10 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
   };
-  // If segments were found, their boxes tell without another pass over all points.
-  for (const Segment& segment : s.segments)
+  // Where something was found its boxes tell, without another look at all points.
+  for (const Segment& segment : s.cut.segments)
     for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
-  if (s.segments.empty()) std::ranges::for_each(cloud.xyz(), take);
+  if (s.cut.segments.empty()) std::ranges::for_each(cloud.xyz(), take);
   const double step = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
   if (step <= much * o.voxel_size()) return {};
   return fmt::format(
@@ -94,10 +94,10 @@ std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
 
 /// Warns of a plane that no sensor at the viewpoint could see like this.
 std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
-  if (!s.plane) return {};
+  if (!s.tree.plane) return {};
   constexpr double too_low = 0.03;  // metres
-  const auto& [x, y, z] = s.viewpoint;
-  if (s.plane->signed_distance(x, y, z) < too_low) {
+  const auto& [x, y, z] = s.tree.viewpoint;
+  if (s.tree.plane->signed_distance(x, y, z) < too_low) {
     return fmt::format(
         "the viewpoint {} lies on the plane that was found: are the points in "
         "another frame? see {}",
@@ -121,7 +121,7 @@ std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
     const auto shown = [](double x) { return std::abs(x) < half ? 0.0 : x; };  // no -0.000
     return fmt::format("{:.3f},{:.3f},{:.3f}", shown(p[0]), shown(p[1]), shown(p[2]));
   };
-  if (!s.rays_meet_at) return about_plane(s, text(s.viewpoint));
+  if (!s.rays_meet_at) return about_plane(s, text(s.tree.viewpoint));
   if (o.viewpoint) {
     return fmt::format("{}: found {}, but the rays of the pixels meet at {}",
                        mark(Setting::viewpoint), text(*o.viewpoint), text(*s.rays_meet_at));
@@ -141,9 +141,9 @@ std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
   if (cloud && depth) texts.emplace_back(about_camera(*depth, *cloud));
   if (cloud) texts.emplace_back(about_precision(options, *cloud, s));
   if (cloud) texts.emplace_back(about_viewpoint(options, s));
-  if (cloud && s.segments.empty() && cloud->size() > 0)
+  if (cloud && s.cut.segments.empty() && cloud->size() > 0)
     texts.emplace_back(about_units(options, depth != nullptr, *cloud, s));
-  if (cloud && options.plane && !s.plane && s.stages.front().points > 0)
+  if (cloud && options.plane && !s.tree.plane && s.stages.front().points > 0)
     texts.emplace_back(s.plane_note + "; nothing removed");
   std::erase_if(texts, [](const Message& text) { return text.empty(); });
   return texts;

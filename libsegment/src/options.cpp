@@ -98,7 +98,7 @@ void validate(const SceneTree& scene) {
   expect("numbers of normals", static_cast<std::size_t>(scene.normals.size()),
          is_paper ? 0 : 3 * vertices);
   expect("counts", scene.counts.size(), vertices);
-  expect("births", scene.tree.births.size(), vertices);
+  expect("births", scene.merge_tree.births.size(), vertices);
   expect("vertices of points", scene.vertex_of_point.size(), points);
   expect("coordinates", scene.xyz.size(), 3 * points);
   if (scene.surfaces.size() > kMostSurfaces || scene.removed < 0 ||
@@ -120,7 +120,7 @@ void validate(const SceneTree& scene) {
   }
   for (const std::uint32_t v : scene.vertex_of_point)
     if (v >= vertices) fail("vertex of a point", v, fmt::format("one below {}", vertices));
-  for (const Merge& m : scene.tree.merges)
+  for (const Merge& m : scene.merge_tree.merges)
     for (const Index v : {m.u, m.v, m.elder, m.younger})
       if (v < 0 || std::cmp_greater_equal(v, vertices))
         fail("vertex of a merge", v, fmt::format("one of {}", vertices));

@@ -56,8 +56,8 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
   std::vector<Index> both;
   std::ranges::merge(scene.points.beyond, below.beyond, std::back_inserter(both));
   scene.points.beyond = std::move(both);
-  mark(below.on, 2, result.removed_with);
-  result.surfaces.push_back({Role::support, scene.lower->plane});
+  mark(below.on, 2, result.tree.removed_with);
+  result.tree.surfaces.push_back({Role::support, scene.lower->plane});
 }
 
 /// The points in range that lie above the supporting plane; the plane also goes into the result.
@@ -85,15 +85,15 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
       search = find_plane(cloud, in_range, noise, options.plane_guess);
     scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
   }
-  result.plane = scene.plane = search.plane;
+  result.tree.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-    mark(scene.points.on, 1, result.removed_with);
-    result.surfaces.push_back({Role::support, *scene.plane});
+    mark(scene.points.on, 1, result.tree.removed_with);
+    result.tree.surfaces.push_back({Role::support, *scene.plane});
     if (options.method == Method::surface) clear_lower_support(in_range, scene, result);
-    result.removed = std::ssize(result.surfaces);
+    result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);
   } else
     scene.points.beyond = std::move(in_range);
@@ -158,7 +158,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   cloud.viewpoint = options.viewpoint.value_or(input.viewpoint);
   const MemoryClaim of_points(context.memory, bytes_for_points(cloud));
   Segmentation result;
-  result.removed_with.resize(cloud.size());
+  result.tree.removed_with.resize(cloud.size());
   StageClock clock(context, result.stages);
   result.rays_meet_at = centre_elsewhere(cloud);
   if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
@@ -167,29 +167,29 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
                                    ? rips_filtration(scene, options, context, clock)
                                    : surface_filtration(scene, options, context, clock);
 
-  result.noise = filtration.noise;
+  result.tree.noise = filtration.noise;
   const MemoryClaim of_voxels(context.memory, bytes_for_voxels(filtration.grid));
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
-  result.tree = merge_tree(filtration.graph, context);
-  result.barcode = barcode_of(result.tree);
+  result.tree.merge_tree = merge_tree(filtration.graph, context);
+  result.barcode = barcode_of(result.tree.merge_tree);
   clock.finish("persistence", filtration.graph.size());
 
-  keep_scene(cloud, filtration, options, result);
-  const std::vector<Index> component_of =
-      components_of(result, filtration.grid, filtration.surface, result.first_cut, context);
+  keep_scene(cloud, filtration, options, result.tree);
+  const std::vector<Index> component_of = components_of(
+      result.tree, filtration.grid, filtration.surface, result.tree.first_cut, context);
   if (options.method == Method::surface && scene.plane)
     assign_points_in_openings(cloud, scene.in_range, *scene.plane, filtration.voxel, component_of,
-                              result.first_cut.min_size, filtration.points, filtration.grid);
-  keep_points(cloud, filtration, result);
+                              result.tree.first_cut.min_size, filtration.points, filtration.grid);
+  keep_points(cloud, filtration, result.tree);
   if (options.method == Method::surface && scene.plane)
     std::ranges::copy(
-        find_bounds(cloud, *scene.plane, result, component_of, result.first_cut.min_size),
-        std::back_inserter(result.surfaces));
-  static_cast<SceneCut&>(result) =
-      cut_into(result, component_of, filtration.surface, result.first_cut, context);
+        find_bounds(cloud, *scene.plane, result.tree, component_of, result.tree.first_cut.min_size),
+        std::back_inserter(result.tree.surfaces));
+  result.cut =
+      cut_into(result.tree, component_of, filtration.surface, result.tree.first_cut, context);
   Index in_segments = 0;
-  for (const Segment& s : result.segments) in_segments += s.voxels;
+  for (const Segment& s : result.cut.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);
 
   // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.

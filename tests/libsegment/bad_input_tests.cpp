@@ -22,18 +22,18 @@ class BadInput : public testing::TestWithParam<Method> {
   Segmentation segmented(const std::vector<float>& xyz, SegmentOptions options = {}) const {
     options.method = GetParam();
     const Segmentation s = segment(CloudView{xyz, {}}, options);
-    EXPECT_EQ(s.labels.size(), xyz.size() / 3);
+    EXPECT_EQ(s.cut.labels.size(), xyz.size() / 3);
     EXPECT_EQ(s.difference, "");
-    const SceneTree again = read_tree(Input::view(tree_bytes(s), "s.tree"));
-    EXPECT_EQ(cut(again, again.first_cut).labels, s.labels);
+    const SceneTree again = read_tree(Input::view(tree_bytes(s.tree), "s.tree"));
+    EXPECT_EQ(cut(again, again.first_cut).labels, s.cut.labels);
     return s;
   }
   /// As many segments as there are objects; supervoxels are pieces of them, never fewer.
   void expect_objects(const Segmentation& s, std::size_t objects) const {
     if (GetParam() == Method::supervoxels && objects > 0)
-      EXPECT_GT(s.segments.size(), objects);
+      EXPECT_GT(s.cut.segments.size(), objects);
     else
-      EXPECT_EQ(s.segments.size(), objects);
+      EXPECT_EQ(s.cut.segments.size(), objects);
   }
   /// A few voxels alone: too small for a segment, but a supervoxel.
   std::size_t a_crumb() const { return GetParam() == Method::supervoxels ? 1 : 0; }
@@ -66,8 +66,8 @@ std::vector<float> ball(double radius, int count) {
 TEST_P(BadInput, NothingOrOnlyHoles) {
   for (const std::size_t n : {0U, 1U, 10000U}) {
     const Segmentation s = segmented(std::vector<float>(3 * n, kHole));
-    EXPECT_TRUE(s.segments.empty());
-    EXPECT_FALSE(s.plane);
+    EXPECT_TRUE(s.cut.segments.empty());
+    EXPECT_FALSE(s.tree.plane);
     EXPECT_NE(s.plane_note, "");
   }
 }
@@ -75,26 +75,26 @@ TEST_P(BadInput, NothingOrOnlyHoles) {
 TEST_P(BadInput, OnePixel) {
   std::vector<float> xyz(3 * 10000, kHole);
   xyz[0] = xyz[1] = 0, xyz[2] = 1;
-  EXPECT_EQ(segmented(xyz).segments.size(), a_crumb());
+  EXPECT_EQ(segmented(xyz).cut.segments.size(), a_crumb());
   const Segmentation s = segmented(xyz, {.min_size = 1});
-  ASSERT_EQ(s.segments.size(), 1U);
-  EXPECT_EQ(s.segments[0].oriented_box.size, (Vec3{0, 0, 0}));
-  EXPECT_EQ(s.labels[0], 1U);
+  ASSERT_EQ(s.cut.segments.size(), 1U);
+  EXPECT_EQ(s.cut.segments[0].oriented_box.size, (Vec3{0, 0, 0}));
+  EXPECT_EQ(s.cut.labels[0], 1U);
 }
 
 TEST_P(BadInput, OnlyAPlane) {
   const Segmentation s = segmented(TableScene({}).xyz());
-  EXPECT_TRUE(s.plane);
-  EXPECT_TRUE(s.segments.empty());
+  EXPECT_TRUE(s.tree.plane);
+  EXPECT_TRUE(s.cut.segments.empty());
 }
 
 TEST_P(BadInput, NoPlane) {
   const Segmentation s = segmented(ball(0.3, 40000));
-  EXPECT_FALSE(s.plane);
+  EXPECT_FALSE(s.tree.plane);
   EXPECT_NE(s.plane_note, "");
   expect_objects(s, 1);  // nothing is removed, the ball is whole
   Index points = 0;
-  for (const Segment& g : s.segments) points += g.points;
+  for (const Segment& g : s.cut.segments) points += g.points;
   EXPECT_GT(points, 39000);
 }
 
@@ -104,17 +104,17 @@ TEST_P(BadInput, SeveralPlanes) {
   const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
                          2);
   const Segmentation s = segmented(scene.xyz());
-  ASSERT_TRUE(s.plane);
-  EXPECT_NEAR(s.plane->offset, std::sqrt(0.5), 0.01) << "the table";
+  ASSERT_TRUE(s.tree.plane);
+  EXPECT_NEAR(s.tree.plane->offset, std::sqrt(0.5), 0.01) << "the table";
   expect_objects(s, 2);
   double left = kInfinity, right = -kInfinity;
-  for (const Segment& g : s.segments) {
+  for (const Segment& g : s.cut.segments) {
     left = std::min(left, g.box.min[0]);
     right = std::max(right, g.box.max[0]);
   }
   EXPECT_GT(right - left, 0.9) << "the shelf";
   if (GetParam() != Method::supervoxels) {
-    EXPECT_GT(s.segments[0].oriented_box.size[0], 0.9);
+    EXPECT_GT(s.cut.segments[0].oriented_box.size[0], 0.9);
   }
 }
 
@@ -123,12 +123,12 @@ TEST_P(BadInput, UnorganisedIsTheSame) {
   const Segmentation s = segmented(xyz);
   std::vector<float> dense;
   std::vector<std::uint32_t> labels;
-  for (std::size_t i = s.labels.size(); i-- > 0;) {
+  for (std::size_t i = s.cut.labels.size(); i-- > 0;) {
     if (std::isnan(xyz[3 * i])) continue;
     dense.insert(dense.end(), {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
-    labels.push_back(s.labels[i]);
+    labels.push_back(s.cut.labels[i]);
   }
-  EXPECT_EQ(segmented(dense).labels, labels);
+  EXPECT_EQ(segmented(dense).cut.labels, labels);
 }
 
 TEST_P(BadInput, TenMegapixels) {
@@ -148,11 +148,11 @@ TEST_P(BadInput, TenMegapixels) {
 TEST_P(BadInput, MillimetresForMetresLeaveNothingInRange) {
   const Segmentation s = segmented(scaled(TableScene::two_boxes().xyz(), 1000));
   EXPECT_EQ(s.stages[0].points, 0);
-  EXPECT_TRUE(s.segments.empty());
+  EXPECT_TRUE(s.cut.segments.empty());
 }
 
 TEST_P(BadInput, MetresForMillimetresAreACrumb) {
-  EXPECT_EQ(segmented(scaled(TableScene::two_boxes().xyz(), 0.001)).segments.size(), a_crumb());
+  EXPECT_EQ(segmented(scaled(TableScene::two_boxes().xyz(), 0.001)).cut.segments.size(), a_crumb());
 }
 
 TEST_P(BadInput, AbsurdFocalLengths) {

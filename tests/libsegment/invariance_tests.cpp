@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Invariance,
 TEST_P(Invariance, OrderOfThePoints) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
-  EXPECT_GE(s.segments.size(), 3U);
+  EXPECT_GE(s.cut.segments.size(), 3U);
   std::vector<std::size_t> order(xyz.size() / 3);
   std::iota(order.begin(), order.end(), 0U);
   for (const unsigned seed : {1U, 2U, 3U}) {
@@ -57,10 +57,10 @@ TEST_P(Invariance, OrderOfThePoints) {
     }
     const Segmentation t = segment(CloudView{shuffled, {}});
     for (std::size_t i = 0; i < order.size(); ++i) {
-      ASSERT_EQ(t.labels[i], s.labels[order[i]]) << i;
+      ASSERT_EQ(t.cut.labels[i], s.cut.labels[order[i]]) << i;
     }
-    EXPECT_EQ(t.tree.merges, s.tree.merges);
-    EXPECT_TRUE(t.vertices == s.vertices);
+    EXPECT_EQ(t.tree.merge_tree.merges, s.tree.merge_tree.merges);
+    EXPECT_TRUE(t.tree.vertices == s.tree.vertices);
   }
 }
 
@@ -78,7 +78,7 @@ TEST(Scaling, PowersOfTwo) {
                                         .max_range = o.max_range * scale,
                                         .plane_distance = o.plane_margin() * scale,
                                         .distance = o.distance * scale});
-    EXPECT_EQ(t.labels, s.labels);
+    EXPECT_EQ(t.cut.labels, s.cut.labels);
     ASSERT_EQ(t.barcode.size(), s.barcode.size());
     for (std::size_t i = 0; i < s.barcode.size(); ++i) {
       ASSERT_EQ(t.barcode[i].death, s.barcode[i].death * scale);
@@ -92,19 +92,19 @@ TEST_P(Invariance, Duplicates) {
   std::vector<float> twice = xyz;
   twice.insert(twice.end(), xyz.begin(), xyz.end());
   const Segmentation t = segment(CloudView{twice, {}});
-  std::vector<std::uint32_t> expected = s.labels;
-  expected.insert(expected.end(), s.labels.begin(), s.labels.end());
-  EXPECT_EQ(t.labels, expected);
-  EXPECT_EQ(t.tree.merges, s.tree.merges);
+  std::vector<std::uint32_t> expected = s.cut.labels;
+  expected.insert(expected.end(), s.cut.labels.begin(), s.cut.labels.end());
+  EXPECT_EQ(t.cut.labels, expected);
+  EXPECT_EQ(t.tree.merge_tree.merges, s.tree.merge_tree.merges);
 }
 
 TEST_P(Invariance, AllPointsEqual) {
   const std::vector<float> xyz(3 * 100000, 0.5F);
   const Segmentation s = segment(CloudView{xyz, {}}, {.min_size = 1});
-  ASSERT_EQ(s.segments.size(), 1U);
-  EXPECT_EQ(s.segments[0].voxels, 1);
-  EXPECT_EQ(s.segments[0].points, 100000);
-  EXPECT_FALSE(s.plane);
+  ASSERT_EQ(s.cut.segments.size(), 1U);
+  EXPECT_EQ(s.cut.segments[0].voxels, 1);
+  EXPECT_EQ(s.cut.segments[0].points, 100000);
+  EXPECT_FALSE(s.tree.plane);
 }
 
 // The pipeline runs on one thread, whatever number is requested; this test checks it. Only the
@@ -116,8 +116,8 @@ TEST_P(Invariance, Threads) {
     RunContext context;
     context.threads = threads;
     const Segmentation t = segment(CloudView{xyz, {}}, {}, context);
-    EXPECT_EQ(t.labels, s.labels);
-    EXPECT_EQ(t.tree.merges, s.tree.merges);
+    EXPECT_EQ(t.cut.labels, s.cut.labels);
+    EXPECT_EQ(t.tree.merge_tree.merges, s.tree.merge_tree.merges);
   }
 }
 
@@ -129,11 +129,11 @@ TEST(Signatures, AreTheSameForAnyNumberOfThreads) {
                              1 + 0.15 * std::cos(a)})
         xyz.push_back(static_cast<float>(c));
   const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false, .objects = false});
-  ASSERT_FALSE(s.segments.empty());
+  ASSERT_FALSE(s.cut.segments.empty());
   const auto bars = [&](int threads) {
     RunContext context;
     context.threads = threads;
-    return signature(s, s, std::vector{1U}, context);
+    return signature(s.tree, s.cut, std::vector{1U}, context);
   };
   const Barcode one = bars(1);
   EXPECT_GT(one.bars(1).size(), 0U);
@@ -146,13 +146,13 @@ TEST_P(Invariance, Holes) {
   std::vector<float> dense;
   std::vector<std::uint32_t> expected;
   const Segmentation s = segment(CloudView{xyz, {}});
-  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     if (std::isnan(xyz[3 * i])) continue;
     dense.insert(dense.end(), {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
-    expected.push_back(s.labels[i]);
+    expected.push_back(s.cut.labels[i]);
   }
   ASSERT_LT(dense.size(), xyz.size());
-  EXPECT_EQ(segment(CloudView{dense, {}}).labels, expected);
+  EXPECT_EQ(segment(CloudView{dense, {}}).cut.labels, expected);
 }
 
 }  // namespace

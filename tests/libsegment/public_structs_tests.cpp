@@ -79,24 +79,26 @@ TEST(PublicStructs, Clouds) {
 /// number.
 TEST(PublicStructs, ScenesAndCuts) {
   const Segmentation right = segment(CloudView{TableScene::two_boxes().xyz(), {}});
-  ASSERT_EQ(right.segments.size(), 2U);
+  ASSERT_EQ(right.cut.segments.size(), 2U);
   const std::function<void(Segmentation&)> scene_faults[] = {
-      [](auto& s) { s.points.pop_back(); },
-      [](auto& s) { std::swap(s.points[0], s.points[1]); },
-      [](auto& s) { s.points.back() = s.width * s.height; },
-      [](auto& s) { s.points.front() = -1; },
-      [](auto& s) { s.vertex_of_point.pop_back(); },
-      [](auto& s) { s.vertex_of_point.back() = static_cast<std::uint32_t>(s.cells.size()); },
-      [](auto& s) { s.xyz.pop_back(); },
-      [](auto& s) { s.cells.pop_back(); },
-      [](auto& s) { s.vertices.keep_rows(s.vertices.rows() - 1); },
-      [](auto& s) { s.normals = Points(0, 3); },
-      [](auto& s) { s.counts.pop_back(); },
-      [](auto& s) { s.tree.births.pop_back(); },
-      [](auto& s) { s.tree.merges.back().u = -1; },
-      [](auto& s) { s.tree.merges.back().younger = s.vertices.rows(); },
-      [](auto& s) { s.width = s.height = kMost; },
-      [](auto& s) { s.width = -1; },
+      [](auto& s) { s.tree.points.pop_back(); },
+      [](auto& s) { std::swap(s.tree.points[0], s.tree.points[1]); },
+      [](auto& s) { s.tree.points.back() = s.tree.width * s.tree.height; },
+      [](auto& s) { s.tree.points.front() = -1; },
+      [](auto& s) { s.tree.vertex_of_point.pop_back(); },
+      [](auto& s) {
+        s.tree.vertex_of_point.back() = static_cast<std::uint32_t>(s.tree.cells.size());
+      },
+      [](auto& s) { s.tree.xyz.pop_back(); },
+      [](auto& s) { s.tree.cells.pop_back(); },
+      [](auto& s) { s.tree.vertices.keep_rows(s.tree.vertices.rows() - 1); },
+      [](auto& s) { s.tree.normals = Points(0, 3); },
+      [](auto& s) { s.tree.counts.pop_back(); },
+      [](auto& s) { s.tree.merge_tree.births.pop_back(); },
+      [](auto& s) { s.tree.merge_tree.merges.back().u = -1; },
+      [](auto& s) { s.tree.merge_tree.merges.back().younger = s.tree.vertices.rows(); },
+      [](auto& s) { s.tree.width = s.tree.height = kMost; },
+      [](auto& s) { s.tree.width = -1; },
   };
   int number = 0;
   for (const auto& spoil : scene_faults) {
@@ -105,24 +107,26 @@ TEST(PublicStructs, ScenesAndCuts) {
     spoil(wrong);
     LabelTracker tracker;
     const std::uint32_t label = 1;
-    expect_error(ErrorKind::bad_data, "scene: ", [&] { cut(wrong, wrong.first_cut); });
-    expect_error(ErrorKind::bad_data, "scene: ", [&] { tree_bytes(wrong); });
-    expect_error(ErrorKind::bad_data, "scene: ", [&] { tree_json(wrong); });
+    expect_error(ErrorKind::bad_data, "scene: ", [&] { cut(wrong.tree, wrong.tree.first_cut); });
+    expect_error(ErrorKind::bad_data, "scene: ", [&] { tree_bytes(wrong.tree); });
+    expect_error(ErrorKind::bad_data, "scene: ", [&] { tree_json(wrong.tree); });
     expect_error(ErrorKind::bad_data, "scene: ", [&] { first_meeting(wrong, 1, 2); });
-    expect_error(ErrorKind::bad_data, "scene: ", [&] { signature(wrong, wrong, {&label, 1}); });
-    expect_error(ErrorKind::bad_data, "scene: ", [&] { tracker.update(wrong, wrong); });
+    expect_error(ErrorKind::bad_data, "scene: ", [&] {
+      signature(wrong.tree, wrong.cut, {&label, 1});
+    });
+    expect_error(ErrorKind::bad_data, "scene: ", [&] { tracker.update(wrong.tree, wrong.cut); });
   }
   const std::function<void(Segmentation&)> cut_faults[] = {
-      [](auto& s) { s.labels.pop_back(); },
-      [](auto& s) { s.vertex_labels.pop_back(); },
-      [](auto& s) { s.labels.back() = 3; },
-      [](auto& s) { s.vertex_labels.front() = 3; },
-      [](auto& s) { s.surface_labels.front() = 2; },
+      [](auto& s) { s.cut.labels.pop_back(); },
+      [](auto& s) { s.cut.vertex_labels.pop_back(); },
+      [](auto& s) { s.cut.labels.back() = 3; },
+      [](auto& s) { s.cut.vertex_labels.front() = 3; },
+      [](auto& s) { s.cut.surface_labels.front() = 2; },
       [](auto& s) {
-        s.segments.front().on = {2, 0};
+        s.cut.segments.front().on = {2, 0};
       },
       [](auto& s) {
-        s.segments.front().on = {0, 3};
+        s.cut.segments.front().on = {0, 3};
       },
   };
   for (const auto& spoil : cut_faults) {
@@ -132,13 +136,15 @@ TEST(PublicStructs, ScenesAndCuts) {
     LabelTracker tracker;
     const std::uint32_t label = 1;
     expect_error(ErrorKind::bad_data, "cut: ", [&] { first_meeting(wrong, 1, 2); });
-    expect_error(ErrorKind::bad_data, "cut: ", [&] { signature(wrong, wrong, {&label, 1}); });
-    expect_error(ErrorKind::bad_data, "cut: ", [&] { tracker.update(wrong, wrong); });
+    expect_error(ErrorKind::bad_data, "cut: ", [&] {
+      signature(wrong.tree, wrong.cut, {&label, 1});
+    });
+    expect_error(ErrorKind::bad_data, "cut: ", [&] { tracker.update(wrong.tree, wrong.cut); });
   }
   for (const double value : {kNan, -1.0})
-    expect_error(ErrorKind::usage, "cut: found", [&] { cut(right, {.value = value}); });
-  expect_error(ErrorKind::usage, "min_part", [&] { cut(right, {.min_part = 0}); });
-  expect_error(ErrorKind::usage, "min_size", [&] { cut(right, {.min_size = -1}); });
+    expect_error(ErrorKind::usage, "cut: found", [&] { cut(right.tree, {.value = value}); });
+  expect_error(ErrorKind::usage, "min_part", [&] { cut(right.tree, {.min_part = 0}); });
+  expect_error(ErrorKind::usage, "min_size", [&] { cut(right.tree, {.min_size = -1}); });
 }
 
 TEST(PublicStructs, Tracker) {

@@ -43,7 +43,7 @@ std::map<Cell, Means> voxels_of(const std::vector<float>& xyz, const Segmentatio
   for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
     const double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2];
     if (!(std::sqrt(x * x + y * y + z * z) <= o.max_range)) continue;
-    if (s.plane && !(s.plane->signed_distance(x, y, z) > o.plane_margin())) continue;
+    if (s.tree.plane && !(s.tree.plane->signed_distance(x, y, z) > o.plane_margin())) continue;
     Means& voxel = voxels[{std::lround(std::floor(z / o.voxel_size())),
                            std::lround(std::floor(y / o.voxel_size())),
                            std::lround(std::floor(x / o.voxel_size()))}];
@@ -91,27 +91,27 @@ TEST_P(SceneTest, IsSingleLinkageOfTheVoxels) {
     const Segmentation s = segment(CloudView{xyz, {}}, options);
     EXPECT_TRUE(s.checked);
     EXPECT_EQ(s.difference, "");
-    ASSERT_TRUE(s.plane) << s.plane_note;
+    ASSERT_TRUE(s.tree.plane) << s.plane_note;
 
     const auto voxels = voxels_of(xyz, s, options);
-    ASSERT_EQ(static_cast<std::size_t>(s.vertices.rows()), voxels.size());
+    ASSERT_EQ(static_cast<std::size_t>(s.tree.vertices.rows()), voxels.size());
     std::vector<const Means*> in_order;
     for (const auto& [cell, voxel] : voxels) {
       const auto v = static_cast<Index>(in_order.size());
       for (std::size_t k = 0; k < 3; ++k) {
-        ASSERT_NEAR(s.vertices(v, static_cast<Index>(k)), voxel.sum[k] / voxel.count, 1e-9);
+        ASSERT_NEAR(s.tree.vertices(v, static_cast<Index>(k)), voxel.sum[k] / voxel.count, 1e-9);
       }
       in_order.push_back(&voxel);
     }
 
-    const std::vector<int> component = flood(s.vertices, options.distance);
+    const std::vector<int> component = flood(s.tree.vertices, options.distance);
     std::map<int, Index> sizes;
     for (const int c : component) ++sizes[c];
     std::map<int, std::set<std::uint32_t>> labels_of;
-    std::vector<std::uint32_t> expected_zero(s.labels.size(), 1);
+    std::vector<std::uint32_t> expected_zero(s.cut.labels.size(), 1);
     for (std::size_t v = 0; v < in_order.size(); ++v) {
       for (const std::size_t i : in_order[v]->points) {
-        labels_of[component[v]].insert(s.labels[i]);
+        labels_of[component[v]].insert(s.cut.labels[i]);
         expected_zero[i] = 0;
       }
     }
@@ -125,12 +125,12 @@ TEST_P(SceneTest, IsSingleLinkageOfTheVoxels) {
         EXPECT_TRUE(used.insert(*labels.begin()).second) << "two components, one label";
       }
     }
-    EXPECT_EQ(used.size(), s.segments.size());
-    for (std::size_t i = 0; i < s.labels.size(); ++i) {
-      ASSERT_TRUE(!expected_zero[i] || s.labels[i] == 0U) << i;
+    EXPECT_EQ(used.size(), s.cut.segments.size());
+    for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
+      ASSERT_TRUE(!expected_zero[i] || s.cut.labels[i] == 0U) << i;
     }
-    for (std::size_t i = 1; i < s.segments.size(); ++i) {
-      EXPECT_GE(s.segments[i - 1].points, s.segments[i].points);
+    for (std::size_t i = 1; i < s.cut.segments.size(); ++i) {
+      EXPECT_GE(s.cut.segments[i - 1].points, s.cut.segments[i].points);
     }
   }
 }

@@ -95,14 +95,15 @@ std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segme
                           const RunInfo& info, const RunContext& context) const {
   PlotOptions options = arguments_.files.look;
   if (plot.kind == "cloud") {
-    const std::vector<std::uint32_t> palette = shown_colours(cloud, s, info.numbers);
-    CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);
+    const std::vector<std::uint32_t> palette = shown_colours(cloud, s.cut, info.numbers);
+    CloudPicture seen =
+        cloud_picture(cloud, s.tree, s.cut.labels, palette, arguments_.plot_view, context);
     return app::drawn(plot, with_legend(std::move(seen), palette, info.numbers), options, context);
   }
-  options.value_label = s.method == Method::surface ? "Concavity (noise)" : "Distance (m)";
+  options.value_label = s.tree.method == Method::surface ? "Concavity (noise)" : "Distance (m)";
   if (plot.kind == "tree") {
-    const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
-    const std::vector<Branch> branches = s.tree.branches();
+    const MemoryClaim claim(context.memory, s.tree.merge_tree.births.size() * sizeof(Branch));
+    const std::vector<Branch> branches = s.tree.merge_tree.branches();
     return app::drawn(plot, std::span(branches), options, context);
   }
   options.kind = plot_kind_named(plot.kind).value();
@@ -117,7 +118,8 @@ report::ScenePage Outputs::report_page(const Cloud* cloud, const Segmentation& s
   if (!a.input.empty()) command.push_back(info.input);
   command.insert(command.end(), a.scene_options.begin(), a.scene_options.end());
   command.insert(command.end(), {"--cut", "{cut}"});
-  if (s.method == Method::surface) command.insert(command.end(), {"--min-seam", "0", "--parts"});
+  if (s.tree.method == Method::surface)
+    command.insert(command.end(), {"--min-seam", "0", "--parts"});
   command.insert(command.end(), {"--labels", "labels.npy"});
   page.numbers = info.numbers;
   page.provenance.command = a.command;
@@ -133,18 +135,20 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
   app::Output& out = file.output;
   switch (file.kind) {
     case OutputKind::cloud:
-      return out.write(
-          cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
+      return out.write(cloud_bytes(with_labels(*cloud, numbers_of(s.cut.labels, info)),
+                                   cloud_format_of(f.output)));
     case OutputKind::labels:
-      return out.write(label_bytes(s, numbers_of(s.labels, info), label_format_of(f.labels)));
+      return out.write(
+          label_bytes(s.tree, numbers_of(s.cut.labels, info), label_format_of(f.labels)));
     case OutputKind::surfaces: {
-      const std::vector<std::uint32_t> numbers(s.surface_labels.begin(), s.surface_labels.end());
-      return out.write(label_bytes(s, numbers, label_format_of(f.surfaces)));
+      const std::vector<std::uint32_t> numbers(s.cut.surface_labels.begin(),
+                                               s.cut.surface_labels.end());
+      return out.write(label_bytes(s.tree, numbers, label_format_of(f.surfaces)));
     }
     case OutputKind::json:
       return out.write(json_summary(arguments_, s, info));
     case OutputKind::tree:
-      return out.write(extension_of(f.tree) == ".json" ? tree_json(s) : tree_bytes(s));
+      return out.write(extension_of(f.tree) == ".json" ? tree_json(s.tree) : tree_bytes(s.tree));
     case OutputKind::barcode:
       return write_barcode(out.file(), s.barcode,
                            barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
@@ -152,12 +156,13 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
     case OutputKind::plot:
       return out.write(plot(*file.plot, cloud, s, info, context));
     case OutputKind::coloured:
-      return out.write(
-          cloud_bytes(coloured_cloud(*cloud, s.labels, shown_colours(cloud, s, info.numbers)),
-                      cloud_format_of(f.coloured)));
+      return out.write(cloud_bytes(
+          coloured_cloud(*cloud, s.cut.labels, shown_colours(cloud, s.cut, info.numbers)),
+          cloud_format_of(f.coloured)));
     case OutputKind::picture:
       return out.write(text_of([&](std::ostream& o) {
-        write_png(o, ph::segment::picture(*cloud, s.labels, shown_colours(cloud, s, info.numbers)));
+        write_png(o, ph::segment::picture(*cloud, s.cut.labels,
+                                          shown_colours(cloud, s.cut, info.numbers)));
       }));
     case OutputKind::report:
       return report::write_page([&](std::string_view text) { out.write(text); },

@@ -49,11 +49,11 @@ std::string stages_of(const Segmentation& s) {
 }
 
 std::string plane_of(const Segmentation& s) {
-  if (!s.plane) return object({{"found", "false"}, {"note", json::string(s.plane_note)}});
+  if (!s.tree.plane) return object({{"found", "false"}, {"note", json::string(s.plane_note)}});
   return object({{"found", "true"},
-                 {"normal", numbers(s.plane->normal)},
-                 {"offset", number(s.plane->offset)},
-                 {"share", number(s.plane->share)}});
+                 {"normal", numbers(s.tree.plane->normal)},
+                 {"offset", number(s.tree.plane->offset)},
+                 {"share", number(s.tree.plane->share)}});
 }
 
 std::string oriented_box_of(const OrientedBox& box) {
@@ -86,7 +86,7 @@ std::string on_of(const Segment& segment, const RunInfo& info) {
 }
 
 std::string segments_of(const Segmentation& s, const RunInfo& info) {
-  return lines(s.segments, [&](const Segment& g) {
+  return lines(s.cut.segments, [&](const Segment& g) {
     return object({{"label", integer(info.number_of(g.label))},
                    {"points", integer(g.points)},
                    {"voxels", integer(g.voxels)},
@@ -129,28 +129,28 @@ double table_seconds(const Segmentation& s) {
 }  // namespace
 
 std::string json_summary(const Arguments& arguments, const Segmentation& s, const RunInfo& info) {
-  const Index vertices = s.vertices.rows();
-  const std::string distance = s.method == Method::paper ? number(s.distance) : "null";
+  const Index vertices = s.tree.vertices.rows();
+  const std::string distance = s.tree.method == Method::paper ? number(s.tree.distance) : "null";
   return document({{"format", json::string("ph-segment")},
                    {"version", "1"},
                    {"program", json::string(info.program)},
-                   {"input", input_of(s, info)},
-                   {"method", json_of(s.method)},
+                   {"input", input_of(s.tree, info)},
+                   {"method", json_of(s.tree.method)},
                    {"options", info.from_tree ? "null" : options_of(arguments.options)},
-                   {"cut", json_of(s.first_cut)},
+                   {"cut", json_of(s.tree.first_cut)},
                    {"stages", stages_of(s)},
-                   {"viewpoint", numbers(s.viewpoint)},
+                   {"viewpoint", numbers(s.tree.viewpoint)},
                    {"plane", plane_of(s)},
-                   {"surfaces", json_of(s.surfaces)},
-                   {"noise", json_of(s.noise)},
-                   {"voxel", number(s.voxel)},
+                   {"surfaces", json_of(s.tree.surfaces)},
+                   {"noise", json_of(s.tree.noise)},
+                   {"voxel", number(s.tree.voxel)},
                    {"complex", object({{"vertices", integer(vertices)},
-                                       {"edges", integer(s.edges)},
-                                       {"simplices", integer(vertices + s.edges)},
+                                       {"edges", integer(s.tree.edges)},
+                                       {"simplices", integer(vertices + s.tree.edges)},
                                        {"distance", distance}})},
                    {"table", object({{"points", integer(vertices)},
                                      {"distance", distance},
-                                     {"complex", integer(vertices + s.edges)},
+                                     {"complex", integer(vertices + s.tree.edges)},
                                      {"time", number(table_seconds(s))}})},
                    {"segments", segments_of(s, info)},
                    {"check", check_of(s)},
@@ -162,7 +162,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
 std::string text_summary(const Segmentation& s) {
   std::string text =
       "label   points  voxels      x/m      y/m      z/m size x/m size y/m size z/m\n";
-  for (const Segment& g : s.segments) {
+  for (const Segment& g : s.cut.segments) {
     fmt::format_to(std::back_inserter(text), "{:5} {:8} {:7}", g.label, g.points, g.voxels);
     for (const double c : g.centroid) fmt::format_to(std::back_inserter(text), " {:8.4f}", c);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -187,16 +187,17 @@ std::string explanation(const Segmentation& s, std::uint32_t a, std::uint32_t b)
 }
 
 std::string one_line_summary(const Segmentation& s) {
-  std::string text = fmt::format("{} points", s.width * s.height);
+  std::string text = fmt::format("{} points", s.tree.width * s.tree.height);
   for (const Stage& stage : s.stages) {
     if (stage.name == "range filter") {
       fmt::format_to(std::back_inserter(text), ", {} in range", stage.points);
-    } else if (stage.name == "plane" && s.plane) {
+    } else if (stage.name == "plane" && s.tree.plane) {
       fmt::format_to(std::back_inserter(text), ", {} before the plane", stage.points);
     }
   }
   fmt::format_to(std::back_inserter(text), ", {} voxels, {} edges, {} segment{}{}; {:.1f} ms",
-                 s.vertices.rows(), s.edges, s.segments.size(), s.segments.size() == 1 ? "" : "s",
+                 s.tree.vertices.rows(), s.tree.edges, s.cut.segments.size(),
+                 s.cut.segments.size() == 1 ? "" : "s",
                  s.checked && s.difference.empty() ? ", checked" : "", 1e3 * seconds_of(s));
   return text;
 }

@@ -145,9 +145,9 @@ struct CutOptions {
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
 
-/// How the voxels of a scene join: each merge with its value, the edge that joined, sizes and
-/// births (`tree`), and everything that a cut needs to make segments. A value: it refers to nothing
-/// outside itself.
+/// How the voxels of a scene join (`merge_tree`: each merge with its value, the edge that joined,
+/// sizes and births), and what is needed of the scene to make segments of a cut. A value: it refers
+/// to nothing outside.
 struct SceneTree {
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
@@ -181,8 +181,8 @@ struct SceneTree {
   Points normals;  ///< not paper: unit normals, one per row, NaN where there is none; else 0 rows
   std::vector<Index> counts;  ///< how many points the centroid averages
 
-  Index edges = 0;  ///< edges of the filtered graph
-  MergeTree tree;   ///< the vertices that join, and the values at which they do
+  Index edges = 0;       ///< edges of the filtered graph
+  MergeTree merge_tree;  ///< which vertices join, at which value
 };
 
 /// The segments of one cut.

@@ -113,9 +113,11 @@ struct PlaneSight {
   double hidden = 0;  ///< behind points of the plane: no sensor at the viewpoint could see them
 };
 
-/// The result of the pipeline: the merge tree of the scene, one cut of it, and a record of the run.
-/// A value: it refers to nothing outside itself.
-struct Segmentation : SceneTree, SceneCut {
+/// The result of the pipeline: the merge tree of the scene, one cut of it, and how it went. A
+/// value: it refers to nothing outside.
+struct Segmentation {
+  SceneTree tree;
+  SceneCut cut;            ///< of the tree, as its `first_cut` says
   std::string plane_note;  ///< why there is no plane; empty if there is one
   /// Where the pixels' rays meet, if this differs from the position of the sensor that the options
   /// or the cloud state. It is the `viewpoint` unless the options state one.
@@ -148,7 +150,7 @@ Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
 /// first_meeting of two segments of the cut.
 inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t a,
                                             std::uint32_t b) {
-  return first_meeting(s, s, a, b);
+  return first_meeting(s.tree, s.cut, a, b);
 }
 
 /// The shape of some segments, by persistent homology of their voxels in dimensions 0 to 2: pieces,

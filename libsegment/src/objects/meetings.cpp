@@ -55,7 +55,7 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
     if (cut.vertex_labels[v] == a) join(v, first_a);
     if (cut.vertex_labels[v] == b) join(v, first_b);
   }
-  for (const Merge& m : scene.tree.merges) {
+  for (const Merge& m : scene.merge_tree.merges) {
     join(static_cast<std::uint32_t>(m.u), static_cast<std::uint32_t>(m.v));
     if (sets.find(first_a) != sets.find(first_b)) continue;
     Meeting meeting{.value = m.value};

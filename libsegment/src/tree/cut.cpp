@@ -31,8 +31,8 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
   if (scene.method != Method::paper) {
     for (const VoxelPair& p : surface.pairs)
       if (are_apart(p.u, p.v) && p.distance < adjacent_radius(scene.voxel))
-        meet(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
-  } else if (options.value < scene.distance) {  // else joined vertices are one component
+        meet(p.u, p.v, std::max(scene.merge_tree.births[p.u], scene.merge_tree.births[p.v]));
+  } else if (options.value < scene.distance) {  // else all that have an edge are one
     for_each_pair_within(
         scene.vertices, scene.distance,
         [&](Index i, Index j, double length) {
@@ -50,12 +50,12 @@ std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context) {
   // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
-  // complex, every merge is done.
-  if (scene.method == Method::paper) return scene.tree.components(options.value);
-  std::vector<Index> component_of = scene.tree.basins(options.value, options.min_part);
+  // complex every merge is done.
+  if (scene.method == Method::paper) return scene.merge_tree.components(options.value);
+  std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return component_of;
   if (options.min_seam > 0)
-    component_of = join_over_weak_seams(component_of, scene.tree.births, surface.pairs,
+    component_of = join_over_weak_seams(component_of, scene.merge_tree.births, surface.pairs,
                                         adjacent_radius(scene.voxel),
                                         options.min_seam * options.value, context);
   if (!options.objects) return component_of;
@@ -65,7 +65,7 @@ std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
 SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
                   const Surface& surface, const CutOptions& options, const RunContext& context) {
   SceneCut result = extract_components(scene, component_of, options.min_size);
-  find_neighbours(scene.tree, contacts_of(scene, surface, options, result, context), result);
+  find_neighbours(scene.merge_tree, contacts_of(scene, surface, options, result, context), result);
   find_what_it_stands_on(scene, surface.pairs, result);
   return result;
 }

@@ -25,11 +25,11 @@ Barcode barcode_of(const MergeTree& tree) {
 
 BarcodeInfo info_of_barcode(const Segmentation& s) {
   BarcodeInfo info;
-  info.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
-  const bool paper = s.method == Method::paper;
+  info.input_description = fmt::format("{} voxel centroids in R^3", s.tree.vertices.rows());
+  const bool paper = s.tree.method == Method::paper;
   info.complex = paper ? "rips" : "lower-star";
   if (paper) {
-    info.threshold = s.distance;
+    info.threshold = s.tree.distance;
     info.metric = metric_name(PointDistance::euclidean);
   }
   info.engine = "union-find";

@@ -43,14 +43,14 @@ std::string tree_bytes(const SceneTree& scene) {
   std::string bytes(kTreeMagic);
   const std::size_t n = scene.cells.size();
   bytes.reserve(kTreeHeader + kTreeSum + n * 11 * kTreeWord +
-                scene.tree.merges.size() * 2 * kTreeWord + scene.cloud_size() * 4 +
+                scene.merge_tree.merges.size() * 2 * kTreeWord + scene.cloud_size() * 4 +
                 scene.xyz.size() * 4 + scene.surfaces.size() * kTreeSurface +
                 scene.noise.size() * kTreeNoise);
   const auto integer = [&](std::int64_t value) { put(bytes, value); };
   const auto number = [&](double value) { put(bytes, value); };
   for (const std::int64_t value :
        {kTreeVersion, static_cast<std::int64_t>(scene.method), scene.width, scene.height,
-        static_cast<std::int64_t>(n), static_cast<std::int64_t>(scene.tree.merges.size()),
+        static_cast<std::int64_t>(n), static_cast<std::int64_t>(scene.merge_tree.merges.size()),
         static_cast<std::int64_t>(scene.xyz.size() / 3), scene.edges})
     integer(value);
   number(scene.voxel);
@@ -85,8 +85,8 @@ std::string tree_bytes(const SceneTree& scene) {
   put_all(bytes, scene.vertices);
   put_all(bytes, scene.normals);
   put_all(bytes, scene.counts);
-  put_all(bytes, scene.tree.births);
-  for (const Merge& m : scene.tree.merges) {
+  put_all(bytes, scene.merge_tree.births);
+  for (const Merge& m : scene.merge_tree.merges) {
     number(m.value);
     put(bytes, static_cast<std::uint32_t>(m.u));
     put(bytes, static_cast<std::uint32_t>(m.v));

@@ -25,7 +25,7 @@ std::string vertices_of(const SceneTree& scene) {
     return object({{"centroid", row(scene.vertices, i)},
                    {"normal", has_normal ? row(scene.normals, i) : "null"},
                    {"points", integer(count)},
-                   {"birth", number(scene.tree.births[static_cast<std::size_t>(i)])}});
+                   {"birth", number(scene.merge_tree.births[static_cast<std::size_t>(i)])}});
   });
 }
 
@@ -83,7 +83,7 @@ std::string tree_json(const SceneTree& scene) {
                    {"cut", json_of(scene.first_cut)},
                    {"edges", integer(scene.edges)},
                    {"vertices", vertices_of(scene)},
-                   {"merges", merges_of(scene.tree)},
+                   {"merges", merges_of(scene.merge_tree)},
                    {"vertex_of_point", vertex_of_point(scene)}});
 }
 

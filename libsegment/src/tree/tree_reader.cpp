@@ -234,10 +234,10 @@ class TreeReader {
     }
     RunContext none;
     const RunContext& context = input_.context() ? *input_.context() : none;
-    scene_.tree = merge_tree(FilteredGraph(births, forest, context), context);
+    scene_.merge_tree = merge_tree(FilteredGraph(births, forest, context), context);
     for (std::size_t i = 0; i < forest.size(); ++i) {
       at_ = first + i * 2 * kWord;
-      const auto& merges = scene_.tree.merges;
+      const auto& merges = scene_.merge_tree.merges;
       if (i < merges.size() && merges[i].u == forest[i].u && merges[i].v == forest[i].v &&
           merges[i].value == forest[i].value)
         continue;

@@ -81,7 +81,7 @@ struct Members {
 }  // namespace
 
 Block tree_file(const SegmentedScene& scene) {
-  const std::string tree = segment::tree_bytes(scene.result);
+  const std::string tree = segment::tree_bytes(scene.result.tree);
   return Block::copy_of(Bytes(reinterpret_cast<const std::uint8_t*>(tree.data()), tree.size()));
 }
 
@@ -109,11 +109,13 @@ SegmentedScene scene_of_state(const py::dict& state, const RunOptions& options) 
                                 members.tree.size());
     scene.result = segmentation_of_tree(Input::view(tree, "state of a segmentation"), *context);
     const Cloud* cloud = members.cloud ? &members.cloud->cloud : nullptr;
-    if (cloud && (cloud->width != scene.result.width || cloud->height != scene.result.height))
-      throw Error(ErrorKind::bad_data, fmt::format("state of {}: found a cloud of {} x {} points, "
-                                                   "expected {} x {} as in the tree",
-                                                   kThing, cloud->height, cloud->width,
-                                                   scene.result.height, scene.result.width));
+    if (cloud &&
+        (cloud->width != scene.result.tree.width || cloud->height != scene.result.tree.height))
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("state of {}: found a cloud of {} x {} points, "
+                              "expected {} x {} as of the tree",
+                              kThing, cloud->height, cloud->width, scene.result.tree.height,
+                              scene.result.tree.width));
     scene.input = members.cloud;
     scene.result.checked = members.is_checked;
     scene.result.plane_note = members.plane_note;
@@ -123,10 +125,10 @@ SegmentedScene scene_of_state(const py::dict& state, const RunOptions& options) 
 
 segment::Segmentation segmentation_of_tree(const Input& tree, const RunContext& context) {
   segment::Segmentation result;
-  static_cast<segment::SceneTree&>(result) = segment::read_tree(tree);
-  if (!result.plane) result.plane_note = "the tree was made without one";
-  result.barcode = segment::barcode_of(result.tree);
-  static_cast<segment::SceneCut&>(result) = segment::cut(result, result.first_cut, context);
+  result.tree = segment::read_tree(tree);
+  if (!result.tree.plane) result.plane_note = "the tree was made without one";
+  result.barcode = segment::barcode_of(result.tree.merge_tree);
+  result.cut = segment::cut(result.tree, result.tree.first_cut, context);
   return result;
 }
 

@@ -81,17 +81,18 @@ SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
                    std::optional<bool> objects, std::optional<double> min_seam,
                    const RunOptions& options) {
-  const segment::CutOptions& old = scene.result.first_cut;
+  const segment::CutOptions& old = scene.result.tree.first_cut;
   const segment::CutOptions asked{value.value_or(old.value), min_part.value_or(old.min_part),
                                   min_size.value_or(old.min_size), objects.value_or(old.objects),
                                   min_seam.value_or(old.min_seam)};
   SegmentedScene other{scene.input};
-  run_task(options, scene.result.points.size() < kFewPoints, [&](const SharedContext& context) {
-    segment::SceneCut found = segment::cut(scene.result, asked, *context);
-    other.result = scene.result;
-    static_cast<segment::SceneCut&>(other.result) = std::move(found);
-    other.result.first_cut = asked;
-  });
+  run_task(options, scene.result.tree.points.size() < kFewPoints,
+           [&](const SharedContext& context) {
+             segment::SceneCut found = segment::cut(scene.result.tree, asked, *context);
+             other.result = scene.result;
+             other.result.cut = std::move(found);
+             other.result.tree.first_cut = asked;
+           });
   return other;
 }
 
@@ -103,11 +104,11 @@ std::vector<py::ssize_t> raster_of(const segment::SceneTree& scene) {
 }
 
 Block labels(const SegmentedScene& scene) {
-  return Block::of(scene.result.labels, raster_of(scene.result));
+  return Block::of(scene.result.cut.labels, raster_of(scene.result.tree));
 }
 
 Block voxel_of_point(const SegmentedScene& scene) {
-  const segment::SceneTree& tree = scene.result;
+  const segment::SceneTree& tree = scene.result.tree;
   std::vector<std::int64_t> voxels(tree.cloud_size(), -1);
   for (std::size_t k = 0; k < tree.points.size(); ++k)
     voxels[static_cast<std::size_t>(tree.points[k])] = tree.vertex_of_point[k];
@@ -135,14 +136,14 @@ std::map<std::string, py::object> segment_of(const segment::Segment& s) {
 
 std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& scene) {
   std::vector<std::map<std::string, py::object>> all;
-  for (const segment::Segment& s : scene.result.segments) all.push_back(segment_of(s));
+  for (const segment::Segment& s : scene.result.cut.segments) all.push_back(segment_of(s));
   return all;
 }
 
 /// The role of each surface and its plane, a x + b y + c z + d = 0.
 std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const SegmentedScene& scene) {
   std::vector<std::pair<std::string, std::array<double, 4>>> all;
-  for (const segment::SceneSurface& s : scene.result.surfaces) {
+  for (const segment::SceneSurface& s : scene.result.tree.surfaces) {
     const auto& [a, b, c] = s.plane.normal;
     all.emplace_back(segment::role_name(s.role), std::array{a, b, c, s.plane.offset});
   }
@@ -152,31 +153,31 @@ std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const Segmen
 py::dict facts(const SegmentedScene& scene) {
   const segment::Segmentation& s = scene.result;
   py::dict meta;
-  meta["method"] = std::string(segment::kMethodNames[static_cast<std::size_t>(s.method)]);
-  meta["voxel"] = s.voxel;
-  if (s.method == segment::Method::paper) {
-    meta["distance"] = s.distance;
-    meta["steps"] = s.steps == 0 ? py::cast("exact") : py::cast(s.steps);
+  meta["method"] = std::string(segment::kMethodNames[static_cast<std::size_t>(s.tree.method)]);
+  meta["voxel"] = s.tree.voxel;
+  if (s.tree.method == segment::Method::paper) {
+    meta["distance"] = s.tree.distance;
+    meta["steps"] = s.tree.steps == 0 ? py::cast("exact") : py::cast(s.tree.steps);
   }
-  meta["voxels"] = s.vertices.rows();
-  meta["edges"] = s.edges;
-  meta["viewpoint"] = py::tuple(py::cast(s.viewpoint));
-  if (s.plane) {
-    meta["plane"] =
-        py::make_tuple(s.plane->normal[0], s.plane->normal[1], s.plane->normal[2], s.plane->offset);
-    meta["plane_share"] = s.plane->share;
+  meta["voxels"] = s.tree.vertices.rows();
+  meta["edges"] = s.tree.edges;
+  meta["viewpoint"] = py::tuple(py::cast(s.tree.viewpoint));
+  if (s.tree.plane) {
+    meta["plane"] = py::make_tuple(s.tree.plane->normal[0], s.tree.plane->normal[1],
+                                   s.tree.plane->normal[2], s.tree.plane->offset);
+    meta["plane_share"] = s.tree.plane->share;
   } else {
     meta["plane_note"] = s.plane_note;
   }
   py::list noise;
-  for (const segment::NoiseAt& n : s.noise) noise.append(py::make_tuple(n.range, n.concavity));
+  for (const segment::NoiseAt& n : s.tree.noise) noise.append(py::make_tuple(n.range, n.concavity));
   meta["noise"] = py::tuple(noise);
-  meta["cut"] = s.first_cut.value;
-  if (s.method != segment::Method::paper) meta["min_part"] = s.first_cut.min_part;
-  meta["min_size"] = s.first_cut.min_size;
-  if (s.method == segment::Method::surface) {
-    meta["objects"] = s.first_cut.objects;
-    meta["min_seam"] = s.first_cut.min_seam;
+  meta["cut"] = s.tree.first_cut.value;
+  if (s.tree.method != segment::Method::paper) meta["min_part"] = s.tree.first_cut.min_part;
+  meta["min_size"] = s.tree.first_cut.min_size;
+  if (s.tree.method == segment::Method::surface) {
+    meta["objects"] = s.tree.first_cut.objects;
+    meta["min_seam"] = s.tree.first_cut.min_seam;
   }
   meta["checked"] = s.checked;
   return meta;
@@ -191,7 +192,7 @@ Bars barcode(const SegmentedScene& scene) {
 Bars signature(const SegmentedScene& scene, const std::vector<std::uint32_t>& labels,
                const RunOptions& options) {
   Bars bars = run(options, false, [&](const RunContext& context) {
-    return Bars{segment::signature(scene.result, scene.result, labels, context)};
+    return Bars{segment::signature(scene.result.tree, scene.result.cut, labels, context)};
   });
   bars.facts.max_dim = 2;
   return bars;
@@ -209,17 +210,17 @@ std::optional<std::pair<double, Vec3>> first_meeting(const SegmentedScene& scene
 std::string file_of(const SegmentedScene& scene, const std::string& format) {
   const segment::Segmentation& s = scene.result;
   const auto labels_as = [&](segment::LabelFormat how) {
-    return segment::label_bytes(s, s.labels, how);
+    return segment::label_bytes(s.tree, s.cut.labels, how);
   };
   if (format == "npy") return labels_as(segment::LabelFormat::npy);
   if (format == "png") return labels_as(segment::LabelFormat::png);
   if (format == "csv") return labels_as(segment::LabelFormat::csv);
-  if (format == "tree") return segment::tree_bytes(s);
-  if (format == "json") return segment::tree_json(s);
+  if (format == "tree") return segment::tree_bytes(s.tree);
+  if (format == "json") return segment::tree_json(s.tree);
   if (!scene.cloud() || (format != "pcd" && format != "ply"))
     throw Error(ErrorKind::internal, "a format that is none reached _core");
   return segment::cloud_bytes(
-      segment::with_labels(*scene.cloud(), s.labels),
+      segment::with_labels(*scene.cloud(), s.cut.labels),
       format == "pcd" ? segment::CloudFormat::pcd : segment::CloudFormat::ply);
 }
 
@@ -237,10 +238,10 @@ std::string svg(const SegmentedScene& scene, const RunOptions& options) {
     const segment::Segmentation& s = scene.result;
     const Cloud* cloud = scene.cloud();
     const std::vector<std::uint32_t> colours =
-        cloud ? segment::segment_colours(segment::neighbouring_segments(*cloud, s))
-              : segment::label_colours(s);
+        cloud ? segment::segment_colours(segment::neighbouring_segments(*cloud, s.cut))
+              : segment::label_colours(s.cut);
     return svg_plot(segment::with_legend(
-        segment::cloud_picture(cloud, s, s.labels, colours, {}, context), colours, {}));
+        segment::cloud_picture(cloud, s.tree, s.cut.labels, colours, {}, context), colours, {}));
   });
 }
 
@@ -250,7 +251,7 @@ using Tracked = std::tuple<std::uint32_t, std::string, std::array<std::uint32_t,
 
 /// The number, the role and the support (a surface or a segment) of each object.
 std::vector<Tracked> track(segment::LabelTracker& tracker, const SegmentedScene& scene) {
-  const std::vector<std::uint32_t> numbers = tracker.update(scene.result, scene.result);
+  const std::vector<std::uint32_t> numbers = tracker.update(scene.result.tree, scene.result.cut);
   std::vector<Tracked> objects;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const segment::Standing& standing = tracker.standings()[i];
@@ -318,23 +319,28 @@ void bind_segmentations(py::module_& m) {
       .def_property_readonly("labels", &labels)
       .def_property_readonly("voxel_of_point", &voxel_of_point)
       .def_property_readonly(
-          "centroids", [](const SegmentedScene& s) { return Block::of(Points(s.result.vertices)); })
+          "centroids",
+          [](const SegmentedScene& s) { return Block::of(Points(s.result.tree.vertices)); })
       .def_property_readonly(
-          "normals", [](const SegmentedScene& s) { return Block::of(Points(s.result.normals)); })
+          "normals",
+          [](const SegmentedScene& s) { return Block::of(Points(s.result.tree.normals)); })
       .def_property_readonly("counts",
                              [](const SegmentedScene& s) {
-                               return Block::of(std::vector<std::int64_t>(s.result.counts));
+                               return Block::of(std::vector<std::int64_t>(s.result.tree.counts));
                              })
-      .def_property_readonly(
-          "voxel_labels",
-          [](const SegmentedScene& s) { return Block::of(std::vector(s.result.vertex_labels)); })
+      .def_property_readonly("voxel_labels",
+                             [](const SegmentedScene& s) {
+                               return Block::of(std::vector(s.result.cut.vertex_labels));
+                             })
       .def_property_readonly("surfaces", &surfaces)
       .def_property_readonly("surface_labels",
                              [](const SegmentedScene& s) {
-                               return Block::of(s.result.surface_labels, raster_of(s.result));
+                               return Block::of(s.result.cut.surface_labels,
+                                                raster_of(s.result.tree));
                              })
       .def_property_readonly("segments", &segments)
-      .def_property_readonly("tree", [](const SegmentedScene& s) { return s.result.tree; })
+      .def_property_readonly("tree",
+                             [](const SegmentedScene& s) { return s.result.tree.merge_tree; })
       .def_property_readonly("barcode", &barcode)
       .def("cut", &cut, py::arg("value"), py::arg("min_part"), py::arg("min_size"),
            py::arg("objects"), py::arg("min_seam"), py::arg("run"))

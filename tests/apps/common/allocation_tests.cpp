@@ -302,7 +302,7 @@ TEST_F(Allocation, Segmentation) {
     check([&] {
       const Cloud cloud = segment::read_cloud(in("table.pcd"));
       const auto result = segment::segment(cloud, {.min_size = 1});
-      segment::write_cloud(out("labels.pcd"), cloud, result.labels);
+      segment::write_cloud(out("labels.pcd"), cloud, result.cut.labels);
     });
   }
 }

@@ -123,12 +123,12 @@ TEST_F(Program, LabelsAreTheSameInEveryFormat) {
   const Segmentation s = segment(CloudView{scene_.xyz(), {}});
   std::istringstream csv(contents(at("l.csv")));
   const Raster png = read_png(at("l.png"));
-  ASSERT_EQ(png.samples.size(), s.labels.size());
-  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+  ASSERT_EQ(png.samples.size(), s.cut.labels.size());
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     std::uint32_t label = 99;
     ASSERT_TRUE(csv >> label);
-    ASSERT_EQ(label, s.labels[i]);
-    ASSERT_EQ(png.samples[i], s.labels[i]);
+    ASSERT_EQ(label, s.cut.labels[i]);
+    ASSERT_EQ(png.samples[i], s.cut.labels[i]);
   }
 }
 

@@ -60,18 +60,18 @@ TEST(LabelTracker, LabelsAreNumbersAsTheyLike) {
 struct Frame : Segmentation {
   Frame(const Labels& drawn, std::vector<std::uint8_t> found, std::vector<Standing> standing,
         std::vector<Role> roles = {Role::wall}) {
-    width = static_cast<Index>(drawn.size() / 2);
-    height = 2;
-    labels = drawn;
-    surface_labels = std::move(found);
-    removed_with.resize(drawn.size());
-    removed = 1;
-    vertices = normals = Points(0, 3);
-    surfaces.push_back({Role::support, {}});
-    for (const Role role : roles) surfaces.push_back({role, {}});
+    tree.width = static_cast<Index>(drawn.size() / 2);
+    tree.height = 2;
+    cut.labels = drawn;
+    cut.surface_labels = std::move(found);
+    tree.removed_with.resize(drawn.size());
+    tree.removed = 1;
+    tree.vertices = tree.normals = Points(0, 3);
+    tree.surfaces.push_back({Role::support, {}});
+    for (const Role role : roles) tree.surfaces.push_back({role, {}});
     for (const Standing& s : standing) {
-      Segment& segment = segments.emplace_back();
-      segment.label = static_cast<std::uint32_t>(segments.size());
+      Segment& segment = cut.segments.emplace_back();
+      segment.label = static_cast<std::uint32_t>(cut.segments.size());
       segment.role = s.role;
       segment.on = s.on;
     }
@@ -86,7 +86,7 @@ TEST(LabelTracker, ARoleAndASupportChangeAfterThreeFramesThatSaySo) {
   const Frame stands(one, kNoWall, {kOnTable}), hidden(one, kNoWall, {kNowhere});
   LabelTracker tracker;
   const auto seen = [&](const Frame& frame) {
-    EXPECT_EQ(tracker.update(frame, frame), Labels{1});
+    EXPECT_EQ(tracker.update(frame.tree, frame.cut), Labels{1});
     return tracker.standings().front();
   };
   EXPECT_EQ(seen(hidden), kNowhere) << "there is nothing to hold on to in the first frame";
@@ -106,16 +106,16 @@ TEST(LabelTracker, AWallThatIsASegmentForAFrameIsStillAWall) {
   const Frame segment(both, kNoWall, {kOnTable, kNowhere}, {});
   LabelTracker tracker;
   const auto role_of_second = [&] {
-    EXPECT_EQ(tracker.update(segment, segment), (Labels{1, 2}));
+    EXPECT_EQ(tracker.update(segment.tree, segment.cut), (Labels{1, 2}));
     EXPECT_EQ(tracker.standings()[0], kOnTable);
     return tracker.standings()[1].role;
   };
-  EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  EXPECT_EQ(tracker.update(wall.tree, wall.cut), Labels{1});
   EXPECT_EQ(role_of_second(), Role::wall);
-  EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  EXPECT_EQ(tracker.update(wall.tree, wall.cut), Labels{1});
   for (int i = 0; i < 2; ++i) EXPECT_EQ(role_of_second(), Role::wall);
   EXPECT_EQ(role_of_second(), Role::unknown) << "the third frame in a row";
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(tracker.update(wall, wall), Labels{1});
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(tracker.update(wall.tree, wall.cut), Labels{1});
   EXPECT_EQ(role_of_second(), Role::unknown);
 }
 
@@ -124,9 +124,9 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsKnownByItsNumber) {
   const Frame all({1, 1, 2, 3, 1, 1, 2, 3}, kNoWall, {kOnTable, {Role::object, {0, 1}}, kOnTable});
   const Frame swapped({2, 2, 1, 3, 2, 2, 1, 3}, kNoWall, {kNowhere, kOnTable, kOnTable});
   LabelTracker tracker;
-  tracker.update(other, other);
-  EXPECT_EQ(tracker.update(all, all), (Labels{2, 3, 1}));
-  EXPECT_EQ(tracker.update(swapped, swapped), (Labels{3, 2, 1}));
+  tracker.update(other.tree, other.cut);
+  EXPECT_EQ(tracker.update(all.tree, all.cut), (Labels{2, 3, 1}));
+  EXPECT_EQ(tracker.update(swapped.tree, swapped.cut), (Labels{3, 2, 1}));
   EXPECT_EQ(tracker.standings().front(), (Standing{Role::object, {0, 2}}));
 }
 
@@ -135,14 +135,14 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Standing on_first{Role::object, {0, 1}}, on_second{Role::object, {0, 2}};
   const Frame first(stack, kNoWall, {kOnTable, on_first});
   LabelTracker tracker;
-  tracker.update(first, first);
-  // The labels swap. For one frame, the lower object appears to stand on the upper one.
+  tracker.update(first.tree, first.cut);
+  // The labels change places. What is below is seen as standing on what is above, for a frame.
   const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
-  EXPECT_EQ(tracker.update(wrong, wrong), (Labels{2, 1}));
+  EXPECT_EQ(tracker.update(wrong.tree, wrong.cut), (Labels{2, 1}));
   EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));
   // Its support is missing: then this frame decides.
   const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
-  EXPECT_EQ(tracker.update(alone, alone), Labels{2});
+  EXPECT_EQ(tracker.update(alone.tree, alone.cut), Labels{2});
   EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));
   // The same holds if the surface has become something else or disappeared.
   const Frame on_board({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {{Role::object, {2, 0}}},
@@ -151,8 +151,8 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame bare({1, 1, 0, 0, 1, 1, 0, 0}, kNoWall, {kOnTable}, {});
   for (const Frame* other : {&by_wall, &bare}) {
     LabelTracker fresh;
-    fresh.update(on_board, on_board);
-    fresh.update(*other, *other);
+    fresh.update(on_board.tree, on_board.cut);
+    fresh.update(other->tree, other->cut);
     EXPECT_EQ(fresh.standings().front(), kOnTable);
   }
 }
@@ -163,9 +163,9 @@ TEST(LabelTracker, VoxelsOfAnotherSizeShowTheSameObjects) {
   std::size_t frame = 0;
   for (const double voxel : {0.005, 0.0075, 0.01125, 0.006, 0.005}) {
     Segmentation s = segment(cloud, {.voxel = voxel, .min_part = 30});
-    s.width *= s.height, s.height = 1;
-    ASSERT_EQ(s.segments.size(), 2U);
-    EXPECT_EQ(tracker.update(s, s), (Labels{1, 2})) << frame++;
+    s.tree.width *= s.tree.height, s.tree.height = 1;
+    ASSERT_EQ(s.cut.segments.size(), 2U);
+    EXPECT_EQ(tracker.update(s.tree, s.cut), (Labels{1, 2})) << frame++;
   }
 }
 
@@ -179,12 +179,12 @@ TEST(LabelTracker, AMovingScene) {
                                   {{0.10, -0.05, 0}, {0.2 + more, 0.05, 0.1}}});
     const Cloud cloud = scene.cloud();
     Segmentation s = segment(cloud);
-    ASSERT_EQ(s.segments.size(), 2U);
-    const bool right_first = s.segments[0].centroid[0] > 0;
+    ASSERT_EQ(s.cut.segments.size(), 2U);
+    const bool right_first = s.cut.segments[0].centroid[0] > 0;
     const Labels expected = right_first ? Labels{2, 1} : Labels{1, 2};
-    EXPECT_EQ(pixels.update(s, s), expected) << frame;
-    s.width *= s.height, s.height = 1;  // as if it were not organised
-    EXPECT_EQ(voxels.update(s, s), expected) << frame;
+    EXPECT_EQ(pixels.update(s.tree, s.cut), expected) << frame;
+    s.tree.width *= s.tree.height, s.tree.height = 1;  // as if it were not organised
+    EXPECT_EQ(voxels.update(s.tree, s.cut), expected) << frame;
     EXPECT_TRUE(frame < 5 || right_first);
   }
 }

@@ -151,16 +151,16 @@ TEST(OrientedBox, OrderOfThePoints) {
 TEST(OrientedBox, OfBoxesOnATable) {
   const double pixel = 0.006;  // one at this range
   const Segmentation s = segment(CloudView{TableScene::two_boxes().xyz(), {}});
-  ASSERT_EQ(s.segments.size(), 2U);
+  ASSERT_EQ(s.cut.segments.size(), 2U);
   const std::array<Vec3, 2> sizes = {Vec3{0.12, 0.12, 0.12}, Vec3{0.1, 0.1, 0.1}};
   for (std::size_t i = 0; i < 2; ++i) {
-    const OrientedBox& box = s.segments[i].oriented_box;
+    const OrientedBox& box = s.cut.segments[i].oriented_box;
     expect_frame(box);
-    EXPECT_EQ(box.axes[2], s.plane->normal);
+    EXPECT_EQ(box.axes[2], s.tree.plane->normal);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(box.size[k], sizes[i][k], pixel);
     // It stands on the table.
     const auto& [x, y, z] = box.centre;
-    EXPECT_NEAR(s.plane->signed_distance(x, y, z) - box.size[2] / 2, 0, pixel);
+    EXPECT_NEAR(s.tree.plane->signed_distance(x, y, z) - box.size[2] / 2, 0, pixel);
   }
 }
 
@@ -168,8 +168,8 @@ TEST(OrientedBox, WithoutAPlaneAlongThePrincipalAxes) {
   const Eigen::Matrix3d frame = turned();
   const std::vector<float> xyz = box_points(frame, {0.3, 0.1, 0.05}, 60000);
   const Segmentation s = segment(CloudView{xyz, {}}, {.method = Method::paper, .plane = false});
-  ASSERT_EQ(s.segments.size(), 1U);
-  const OrientedBox& box = s.segments[0].oriented_box;
+  ASSERT_EQ(s.cut.segments.size(), 1U);
+  const OrientedBox& box = s.cut.segments[0].oriented_box;
   expect_frame(box);
   EXPECT_NEAR(std::abs(vector(box.axes[0]).dot(frame.col(0))), 1, 1e-3);
   EXPECT_NEAR(std::abs(vector(box.axes[2]).dot(frame.col(2))), 1, 1e-3);
@@ -185,16 +185,16 @@ TEST(Neighbours, AllThatTouchByTheValueAtWhichTheyDo) {
                           {{-0.15, 0.0, 0.06}, {-0.05, 0.1, 0.18}},
                           {{0.04, 0.0, 0.06}, {0.14, 0.1, 0.16}}});
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
-  ASSERT_EQ(s.segments.size(), 3U);
+  ASSERT_EQ(s.cut.segments.size(), 3U);
   std::size_t with_two = 0;
-  for (const Segment& g : s.segments) {
+  for (const Segment& g : s.cut.segments) {
     ASSERT_FALSE(g.neighbours.empty());
     with_two += g.neighbours.size() == 2;
     EXPECT_EQ(g.neighbour, g.neighbours[0].label);
     EXPECT_EQ(g.meets_at, g.neighbours[0].meets_at);
     EXPECT_TRUE(std::ranges::is_sorted(g.neighbours, {}, &Neighbour::meets_at));
     for (const Neighbour& n : g.neighbours) {
-      const auto& back = s.segments[n.label - 1].neighbours;
+      const auto& back = s.cut.segments[n.label - 1].neighbours;
       EXPECT_NE(std::ranges::find(back, Neighbour{g.label, n.meets_at}), back.end());
       // They join no later than where they touch.
       EXPECT_LE(first_meeting(s, g.label, n.label)->value, n.meets_at);
@@ -209,12 +209,12 @@ TEST(Neighbours, OfMethodPaperBelowItsDistance) {
       {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
   const Segmentation s =
       segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .distance = 0.06, .steps = 0});
-  EXPECT_TRUE(s.segments.at(0).neighbours.empty());
-  const SceneCut apart = cut(s, {.value = 0.03});
+  EXPECT_TRUE(s.cut.segments.at(0).neighbours.empty());
+  const SceneCut apart = cut(s.tree, {.value = 0.03});
   ASSERT_EQ(apart.segments.size(), 2U);
   ASSERT_EQ(apart.segments[0].neighbours.size(), 1U);
   EXPECT_EQ(apart.segments[0].neighbours[0].label, 2U);
-  EXPECT_EQ(apart.segments[0].meets_at, first_meeting(s, apart, 1, 2)->value);
+  EXPECT_EQ(apart.segments[0].meets_at, first_meeting(s.tree, apart, 1, 2)->value);
   EXPECT_NEAR(apart.segments[0].meets_at, 0.045, 0.01);
 }
 

@@ -51,13 +51,15 @@ TEST(Signature, TellsPiecesLoopsAndHollows) {
   {
     Shapes s;
     s.ball(0.03, middle, true);
-    EXPECT_EQ(counts(signature(s.segmented(), s.segmented(), std::vector{1U})), (Counts{1, 0, 0}));
+    const Segmentation found = s.segmented();
+    const Barcode bars = signature(found.tree, found.cut, std::vector{1U});
+    EXPECT_EQ(counts(bars), (Counts{1, 0, 0}));
   }
   {
     Shapes s;
     s.ball(0.05, middle, false);
     const Segmentation found = s.segmented();
-    const Barcode bars = signature(found, found, std::vector{1U});
+    const Barcode bars = signature(found.tree, found.cut, std::vector{1U});
     EXPECT_EQ(counts(bars), (Counts{1, 0, 1}));
     EXPECT_NEAR(bars.bars(2)[0].death, 0.05, 2 * kVoxel);
   }
@@ -65,7 +67,7 @@ TEST(Signature, TellsPiecesLoopsAndHollows) {
     Shapes s;
     s.torus(0.06, 0.02, middle);
     const Segmentation found = s.segmented();
-    const Barcode bars = signature(found, found, std::vector{1U});
+    const Barcode bars = signature(found.tree, found.cut, std::vector{1U});
     EXPECT_EQ(counts(bars), (Counts{1, 2, 1}));
     double shortest = kInfinity, longest = 0;
     for (const Bar& bar : bars.bars(1)) {
@@ -82,16 +84,16 @@ TEST(Signature, OfAGroupAndOfOneOfIt) {
   s.torus(0.06, 0.004, {0, 0, 1});  // too thin to be hollow
   s.ball(0.03, {0.3, 0, 1}, true);
   const Segmentation found = s.segmented();
-  ASSERT_EQ(found.segments.size(), 2U);
+  ASSERT_EQ(found.cut.segments.size(), 2U);
   std::size_t loops = 0;
-  for (const Segment& one : found.segments)
-    loops += signature(found, found, std::vector{one.label}).bars(1).size();
+  for (const Segment& one : found.cut.segments)
+    loops += signature(found.tree, found.cut, std::vector{one.label}).bars(1).size();
   EXPECT_EQ(loops, 1U);
-  const Barcode both = signature(found, found, std::vector{1U, 2U});
+  const Barcode both = signature(found.tree, found.cut, std::vector{1U, 2U});
   EXPECT_EQ(counts(both), (std::vector<std::size_t>{2, 1, 0}));
-  EXPECT_THROW(signature(found, found, std::vector{3U}), Error);
-  EXPECT_THROW(signature(found, found, std::vector{0U}), Error);
-  EXPECT_THROW(signature(found, found, std::vector<std::uint32_t>{}), Error);
+  EXPECT_THROW(signature(found.tree, found.cut, std::vector{3U}), Error);
+  EXPECT_THROW(signature(found.tree, found.cut, std::vector{0U}), Error);
+  EXPECT_THROW(signature(found.tree, found.cut, std::vector<std::uint32_t>{}), Error);
 }
 
 }  // namespace

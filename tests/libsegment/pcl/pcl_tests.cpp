@@ -39,9 +39,9 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   ASSERT_EQ(view.size(), cloud->size());
   EXPECT_EQ(view.point(cloud->size() - 1), &cloud->back().x);
   const auto organised = segment_cloud(*cloud);
-  EXPECT_EQ(organised.labels, expected.labels);
-  EXPECT_EQ(organised.width, scene.kWidth);
-  EXPECT_EQ(organised.height, scene.kHeight);
+  EXPECT_EQ(organised.cut.labels, expected.cut.labels);
+  EXPECT_EQ(organised.tree.width, scene.kWidth);
+  EXPECT_EQ(organised.tree.height, scene.kHeight);
 
   PersistenceSegmentation<TypeParam> segmentation;
   segmentation.setInputCloud(cloud);
@@ -49,9 +49,9 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   segmentation.segment(clusters);
   ASSERT_EQ(clusters.size(), 2U);
   for (std::size_t k = 0; k < clusters.size(); ++k) {
-    EXPECT_EQ(static_cast<Index>(clusters[k].indices.size()), expected.segments[k].points);
+    EXPECT_EQ(static_cast<Index>(clusters[k].indices.size()), expected.cut.segments[k].points);
     for (const auto i : clusters[k].indices) {
-      EXPECT_EQ(expected.labels[static_cast<std::size_t>(i)], k + 1);
+      EXPECT_EQ(expected.cut.labels[static_cast<std::size_t>(i)], k + 1);
     }
   }
   EXPECT_EQ(segmentation.getTree().width, scene.kWidth);
@@ -60,7 +60,7 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   EXPECT_EQ(labelled.width, cloud->width);
   EXPECT_EQ(labelled.height, cloud->height);
   for (std::size_t i = 0; i < labelled.size(); ++i) {
-    ASSERT_EQ(labelled[i].label, expected.labels[i]);
+    ASSERT_EQ(labelled[i].label, expected.cut.labels[i]);
   }
 }
 
@@ -79,7 +79,7 @@ TEST(PclAdapter, IndicesAndOptions) {
   segmentation.segment(clusters);
   ASSERT_EQ(clusters.size(), 1U);
   EXPECT_EQ(clusters[0].indices, *left);
-  EXPECT_EQ(segmentation.result().labels.size(), cloud->size());
+  EXPECT_EQ(segmentation.result().cut.labels.size(), cloud->size());
 }
 
 TEST(PclAdapter, NoCloudAndEmptyCloud) {
@@ -99,8 +99,8 @@ TEST(PclAdapter, ACloudWhoseRowsDoNotHoldItIsARow) {
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
   cloud->points.pop_back();  // past the cloud's width and height
   const auto s = segment_cloud(*cloud);
-  EXPECT_EQ(s.height, 1);
-  EXPECT_EQ(s.segments.size(), 2U);
+  EXPECT_EQ(s.tree.height, 1);
+  EXPECT_EQ(s.cut.segments.size(), 2U);
 }
 
 TEST(PclAdapter, ARunContextStopsAndBoundsIt) {
@@ -130,7 +130,7 @@ TEST(PclAdapter, TheSensorsOriginIsTheViewpoint) {
   cloud->width *= cloud->height;  // the rays of an organised cloud would tell the viewpoint
   cloud->height = 1;
   cloud->sensor_origin_[2] = 2.5F;  // below the table
-  EXPECT_TRUE(segment_cloud(*cloud, {.max_range = 5}).segments.empty());
+  EXPECT_TRUE(segment_cloud(*cloud, {.max_range = 5}).cut.segments.empty());
 }
 
 TEST(PclAdapter, EverySetterReachesItsOption) {
@@ -199,7 +199,7 @@ TEST(PclAdapter, WhatIsKnownOfTheSegments) {
   EXPECT_EQ(clusters[0].header.frame_id, "camera");
   const auto confidences = s.getConfidences();
   EXPECT_EQ(confidences[1], s.getSegments()[1].persistence);
-  EXPECT_GT(s.getTree().tree.size(), 0);
+  EXPECT_GT(s.getTree().merge_tree.size(), 0);
 
   ::pcl::ModelCoefficients plane;
   s.getPlane(plane);

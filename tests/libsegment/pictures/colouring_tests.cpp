@@ -20,9 +20,9 @@ struct Stripes {
     std::vector<float> xyz(static_cast<std::size_t>(6 * width) * k, 1.0F);
     cloud = test::cloud_of(xyz, width * static_cast<Index>(k), 2);
     for (Index i = 0; i < cloud.size(); ++i) {
-      segmentation.labels.push_back(static_cast<std::uint32_t>(i % cloud.width / width) + 1);
+      segmentation.cut.labels.push_back(static_cast<std::uint32_t>(i % cloud.width / width) + 1);
     }
-    segmentation.segments.resize(k);
+    segmentation.cut.segments.resize(k);
   }
   Cloud cloud;
   Segmentation segmentation;
@@ -30,9 +30,10 @@ struct Stripes {
 
 TEST(Colouring, NeighboursInTheImage) {
   const Stripes wide(3, 10);
-  EXPECT_EQ(neighbouring_segments(wide.cloud, wide.segmentation), (Neighbours{{1}, {0, 2}, {1}}));
+  EXPECT_EQ(neighbouring_segments(wide.cloud, wide.segmentation.cut),
+            (Neighbours{{1}, {0, 2}, {1}}));
   const Stripes narrow(3, 2);  // less than five pixels apart
-  EXPECT_EQ(neighbouring_segments(narrow.cloud, narrow.segmentation),
+  EXPECT_EQ(neighbouring_segments(narrow.cloud, narrow.segmentation.cut),
             (Neighbours{{1, 2}, {0, 2}, {0, 1}}));
 }
 
@@ -68,7 +69,7 @@ TEST(Colouring, NeighboursDiffer) {
 
 TEST(Colouring, ColouredCloudKeepsPointsAndLabels) {
   const Stripes stripes(2, 10);
-  std::vector<std::uint32_t> labels = stripes.segmentation.labels;
+  std::vector<std::uint32_t> labels = stripes.segmentation.cut.labels;
   labels[0] = 0;
   const Cloud out =
       coloured_cloud(stripes.cloud, labels, std::vector<std::uint32_t>{0x112233, 0xFF});
@@ -84,7 +85,7 @@ TEST(Colouring, ColouredCloudKeepsPointsAndLabels) {
 TEST(Colouring, PictureTintsAndOutlines) {
   const Stripes stripes(2, 10);
   const std::vector<std::uint32_t> colours = {0xFF0000, 0x0000FF};
-  const Raster raster = picture(stripes.cloud, stripes.segmentation.labels, colours);
+  const Raster raster = picture(stripes.cloud, stripes.segmentation.cut.labels, colours);
   EXPECT_EQ(raster.width, 20);
   EXPECT_EQ(raster.height, 2);
   EXPECT_EQ(raster.channels, 3);
@@ -94,7 +95,7 @@ TEST(Colouring, PictureTintsAndOutlines) {
   Cloud row = stripes.cloud;
   row.width *= row.height;
   row.height = 1;
-  EXPECT_THROW(picture(row, stripes.segmentation.labels, colours), Error);
+  EXPECT_THROW(picture(row, stripes.segmentation.cut.labels, colours), Error);
 }
 
 }  // namespace

@@ -161,22 +161,23 @@ TEST(ProjectionCentre, IsTakenWhereTheOptionsSayNothing) {
   const std::vector<float> xyz = TableScene::two_boxes().xyz();
   const Segmentation expected = segment(CloudView{xyz, {}, 320, 240});
   EXPECT_FALSE(expected.rays_meet_at);
-  ASSERT_EQ(expected.segments.size(), 2U);
+  ASSERT_EQ(expected.cut.segments.size(), 2U);
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Motion motion(seed);
     const std::vector<float> moved = motion.of(xyz);
     const CloudView view{moved, {}, 320, 240};
     const Segmentation s = segment(view);
     ASSERT_TRUE(s.rays_meet_at);
-    EXPECT_EQ(s.viewpoint, *s.rays_meet_at);
-    EXPECT_LT(distance(s.viewpoint, motion.sensor), 1e-3);
-    EXPECT_EQ(s.segments.size(), 2U);
+    EXPECT_EQ(s.tree.viewpoint, *s.rays_meet_at);
+    EXPECT_LT(distance(s.tree.viewpoint, motion.sensor), 1e-3);
+    EXPECT_EQ(s.cut.segments.size(), 2U);
     std::size_t other = 0;
-    for (std::size_t i = 0; i < s.labels.size(); ++i) other += s.labels[i] != expected.labels[i];
-    EXPECT_LT(other, s.labels.size() / 100) << seed;
+    for (std::size_t i = 0; i < s.cut.labels.size(); ++i)
+      other += s.cut.labels[i] != expected.cut.labels[i];
+    EXPECT_LT(other, s.cut.labels.size() / 100) << seed;
 
     const Segmentation obeys = segment(view, {.viewpoint = Vec3{0, 0, 0}});
-    EXPECT_EQ(obeys.viewpoint, (Vec3{0, 0, 0}));
+    EXPECT_EQ(obeys.tree.viewpoint, (Vec3{0, 0, 0}));
     EXPECT_EQ(obeys.rays_meet_at, s.rays_meet_at);
   }
 }

@@ -132,20 +132,21 @@ class TopDownScene {
 
 /// Checks that a stored tree is read back and cut to the same labels.
 inline void expect_read_back(const Segmentation& s) {
-  const std::string bytes = tree_bytes(s);
+  const std::string bytes = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(bytes, "scene.tree"));
-  EXPECT_EQ(cut(again, again.first_cut).labels, s.labels);
+  EXPECT_EQ(cut(again, again.first_cut).labels, s.cut.labels);
 }
 
 /// Segments the scene and compares the labels with the known answer.
 inline void expect_right(const TopDownScene& scene, Method method) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method});
-  ASSERT_TRUE(s.plane);
-  const double beside = 2 * s.voxel + 0.005;  // so far a box may win its base back from the table
+  ASSERT_TRUE(s.tree.plane);
+  const double beside =
+      2 * s.tree.voxel + 0.005;  // so far a box may win its base back from the table
   std::map<std::uint32_t, std::size_t> box_of_label;
   std::vector<std::map<std::uint32_t, Index>> labels_of_box(scene.box_count() + 1);
-  for (std::size_t i = 0; i < s.labels.size(); ++i) {
-    const std::uint32_t label = s.labels[i];
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
+    const std::uint32_t label = s.cut.labels[i];
     const std::size_t box = scene.truth()[i];
     if (box > 0) ++labels_of_box[box][label];
     if (label == 0) continue;

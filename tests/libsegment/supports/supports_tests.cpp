@@ -54,9 +54,9 @@ class Room {
   }
   /// The label that most points of a block have.
   std::uint32_t label_of(const Segmentation& s, int block) const {
-    std::vector<int> count(s.segments.size() + 1);
+    std::vector<int> count(s.cut.segments.size() + 1);
     for (std::size_t i = 0; i < met_.size(); ++i)
-      if (met_[i] == block) ++count[s.labels[i]];
+      if (met_[i] == block) ++count[s.cut.labels[i]];
     return static_cast<std::uint32_t>(std::ranges::max_element(count) - count.begin());
   }
   /// The share of the points of a block that are on a surface.
@@ -65,7 +65,7 @@ class Room {
     for (std::size_t i = 0; i < met_.size(); ++i) {
       if (met_[i] != block) continue;
       ++all;
-      on += s.surface_labels[i] == surface ? 1 : 0;
+      on += s.cut.surface_labels[i] == surface ? 1 : 0;
     }
     return on / all;
   }
@@ -99,27 +99,27 @@ void expect_direction(const Vec3& found, const Vec3& expected) {
 TEST(Surfaces, AWallIsNoObject) {
   const Room room({kTable, kLeft, kRight, kWall});
   const Segmentation s = room.segmented();
-  ASSERT_EQ(s.surfaces.size(), 2U);
-  EXPECT_EQ(s.removed, 1);
-  EXPECT_EQ(s.surfaces[0].role, Role::support);
-  EXPECT_EQ(s.surfaces[0].plane, *s.plane);
-  EXPECT_EQ(s.surfaces[1].role, Role::wall);
-  expect_direction(s.surfaces[1].plane.normal, {0, -1, 0});
-  EXPECT_NEAR(s.surfaces[1].plane.offset, 0.6, 0.005);
-  ASSERT_EQ(s.segments.size(), 2U);
+  ASSERT_EQ(s.tree.surfaces.size(), 2U);
+  EXPECT_EQ(s.tree.removed, 1);
+  EXPECT_EQ(s.tree.surfaces[0].role, Role::support);
+  EXPECT_EQ(s.tree.surfaces[0].plane, *s.tree.plane);
+  EXPECT_EQ(s.tree.surfaces[1].role, Role::wall);
+  expect_direction(s.tree.surfaces[1].plane.normal, {0, -1, 0});
+  EXPECT_NEAR(s.tree.surfaces[1].plane.offset, 0.6, 0.005);
+  ASSERT_EQ(s.cut.segments.size(), 2U);
   EXPECT_GT(room.share_on(s, 0, 1), 0.9);
   EXPECT_GT(room.share_on(s, 3, 2), 0.9);
-  for (const Segment& segment : s.segments) {
+  for (const Segment& segment : s.cut.segments) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // A wall in one cut is not a segment in another.
-  const std::string tree = tree_bytes(s);
+  // What is a wall in one cut is none of the segments of another.
+  const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
-  EXPECT_EQ(again.surfaces, s.surfaces);
+  EXPECT_EQ(again.surfaces, s.tree.surfaces);
   for (const double value : {0.3, 1.0, 4.0})
     EXPECT_EQ(cut(again, {.value = value, .objects = false}).segments.size(), 2U) << value;
-  EXPECT_EQ(cut(again, again.first_cut).surface_labels, s.surface_labels);
+  EXPECT_EQ(cut(again, again.first_cut).surface_labels, s.cut.surface_labels);
 }
 
 TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
@@ -128,18 +128,19 @@ TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
   const Room room({kTable, kLeft, sheet, {{-0.5, 1.2, -0.1}, {0.5, 1.22, 0.6}}});
   const Segmentation s = room.segmented();
   EXPECT_NE(room.label_of(s, 2), 0U);
-  EXPECT_EQ(std::ranges::count(s.surfaces, Role::wall, &SceneSurface::role), 1) << "far behind";
+  EXPECT_EQ(std::ranges::count(s.tree.surfaces, Role::wall, &SceneSurface::role), 1)
+      << "far behind";
   EXPECT_EQ(room.label_of(s, 3), 0U);
 }
 
 TEST(Surfaces, OnlyTheSurfaceMethodHasWalls) {
   const Room room({kTable, kLeft, kWall});
-  EXPECT_EQ(room.segmented({.method = Method::supervoxels}).surfaces.size(), 1U);
-  EXPECT_EQ(room.segmented({.method = Method::paper}).surfaces.size(), 1U);
+  EXPECT_EQ(room.segmented({.method = Method::supervoxels}).tree.surfaces.size(), 1U);
+  EXPECT_EQ(room.segmented({.method = Method::paper}).tree.surfaces.size(), 1U);
   const Segmentation all = room.segmented({.plane = false});
-  EXPECT_TRUE(all.surfaces.empty());
-  EXPECT_EQ(std::ranges::count(all.surface_labels, 0), std::ssize(all.surface_labels));
-  for (const Segment& segment : all.segments) EXPECT_EQ(segment.role, Role::unknown);
+  EXPECT_TRUE(all.tree.surfaces.empty());
+  EXPECT_EQ(std::ranges::count(all.cut.surface_labels, 0), std::ssize(all.cut.surface_labels));
+  for (const Segment& segment : all.cut.segments) EXPECT_EQ(segment.role, Role::unknown);
 }
 
 TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
@@ -147,16 +148,16 @@ TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
   const Block crate{{0.55, 0.1, -0.4}, {0.75, 0.3, -0.15}};
   const Room room({floor, table, crate, {{-0.1, -0.1, 0}, {0.05, 0.05, 0.1}}});
   const Segmentation s = room.segmented();
-  ASSERT_GE(s.surfaces.size(), 1U);
+  ASSERT_GE(s.tree.surfaces.size(), 1U);
   const std::uint32_t low = room.label_of(s, 2), high = room.label_of(s, 3);
   ASSERT_NE(low, 0U);
   ASSERT_NE(high, 0U);
   EXPECT_NE(low, high);
   // Whichever of the two has more points is the first.
   for (const auto& [block, label] : {std::pair{0, low}, std::pair{1, high}}) {
-    const std::uint32_t number = s.segments[label - 1].on.surface;
+    const std::uint32_t number = s.cut.segments[label - 1].on.surface;
     ASSERT_GE(number, 1U) << block;
-    EXPECT_EQ(s.surfaces[number - 1].role, Role::support);
+    EXPECT_EQ(s.tree.surfaces[number - 1].role, Role::support);
     EXPECT_GT(room.share_on(s, block, static_cast<int>(number)), 0.8) << block;
   }
 }
@@ -167,18 +168,18 @@ TEST(Surfaces, ALowerTableIsASecondSupport) {
   const Block box{{0.5, -0.1, -0.15}, {0.62, 0.02, -0.05}};
   const Room room({table, kLeft, lower, box});
   const Segmentation s = room.segmented();
-  ASSERT_EQ(s.surfaces.size(), 2U);
-  EXPECT_EQ(s.removed, 2);
-  EXPECT_NEAR(s.surfaces[1].plane.offset, 0.15, 0.005);
+  ASSERT_EQ(s.tree.surfaces.size(), 2U);
+  EXPECT_EQ(s.tree.removed, 2);
+  EXPECT_NEAR(s.tree.surfaces[1].plane.offset, 0.15, 0.005);
   EXPECT_GT(room.share_on(s, 2, 2), 0.8);
   const std::uint32_t label = room.label_of(s, 3);
   ASSERT_NE(label, 0U);
-  EXPECT_EQ(s.segments[label - 1].on, (StandsOn{2, 0}));
-  EXPECT_EQ(s.segments[room.label_of(s, 1) - 1].on, (StandsOn{1, 0}));
-  const std::string tree = tree_bytes(s);
+  EXPECT_EQ(s.cut.segments[label - 1].on, (StandsOn{2, 0}));
+  EXPECT_EQ(s.cut.segments[room.label_of(s, 1) - 1].on, (StandsOn{1, 0}));
+  const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(tree_bytes(again), tree);
-  EXPECT_EQ(cut(again, again.first_cut).segments, s.segments);
+  EXPECT_EQ(cut(again, again.first_cut).segments, s.cut.segments);
 }
 
 TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
@@ -189,14 +190,14 @@ TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
     const Segmentation s = room.segmented();
     const std::uint32_t of_board = room.label_of(s, 1), of_box = room.label_of(s, 2);
     ASSERT_NE(of_box, 0U) << width;
-    const StandsOn on = s.segments[of_box - 1].on;
+    const StandsOn on = s.cut.segments[of_box - 1].on;
     if (width > 0.5) {
       EXPECT_EQ(of_board, 0U);
-      ASSERT_EQ(s.surfaces.size(), 2U);
-      EXPECT_EQ(s.surfaces[1].role, Role::support);
+      ASSERT_EQ(s.tree.surfaces.size(), 2U);
+      EXPECT_EQ(s.tree.surfaces[1].role, Role::support);
       EXPECT_EQ(on, (StandsOn{2, 0}));
     } else {
-      EXPECT_EQ(s.surfaces.size(), 1U);
+      EXPECT_EQ(s.tree.surfaces.size(), 1U);
       EXPECT_EQ(on, (StandsOn{0, of_board}));
     }
   }
@@ -208,10 +209,10 @@ TEST(Surfaces, AStackStandsOnItsLowestBox) {
   const Room room({kTable, large, small});
   const Segmentation s = room.segmented();
   const std::uint32_t below = room.label_of(s, 1), above = room.label_of(s, 2);
-  ASSERT_EQ(s.segments.size(), 2U);
-  EXPECT_EQ(s.segments[below - 1].on, (StandsOn{1, 0}));
-  EXPECT_EQ(s.segments[above - 1].on, (StandsOn{0, below}));
-  EXPECT_EQ(s.segments[above - 1].role, Role::object);
+  ASSERT_EQ(s.cut.segments.size(), 2U);
+  EXPECT_EQ(s.cut.segments[below - 1].on, (StandsOn{1, 0}));
+  EXPECT_EQ(s.cut.segments[above - 1].on, (StandsOn{0, below}));
+  EXPECT_EQ(s.cut.segments[above - 1].role, Role::object);
 }
 
 TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
@@ -221,7 +222,7 @@ TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
       behind{{0.15, 0.0, 0}, {0.35, 0.12, 0.36}};
   const Room room({kTable, hanging, front, behind, beside});
   const Segmentation s = room.segmented();
-  const auto segment = [&](int block) { return s.segments.at(room.label_of(s, block) - 1); };
+  const auto segment = [&](int block) { return s.cut.segments.at(room.label_of(s, block) - 1); };
   for (const int block : {1, 2, 3}) EXPECT_EQ(segment(block).role, Role::object) << block;
   EXPECT_EQ(segment(1).on, StandsOn());
   EXPECT_EQ(segment(4).on, StandsOn());
@@ -233,14 +234,14 @@ TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
 TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
   const Room room({kTable, kLeft, kRight});
   const Segmentation alone = room.segmented();
-  Plane guess = *alone.plane;
+  Plane guess = *alone.tree.plane;
   guess.offset += 0.001;  // as far as noise moves it
   const Segmentation next = room.segmented({.plane_guess = guess});
-  EXPECT_EQ(next.labels, alone.labels);
-  EXPECT_NEAR(next.plane->offset, alone.plane->offset, 1e-4) << "it is fitted again";
-  // In another place, the search starts again.
+  EXPECT_EQ(next.cut.labels, alone.cut.labels);
+  EXPECT_NEAR(next.tree.plane->offset, alone.tree.plane->offset, 1e-4) << "it is fitted again";
+  // Somewhere else, it is looked for anew.
   guess.offset += 0.3;
-  EXPECT_EQ(room.segmented({.plane_guess = guess}).plane, alone.plane);
+  EXPECT_EQ(room.segmented({.plane_guess = guess}).tree.plane, alone.tree.plane);
   guess.normal = {1, 1, 0};
   EXPECT_THROW(room.segmented({.plane_guess = guess}), Error);
 }

@@ -129,7 +129,7 @@ std::vector<float> noisy_table(double noise) {
 }
 
 std::vector<NoiseAt> noise_of(const std::vector<float>& xyz, Method method = Method::surface) {
-  return segment(CloudView{xyz, {}}, {.method = method, .check = false}).noise;
+  return segment(CloudView{xyz, {}}, {.method = method, .check = false}).tree.noise;
 }
 
 TEST(NoiseOfScenes, DoublesWithThatOfTheSensor) {
@@ -157,7 +157,7 @@ TEST(NoiseOfScenes, IsLookedForByMethodSurfaceOnAPlane) {
   EXPECT_FALSE(noise_of(xyz).empty());
   EXPECT_TRUE(noise_of(xyz, Method::paper).empty());
   EXPECT_TRUE(noise_of(xyz, Method::supervoxels).empty());
-  EXPECT_TRUE(segment(CloudView{xyz, {}}, {.plane = false, .check = false}).noise.empty());
+  EXPECT_TRUE(segment(CloudView{xyz, {}}, {.plane = false, .check = false}).tree.noise.empty());
 }
 
 TEST(NoiseOfScenes, DoesNotDependOnTheOrderOfThePoints) {

@@ -28,12 +28,12 @@ TEST(Supervoxels, CoverWhatStandsOnTheTable) {
   const CloudView cloud{scene.xyz(), {}};
   const Segmentation objects = segment(cloud), pieces = segment(cloud, spaced(0.03));
   EXPECT_EQ(pieces.difference, "");
-  EXPECT_GT(pieces.segments.size(), 5 * objects.segments.size());
+  EXPECT_GT(pieces.cut.segments.size(), 5 * objects.cut.segments.size());
   std::map<std::uint32_t, std::set<std::uint32_t>> objects_of;
-  for (std::size_t i = 0; i < pieces.labels.size(); ++i) {
-    if (objects.labels[i] == 0) continue;
-    ASSERT_NE(pieces.labels[i], 0U);
-    objects_of[pieces.labels[i]].insert(objects.labels[i]);
+  for (std::size_t i = 0; i < pieces.cut.labels.size(); ++i) {
+    if (objects.cut.labels[i] == 0) continue;
+    ASSERT_NE(pieces.cut.labels[i], 0U);
+    objects_of[pieces.cut.labels[i]].insert(objects.cut.labels[i]);
   }
   for (const auto& [piece, found] : objects_of) EXPECT_EQ(found.size(), 1U) << piece;
 }
@@ -44,9 +44,9 @@ TEST(Supervoxels, AreNoLargerThanTheSpacingAllowsAndFewerWhereItIsLarge) {
   std::size_t before = SIZE_MAX;
   for (const double spacing : {0.02, 0.03, 0.05}) {
     const Segmentation s = segment(cloud, spaced(spacing));
-    EXPECT_LT(s.segments.size(), before);
-    before = s.segments.size();
-    for (const Segment& piece : s.segments)
+    EXPECT_LT(s.cut.segments.size(), before);
+    before = s.cut.segments.size();
+    for (const Segment& piece : s.cut.segments)
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_LT(piece.box.max[k] - piece.box.min[k], 4 * spacing) << piece.label;
   }
@@ -56,13 +56,13 @@ TEST(Supervoxels, ACoarserCutJoinsWholeOnes) {
   const TableScene scene = TableScene::two_boxes();
   const CloudView cloud{scene.xyz(), {}};
   const Segmentation fine = segment(cloud, spaced(0.02));
-  CutOptions options = fine.first_cut;
+  CutOptions options = fine.tree.first_cut;
   options.value = 0.02;
-  const SceneCut coarse = cut(fine, options);
-  EXPECT_LT(coarse.segments.size(), fine.segments.size());
+  const SceneCut coarse = cut(fine.tree, options);
+  EXPECT_LT(coarse.segments.size(), fine.cut.segments.size());
   std::map<std::uint32_t, std::uint32_t> whole;
-  for (std::size_t v = 0; v < fine.vertex_labels.size(); ++v)
-    EXPECT_EQ(whole.try_emplace(fine.vertex_labels[v], coarse.vertex_labels[v]).first->second,
+  for (std::size_t v = 0; v < fine.cut.vertex_labels.size(); ++v)
+    EXPECT_EQ(whole.try_emplace(fine.cut.vertex_labels[v], coarse.vertex_labels[v]).first->second,
               coarse.vertex_labels[v]);
 }
 
@@ -77,8 +77,8 @@ TEST(Supervoxels, SeedsAsDenseAsVoxelsTakeBoundedTime) {
   o.plane = o.check = false;
   const Segmentation s = segment(CloudView{xyz, {}}, o);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  std::cout << s.vertices.rows() << " voxels in " << took.count() << " s\n";
-  EXPECT_GT(s.vertices.rows(), 50000);
+  std::cout << s.tree.vertices.rows() << " voxels in " << took.count() << " s\n";
+  EXPECT_GT(s.tree.vertices.rows(), 50000);
   EXPECT_LT(took.count(), 20);
   o.spacing = 0.0049;
   EXPECT_THROW(segment(CloudView{xyz, {}}, o), Error);

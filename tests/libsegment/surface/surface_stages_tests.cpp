@@ -111,9 +111,9 @@ TEST(VoxelPairs, HugeVoxelsAreRefusedOrHoldAll) {
       EXPECT_EQ(failure(xyz, {}, {.method = method, .voxel = voxel}), ErrorKind::usage) << voxel;
     SegmentOptions huge{.method = method, .voxel = 1e30, .min_size = 1, .max_range = kInfinity};
     huge.spacing = 1e30;
-    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).vertices.rows(), 3);
+    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).tree.vertices.rows(), 3);
     huge.max_range = 2;
-    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).vertices.rows(), 1);
+    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).tree.vertices.rows(), 1);
   }
 }
 

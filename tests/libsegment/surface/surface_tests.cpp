@@ -26,9 +26,9 @@ using test::TableScene;
 void expect_blocks_apart(const TableScene& scene, const Segmentation& s, double share) {
   std::map<int, std::map<std::uint32_t, Index>> labels;
   std::map<int, Index> sizes;
-  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     if (scene.truth()[i] <= 0) continue;
-    ++labels[scene.truth()[i]][s.labels[i]];
+    ++labels[scene.truth()[i]][s.cut.labels[i]];
     ++sizes[scene.truth()[i]];
   }
   std::map<std::uint32_t, int> owner;
@@ -46,25 +46,25 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   const TableScene scene(
       {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
-  ASSERT_EQ(s.segments.size(), 2U);
+  ASSERT_EQ(s.cut.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.95);
   // They meet in the seam, and each says so.
-  EXPECT_EQ(s.segments[0].neighbour, 2U);
-  EXPECT_EQ(s.segments[1].neighbour, 1U);
-  EXPECT_EQ(s.segments[0].meets_at, s.segments[1].meets_at);
-  EXPECT_GT(s.segments[0].meets_at, 10);  // times the noise
-  EXPECT_GT(s.segments[1].persistence, 10);
-  EXPECT_LE(s.segments[1].persistence, s.segments[1].meets_at);
+  EXPECT_EQ(s.cut.segments[0].neighbour, 2U);
+  EXPECT_EQ(s.cut.segments[1].neighbour, 1U);
+  EXPECT_EQ(s.cut.segments[0].meets_at, s.cut.segments[1].meets_at);
+  EXPECT_GT(s.cut.segments[0].meets_at, 10);  // times the noise
+  EXPECT_GT(s.cut.segments[1].persistence, 10);
+  EXPECT_LE(s.cut.segments[1].persistence, s.cut.segments[1].meets_at);
   EXPECT_EQ(s.difference, "");
-  // By distance alone they are one segment.
-  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).segments.size(), 1U);
+  // By distance alone they are one.
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).cut.segments.size(), 1U);
 }
 
 TEST(Surface, AnObjectThatLeansOnAnotherComesApart) {
   const TableScene scene(
       {{{-0.1, 0.05, 0}, {0.1, 0.2, 0.2}}, {{-0.06, -0.1, 0}, {0.05, 0.05, 0.08}}});
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
-  ASSERT_EQ(s.segments.size(), 2U);
+  ASSERT_EQ(s.cut.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.95);
 }
 
@@ -73,15 +73,15 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
       {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
   const CloudView cloud{scene.xyz(), {}};
   const Segmentation s = segment(cloud);
-  const double persistence = s.segments[1].persistence;
-  EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).segments.size(), 1U);
-  // No place of the seam is lower; therefore it is not weak at half of that value.
-  EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).segments.size(), 2U);
-  EXPECT_EQ(segment(cloud, {.min_part = s.segments[1].voxels + 50}).segments.size(), 1U);
+  const double persistence = s.cut.segments[1].persistence;
+  EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).cut.segments.size(), 1U);
+  // No place of the seam is lower, so it is not weak for half of that.
+  EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).cut.segments.size(), 2U);
+  EXPECT_EQ(segment(cloud, {.min_part = s.cut.segments[1].voxels + 50}).cut.segments.size(), 1U);
   // The same from the tree that was stored.
-  const std::vector<Index> basins = s.tree.basins(1.01 * persistence, 200);
+  const std::vector<Index> basins = s.tree.merge_tree.basins(1.01 * persistence, 200);
   EXPECT_EQ(std::ranges::count(basins, basins[0]), static_cast<Index>(basins.size()));
-  const std::vector<Index> apart = s.tree.basins(0.99 * persistence, 200);
+  const std::vector<Index> apart = s.tree.merge_tree.basins(0.99 * persistence, 200);
   EXPECT_LT(std::ranges::count(apart, apart[0]), static_cast<Index>(apart.size()));
 }
 
@@ -91,9 +91,9 @@ TEST(Surface, WhereSegmentsMeetFirst) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
   const auto meeting = first_meeting(s, 1, 2);
   ASSERT_TRUE(meeting);
-  EXPECT_EQ(meeting->value, s.segments[0].meets_at);
+  EXPECT_EQ(meeting->value, s.cut.segments[0].meets_at);
   const auto& [x, y, z] = meeting->at;  // in the seam, on top of the lower box
-  EXPECT_NEAR(s.plane->signed_distance(x, y, z), 0.08, 0.01);
+  EXPECT_NEAR(s.tree.plane->signed_distance(x, y, z), 0.08, 0.01);
   EXPECT_FALSE(first_meeting(segment(CloudView{TableScene::two_boxes().xyz(), {}}), 1, 2));
   for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 3}, std::pair{2, 2}})
     EXPECT_THROW(first_meeting(s, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)),
@@ -102,8 +102,8 @@ TEST(Surface, WhereSegmentsMeetFirst) {
 
 TEST(Surface, SeparateObjectsMeetNobody) {
   const Segmentation s = segment(CloudView{TableScene::two_boxes().xyz(), {}});
-  ASSERT_EQ(s.segments.size(), 2U);
-  for (const Segment& g : s.segments) {
+  ASSERT_EQ(s.cut.segments.size(), 2U);
+  for (const Segment& g : s.cut.segments) {
     EXPECT_EQ(g.neighbour, 0U);
     EXPECT_EQ(g.meets_at, kInfinity);
     EXPECT_EQ(g.persistence, kInfinity);
@@ -118,17 +118,17 @@ TEST(Surface, FeetAreWonBackFromThePlane) {
   }
   const TableScene scene(blocks);
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
-  ASSERT_EQ(s.segments.size(), blocks.size());
+  ASSERT_EQ(s.cut.segments.size(), blocks.size());
   expect_blocks_apart(scene, s, 0.95);
   Index within = 0, won = 0, lost = 0;
-  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     const float* p = &scene.xyz()[3 * i];
-    const double height = s.plane->signed_distance(p[0], p[1], p[2]);
+    const double height = s.tree.plane->signed_distance(p[0], p[1], p[2]);
     if (scene.truth()[i] > 0 && height > 0.001 && height <= 0.005) {
       ++within;
-      won += s.labels[i] != 0;
+      won += s.cut.labels[i] != 0;
     }
-    lost += scene.truth()[i] == 0 && s.labels[i] != 0;
+    lost += scene.truth()[i] == 0 && s.cut.labels[i] != 0;
   }
   EXPECT_GT(within, 30);
   EXPECT_GT(static_cast<double>(won), 0.9 * static_cast<double>(within));
@@ -137,17 +137,17 @@ TEST(Surface, FeetAreWonBackFromThePlane) {
 
 TEST(Surface, CoarseSamplesGetLargerVoxels) {
   const TableScene scene = TableScene::two_boxes();
-  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).voxel, 0.005);
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).tree.voxel, 0.005);
   std::vector<float> xyz = scene.xyz();
   for (Index v = 0; v < scene.kHeight; ++v)
     for (Index u = 0; u < scene.kWidth; ++u)
       if (u % 4 != 0 || v % 4 != 0) xyz[3 * static_cast<std::size_t>(v * scene.kWidth + u)] = kHole;
   const Segmentation s = segment(CloudView{xyz, {}});
-  EXPECT_GT(s.voxel, 0.005);
-  EXPECT_LE(s.voxel, 0.026);
-  EXPECT_EQ(s.segments.size(), 2U);
-  // A requested size is used.
-  EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).voxel, 0.005);
+  EXPECT_GT(s.tree.voxel, 0.005);
+  EXPECT_LE(s.tree.voxel, 0.026);
+  EXPECT_EQ(s.cut.segments.size(), 2U);
+  // Who asks for a size gets it.
+  EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).tree.voxel, 0.005);
 }
 
 /// A strip of 10 x 140 mm, a point a millimetre, seen from 70 cm.
@@ -163,9 +163,9 @@ std::vector<float> strip(int times) {
 TEST(Surface, AThinThingAloneIsNotASparseSample) {
   for (const int times : {1, 3}) {
     const Segmentation s = segment(CloudView{strip(times), {}}, {.plane = false});
-    EXPECT_EQ(s.voxel, 0.005);
-    ASSERT_EQ(s.segments.size(), 1U);
-    EXPECT_EQ(s.segments[0].points, 1400 * times);
+    EXPECT_EQ(s.tree.voxel, 0.005);
+    ASSERT_EQ(s.cut.segments.size(), 1U);
+    EXPECT_EQ(s.cut.segments[0].points, 1400 * times);
   }
   // Points of a plane so far apart that they do not touch are sparse, be they there once or often.
   for (const int times : {1, 5}) {
@@ -174,12 +174,13 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
       xyz.insert(xyz.end(), {0.009F * static_cast<float>(i % 40),
                              0.009F * static_cast<float>(i / 40 % 40), 0.7F});
     const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false});
-    EXPECT_GT(s.voxel, 0.005);
-    EXPECT_EQ(s.segments.size(), 1U);
-    // Each stage is listed once, although the grid was made several times.
+    EXPECT_GT(s.tree.voxel, 0.005);
+    EXPECT_EQ(s.cut.segments.size(), 1U);
+    // Each stage once, though the grid was made more often.
     EXPECT_EQ(std::ranges::count(s.stages, "voxel grid", &Stage::name), 1);
     EXPECT_EQ(std::ranges::count(s.stages, "neighbours", &Stage::name), 1);
-    EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points, s.vertices.rows());
+    EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points,
+              s.tree.vertices.rows());
   }
 }
 
@@ -202,12 +203,12 @@ TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
   for (const double range : {0.3, 2.0}) {
     const Segmentation s =
         segment(CloudView{noisy_boxes(range, 0.004), {}}, {.max_range = 10, .check = false});
-    ASSERT_TRUE(s.plane) << range;
-    EXPECT_NEAR(s.plane->normal[1], -std::sqrt(0.5), 0.02) << range;
-    EXPECT_NEAR(s.plane->offset, range * std::sqrt(0.5), 0.003) << range;
+    ASSERT_TRUE(s.tree.plane) << range;
+    EXPECT_NEAR(s.tree.plane->normal[1], -std::sqrt(0.5), 0.02) << range;
+    EXPECT_NEAR(s.tree.plane->offset, range * std::sqrt(0.5), 0.003) << range;
     double table = 0, left_of_table = 0, high = 0, left_of_high = 0;
-    for (std::size_t i = 0; i < s.labels.size(); ++i) {
-      const bool kept = std::ranges::binary_search(s.points, static_cast<Index>(i));
+    for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
+      const bool kept = std::ranges::binary_search(s.tree.points, static_cast<Index>(i));
       const float* p = &scene.xyz()[3 * i];
       const double height = std::sqrt(0.5) * (1 - p[2] - p[1]) * range;  // without the noise
       table += scene.truth()[i] == 0;
@@ -225,12 +226,13 @@ TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
   // A sheet of four millimetres on the table, without noise.
   const TableScene scene(std::vector<test::Block>{{{-0.1, -0.1, 0}, {0.1, 0.1, 0.004}}});
   const CloudView cloud{scene.xyz(), {}};
-  EXPECT_TRUE(segment(cloud).segments.empty());
-  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.01}).segments.empty());
-  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002}).segments.size(), 1U);
-  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002, .plane_noise = 0}).segments.size(), 1U);
-  EXPECT_EQ(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.002}).segments.size(), 1U);
-  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.003}).segments.size() <=
+  EXPECT_TRUE(segment(cloud).cut.segments.empty());
+  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.01}).cut.segments.empty());
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002}).cut.segments.size(), 1U);
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002, .plane_noise = 0}).cut.segments.size(), 1U);
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.002}).cut.segments.size(),
+            1U);
+  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.003}).cut.segments.size() <=
               1U);
 }
 
@@ -245,7 +247,7 @@ TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
     for (std::size_t k = 0; k < 3; ++k) xyz[i + k] = static_cast<float>(factor * xyz[i + k]);
   }
   const Segmentation s = segment(CloudView{xyz, {}});
-  EXPECT_EQ(s.segments.size(), 2U);
+  EXPECT_EQ(s.cut.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.9);
 }
 
@@ -260,7 +262,7 @@ TEST(Surface, HalfABallIsOne) {
       xyz.push_back(static_cast<float>(0.8 - 0.08 * std::sin(a) * std::sin(b)));
     }
   }
-  EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).segments.size(), 1U);
+  EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).cut.segments.size(), 1U);
 }
 
 /// Specks of nine voxels with gaps between them, partly hiding a wall of specks behind: this gives
@@ -286,11 +288,11 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
   const auto start = Clock::now();
   const Segmentation s = segment(CloudView{xyz, {}}, o);
   const std::chrono::duration<double> took = Clock::now() - start;
-  std::cout << s.segments.size() << " segments in " << took.count() << " s\n";
-  EXPECT_GT(s.segments.size(), 200U);
-  CutOptions apart = s.first_cut;
+  std::cout << s.cut.segments.size() << " segments in " << took.count() << " s\n";
+  EXPECT_GT(s.cut.segments.size(), 200U);
+  CutOptions apart = s.tree.first_cut;
   apart.objects = false;
-  EXPECT_GT(cut(s, apart).segments.size(), 2000U) << "parts that are compared";
+  EXPECT_GT(cut(s.tree, apart).segments.size(), 2000U) << "parts that are compared";
   EXPECT_LT(took.count(), 20);
 
   // Joins also check for a stop: a request in the middle of them is noticed.
@@ -303,7 +305,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
     if (reached) source.request_stop();
   };
   try {
-    for (int again = 0; again < 1000; ++again) cut(s, s.first_cut, context);
+    for (int again = 0; again < 1000; ++again) cut(s.tree, s.tree.first_cut, context);
     ADD_FAILURE() << "did not stop";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::cancelled);
@@ -321,28 +323,29 @@ TEST(Objects, PartsOnBothSidesOfAnOccluderAreOne) {
   const TableScene scene = box_behind_post();
   const CloudView cloud{scene.xyz(), {}};
   const Segmentation parts = segment(cloud, {.objects = false});
-  EXPECT_EQ(parts.segments.size(), 3U);
+  EXPECT_EQ(parts.cut.segments.size(), 3U);
   const Segmentation objects = segment(cloud);
-  ASSERT_EQ(objects.segments.size(), 2U);
+  ASSERT_EQ(objects.cut.segments.size(), 2U);
   expect_blocks_apart(scene, objects, 0.95);
 }
 
 TEST(Objects, SmallPartsStayByThemselves) {
   const TableScene scene = box_behind_post();
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
-  const VoxelGrid grid{s.cells, s.vertices, s.counts, {}};
-  const Surface surface{s.normals, near_voxels(grid, s.voxel, default_context()), s.viewpoint,
-                        s.plane};
-  const std::vector<Index> parts = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
-  EXPECT_NE(join_parts(grid, surface, s.voxel, parts, s.first_cut.min_size), parts);
-  EXPECT_EQ(join_parts(grid, surface, s.voxel, parts, s.vertices.rows()), parts);
+  const VoxelGrid grid{s.tree.cells, s.tree.vertices, s.tree.counts, {}};
+  const Surface surface{s.tree.normals, near_voxels(grid, s.tree.voxel, default_context()),
+                        s.tree.viewpoint, s.tree.plane};
+  const std::vector<Index> parts =
+      s.tree.merge_tree.basins(s.tree.first_cut.value, s.tree.first_cut.min_part);
+  EXPECT_NE(join_parts(grid, surface, s.tree.voxel, parts, s.tree.first_cut.min_size), parts);
+  EXPECT_EQ(join_parts(grid, surface, s.tree.voxel, parts, s.tree.vertices.rows()), parts);
 }
 
 TEST(Objects, BoxesOfDifferentDepthBehindAnOccluderAreTwo) {
   const TableScene scene({{{-0.15, 0.1, 0}, {-0.005, 0.2, 0.12}},
                           {{0.005, 0.16, 0}, {0.15, 0.26, 0.15}},
                           {{-0.04, -0.12, 0}, {0.04, -0.06, 0.3}}});
-  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).segments.size(), 3U);
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).cut.segments.size(), 3U);
 }
 
 }  // namespace

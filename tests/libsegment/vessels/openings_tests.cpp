@@ -159,9 +159,9 @@ TEST(Openings, BoxesHaveNone) {
   const test::TableScene scene = test::TableScene::two_boxes();
   SegmentOptions options;
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, options);
-  EXPECT_EQ(s.segments.size(), 2U);
-  for (std::size_t i = 0; i < s.labels.size(); ++i)
-    ASSERT_FALSE(s.labels[i] != 0 && scene.truth()[i] == 0);
+  EXPECT_EQ(s.cut.segments.size(), 2U);
+  for (std::size_t i = 0; i < s.cut.labels.size(); ++i)
+    ASSERT_FALSE(s.cut.labels[i] != 0 && scene.truth()[i] == 0);
 }
 
 // ---- in a whole scene
@@ -170,14 +170,14 @@ TEST(OpeningsOfScenes, BottomsHaveTheLabelOfTheirVessel) {
   for (const double depth : {0.0, 0.03}) {
     const VesselScene scene({{.x = -0.15}, {.x = 0.15, .radius = 0.06, .height = 0.05}}, depth);
     const Segmentation s = segment(scene.cloud(), {});
-    ASSERT_EQ(s.segments.size(), 2U);
+    ASSERT_EQ(s.cut.segments.size(), 2U);
     std::size_t right = 0, wrong = 0;
-    for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
       if (scene.met()[i] == Met::table) {
         // The base of a wall may take a little of the table.
-        wrong += s.labels[i] != 0 && scene.xyz()[3 * i + 2] < 0.001 ? 1 : 0;
+        wrong += s.cut.labels[i] != 0 && scene.xyz()[3 * i + 2] < 0.001 ? 1 : 0;
       } else if (scene.met()[i] == Met::bottom) {
-        right += s.labels[i] == (scene.xyz()[3 * i] < 0 ? 1U : 2U) ? 1 : 0;
+        right += s.cut.labels[i] == (scene.xyz()[3 * i] < 0 ? 1U : 2U) ? 1 : 0;
       }
     }
     EXPECT_GT(right, 0.9 * static_cast<double>(scene.count(Met::bottom)));
@@ -189,8 +189,8 @@ TEST(OpeningsOfScenes, OnlyMethodSurfaceLooksThroughThem) {
   const VesselScene scene(Vessel{});
   for (const Method method : {Method::paper, Method::supervoxels}) {
     const Segmentation s = segment(scene.cloud(), {.method = method, .check = false});
-    for (std::size_t i = 0; i < s.labels.size(); ++i)
-      ASSERT_FALSE(s.labels[i] != 0 && scene.met()[i] == Met::bottom);
+    for (std::size_t i = 0; i < s.cut.labels.size(); ++i)
+      ASSERT_FALSE(s.cut.labels[i] != 0 && scene.met()[i] == Met::bottom);
   }
 }
 

@@ -108,10 +108,10 @@ inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& s
 /// order.
 inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentation& segmentation,
                                                         const ::pcl::PCLHeader& header = {}) {
-  std::vector<::pcl::PointIndices> surfaces(segmentation.surfaces.size());
+  std::vector<::pcl::PointIndices> surfaces(segmentation.tree.surfaces.size());
   for (::pcl::PointIndices& surface : surfaces) surface.header = header;
-  for (std::size_t i = 0; i < segmentation.surface_labels.size(); ++i) {
-    const std::uint8_t number = segmentation.surface_labels[i];
+  for (std::size_t i = 0; i < segmentation.cut.surface_labels.size(); ++i) {
+    const std::uint8_t number = segmentation.cut.surface_labels[i];
     if (number != 0) surfaces[number - 1U].indices.push_back(static_cast<::pcl::index_t>(i));
   }
   return surfaces;
@@ -271,37 +271,37 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     const segment::CloudView cloud =
         this->fake_indices_ ? cloud_view(*this->input_) : cloud_view(*this->input_, chosen);
     result_ = ph::segment::segment(cloud, options_, *context_);
-    clusters = point_indices(result_, this->input_->header);
+    clusters = point_indices(result_.cut, this->input_->header);
     this->deinitCompute();
   }
   /// A coarser or finer cut, within milliseconds, of the tree that the last call of `segment`
   /// found; the getters below then describe this cut. @param value see segment::CutOptions. @throws
   /// ph::Error (usage) on a value out of its range.
   void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
-    segment::CutOptions options = result_.first_cut;
+    segment::CutOptions options = result_.tree.first_cut;
     options.value = value;
     cut(options, clusters);
   }
   void cut(const segment::CutOptions& options, std::vector<::pcl::PointIndices>& clusters) {
-    static_cast<segment::SceneCut&>(result_) = ph::segment::cut(result_, options, *context_);
-    clusters = point_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
+    result_.cut = ph::segment::cut(result_.tree, options, *context_);
+    clusters = point_indices(result_.cut, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
 
   /// Everything that the last call found: segments with boxes and neighbours, the tree, times.
   const segment::Segmentation& result() const { return result_; }
-  const std::vector<segment::Segment>& getSegments() const { return result_.segments; }
-  /// The supports and walls, which are not segments; Segment::on names the support of a segment.
-  const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.surfaces; }
-  /// The points on each of these surfaces.
+  const std::vector<segment::Segment>& getSegments() const { return result_.cut.segments; }
+  /// Supports and walls, which are no segments; Segment::on says on which of them one stands.
+  const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.tree.surfaces; }
+  /// The points on each of them.
   std::vector<::pcl::PointIndices> getSurfaceIndices() const {
     return surface_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
-  /// The merge tree, with the data that other cuts need.
-  const segment::SceneTree& getTree() const { return result_; }
-  /// The persistence of each segment; infinite for a segment that touches no other.
+  /// The merge tree with what other cuts need.
+  const segment::SceneTree& getTree() const { return result_.tree; }
+  /// The persistence of each segment; infinite for one that touches no other.
   std::vector<double> getConfidences() const {
     std::vector<double> confidences;
-    for (const segment::Segment& s : result_.segments) confidences.push_back(s.persistence);
+    for (const segment::Segment& s : result_.cut.segments) confidences.push_back(s.persistence);
     return confidences;
   }
   /// The removed plane in the form of SACMODEL_PLANE: a x + b y + c z + d = 0. Empty if no plane
@@ -309,16 +309,16 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   void getPlane(::pcl::ModelCoefficients& coefficients) const {
     coefficients = ::pcl::ModelCoefficients();
     if (this->input_) coefficients.header = this->input_->header;
-    if (!result_.plane) return;
-    for (const double n : result_.plane->normal)
+    if (!result_.tree.plane) return;
+    for (const double n : result_.tree.plane->normal)
       coefficients.values.push_back(static_cast<float>(n));
-    coefficients.values.push_back(static_cast<float>(result_.plane->offset));
+    coefficients.values.push_back(static_cast<float>(result_.tree.plane->offset));
   }
   /// The box of a segment: its axes are the columns of `rotation`. @param i from 0, below the
   /// number of segments.
   void getOrientedBox(std::size_t i, Eigen::Vector3f& centre, Eigen::Matrix3f& rotation,
                       Eigen::Vector3f& size) const {
-    const segment::OrientedBox& box = result_.segments.at(i).oriented_box;
+    const segment::OrientedBox& box = result_.cut.segments.at(i).oriented_box;
     const auto vector = [](const segment::Vec3& v) -> Eigen::Vector3f {
       return Eigen::Vector3d(v[0], v[1], v[2]).cast<float>();
     };
@@ -330,13 +330,13 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// an input cloud.
   ::pcl::PointCloud<::pcl::PointXYZL> getLabeledCloud() const {
     if (!this->input_) return {};
-    return labelled_cloud(*this->input_, result_.labels);
+    return labelled_cloud(*this->input_, result_.cut.labels);
   }
   /// The input cloud with segments in their colours and the rest in grey. Empty without an input
   /// cloud.
   typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
     const auto coloured = ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>();
-    if (this->input_) *coloured = coloured_cloud(*this->input_, result_);
+    if (this->input_) *coloured = coloured_cloud(*this->input_, result_.cut);
     return coloured;
   }
 
