@@ -22,12 +22,13 @@ def has_page(program):
     return re.search("reports +built in", said) is not None
 
 
-class ProgramTest(unittest.TestCase):
+class FolderTest(unittest.TestCase):
+    """Each test has a folder of its own."""
+
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
         self.addCleanup(self._folder.cleanup)
         self.folder = self._folder.name
-        self.write("square.txt", SQUARE)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -41,6 +42,19 @@ class ProgramTest(unittest.TestCase):
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
+
+    def read_bytes(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+
+class ProgramTest(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.write("square.txt", SQUARE)
 
     def run_program(self, *arguments, **options):
         """Runs in the test's folder. Output is text unless text=False is given."""
@@ -66,9 +80,6 @@ class ProgramTest(unittest.TestCase):
         """Skips the rest of a subtest or test if reports are not built in."""
         if not has_page(PROGRAM):
             self.skipTest("reports are not built in")
-
-    def files(self):
-        return sorted(os.listdir(self.folder))
 
 
 def main():

@@ -186,8 +186,7 @@ class Alpha(ProgramTest):
             self.expect(0, "gap.txt", "--nan", "drop", "--complex", "alpha", "--alpha-values", "squared", *how, "-o",
                         "bars.json", "--representatives", "cycles", "--loops", "plain", "--quiet",
                         "--alpha-shape", "1=shape.ply")
-            with open(self.path("shape.ply"), "rb") as file:
-                _, numbers, triangles, _ = read_ply(file.read())
+            _, numbers, triangles, _ = read_ply(self.read_bytes("shape.ply"))
             self.assertEqual((numbers, len(triangles)), ([1, 2, 3, 4], 2))
             loop = json.loads(self.read("bars.json"))["bars"][-1]
             self.assertEqual((loop["birth"], loop["death"]), (0.25, 0.5))
@@ -207,8 +206,7 @@ class Alpha(ProgramTest):
         self.expect(0, "cloud.txt", "--complex", "alpha", "--quiet", "-o", "bars.csv",
                     "--alpha-shape", "2=shape.ply", "--alpha-shape", "10=hull.off",
                     "--wrap", "10=wrap.ply", "--alpha-shape", "1e-9=none.ply")
-        with open(self.path("shape.ply"), "rb") as file:
-            at, numbers, triangles, marks = read_ply(file.read())
+        at, numbers, triangles, marks = read_ply(self.read_bytes("shape.ply"))
         self.assertEqual(set(marks), {0})
         for place, point in zip(at, numbers):
             self.assertEqual(list(place), points[point])
@@ -219,12 +217,10 @@ class Alpha(ProgramTest):
         at, triangles = read_off(self.read("hull.off"))
         self.assertEqual(len(at) - len(triangles) / 2, 2)  # Euler's formula, 3 F = 2 E
         self.assertTrue(3.8 < volume(at, triangles) < 4.19)
-        with open(self.path("wrap.ply"), "rb") as file:
-            at, _, triangles, marks = read_ply(file.read())
+        at, _, triangles, marks = read_ply(self.read_bytes("wrap.ply"))
         self.assertTrue(0 < volume(at, [t for t, m in zip(triangles, marks) if not m]) < 4.19)
-        with open(self.path("none.ply"), "rb") as file:
-            self.assertEqual(read_ply(file.read()), ([], [], [], []))
-        # A written file is a mesh like any other.
+        self.assertEqual(read_ply(self.read_bytes("none.ply")), ([], [], [], []))
+        # A file that was written is a mesh, as any other.
         self.assertEqual(self.bars("hull.off", "--complex", "alpha", "--max-dim", "0")[-1][2], math.inf)
 
     def test_surfaces_of_a_batch(self):

@@ -26,8 +26,7 @@ class Formats(ProgramTest):
         return self.expect(0, name, *options).stdout
 
     def test_gzip(self):
-        with open(self.path("square.txt"), "rb") as file:
-            packed = gzip.compress(file.read())
+        packed = gzip.compress(self.read_bytes("square.txt"))
         self.assertEqual(self.bars("square.txt.gz", packed), SQUARE_CSV)
         run = self.run_program("-", stdin=None, input=packed, text=False)
         self.assertEqual(run.stdout.decode(), SQUARE_CSV)

@@ -6,38 +6,39 @@ import json
 import os
 import random
 import re
-import struct
 import sys
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
-from program import SQUARE, ProgramTest, main  # noqa: E402
+from program import SQUARE, ProgramTest, files, main  # noqa: E402
 
 
-def npy(shape, values, code, kind):
-    """The bytes of a NumPy file: version 1, C order."""
-    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape!r}, }}"
-    header += " " * (63 - (10 + len(header)) % 64) + "\n"
-    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() +
-            struct.pack(f"<{len(values)}{code}", *values))
+class PartsTest(ProgramTest):
+    OPTIONS = ()  # of all parts
+
+    def parts(self, data, count, *options, prefix="p"):
+        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
+        for i, name in enumerate(names, 1):
+            self.expect(0, data, *self.OPTIONS, "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
+        return names
+
+    def refused(self, names, words, output="bars.csv"):
+        """That these parts are not joined. @param words an expression"""
+        run = self.expect(65, "--join", *names, "-o", output, "--quiet")
+        self.assertRegex(run.stderr, words)
+        self.assertNotIn(output, self.files())
 
 
-class Parts(ProgramTest):
+class Parts(PartsTest):
     def image(self, rng, name, shape):
         count = 1
         for n in shape:
             count *= n
         if rng.random() < 0.5:
-            return self.write(name, npy(shape, [rng.randrange(6) for _ in range(count)], "B", "|u1"))
+            return self.write(name, files.array(shape, [rng.randrange(6) for _ in range(count)], "|u1"))
         inf = float("inf")
         values = [rng.choice((inf, -inf, 1.5, 0.25, rng.random())) for _ in range(count)]
-        return self.write(name, npy(shape, values, "f", "<f4"))
-
-    def parts(self, image, count, *options, prefix="p"):
-        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
-        for i, name in enumerate(names, 1):
-            self.expect(0, image, "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
-        return names
+        return self.write(name, files.array(shape, values, "<f4"))
 
     def join(self, rng, names):
         """Joins neighbours in random groups, until few are left, in a random order."""
@@ -103,8 +104,7 @@ class Parts(ProgramTest):
         second = self.parts(image, 2, "--max-dim", "0", "--slab-layers", "2", "--threads", "2",
                             "--memory-limit", "64MiB", prefix="q")
         for a, b in zip(first, second):
-            with open(self.path(a), "rb") as x, open(self.path(b), "rb") as y:
-                self.assertEqual(x.read(), y.read())
+            self.assertEqual(self.read_bytes(a), self.read_bytes(b))
 
     def test_what_does_not_belong_together_is_refused(self):
         rng = random.Random(4)
@@ -123,9 +123,7 @@ class Parts(ProgramTest):
         }
         for what, (names, word) in refused.items():
             with self.subTest(what):
-                run = self.expect(65, "--join", *names, "-o", "bars.csv", "--quiet")
-                self.assertRegex(run.stderr, word)
-                self.assertFalse(os.path.exists(self.path("bars.csv")))
+                self.refused(names, word)
         self.assertIn("no such", self.expect(66, "--join", p[0], "none.ph").stderr.lower())
         self.assertIn("--join", self.expect(65, p[0]).stderr)
 
@@ -133,8 +131,7 @@ class Parts(ProgramTest):
         rng = random.Random(5)
         image = self.image(rng, "image.npy", (4, 3))
         p = self.parts(image, 2)
-        with open(self.path(p[0]), "rb") as file:
-            whole = file.read()
+        whole = self.read_bytes(p[0])
         places = sorted(rng.sample(range(len(whole)), 40)) + [len(whole) - 1]
         for at in places:
             broken = bytearray(whole)
@@ -204,19 +201,13 @@ class Parts(ProgramTest):
         self.assertEqual(os.listdir(self.path("folder")), ["image.2of2.ph"])
 
 
-class Clouds(ProgramTest):
+class Clouds(PartsTest):
     OPTIONS = ("--complex", "rips", "--max-dim", "0")
 
     def cloud(self, rng, name, count, dim):
         ties = rng.random() < 0.5
         rows = [[rng.randrange(4) if ties else rng.random() for _ in range(dim)] for _ in range(count)]
         return self.write(name, "".join(",".join(map(repr, row)) + "\n" for row in rows))
-
-    def parts(self, cloud, count, *options, prefix="p"):
-        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
-        for i, name in enumerate(names, 1):
-            self.expect(0, cloud, *self.OPTIONS, "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
-        return names
 
     def test_the_same_bytes_as_one_process(self):
         rng = random.Random(11)
@@ -258,9 +249,7 @@ class Clouds(ProgramTest):
         for names, word in ((p[:2], "missing is part 3"), ([p[0], p[0], p[2]], "twice"),
                             ([p[0], o[1], p[2]], "other points or options"),
                             ([*p, "cloud.csv"], 'expected "ph part"')):
-            run = self.expect(65, "--join", *names, "-o", "bars.csv", "--quiet")
-            self.assertIn(word, run.stderr)
-            self.assertFalse(os.path.exists(self.path("bars.csv")))
+            self.refused(names, word)
         for options, word in ((("--complex", "rips"), "--max-dim 0"),
                               ((*self.OPTIONS, "--metric", "manhattan"), "euclidean"),
                               ((*self.OPTIONS, "--superlevel"), "--superlevel")):
@@ -281,7 +270,7 @@ class Clouds(ProgramTest):
         self.assertIn("computed again", self.expect(0, *again).stderr)
 
 
-class Batches(ProgramTest):
+class Batches(PartsTest):
     def setUp(self):
         super().setUp()
         rng = random.Random(8)
@@ -326,9 +315,7 @@ class Batches(ProgramTest):
         p = self.parts(3)
         for names, word in ((p[:2], "missing are 3"), ([*p, p[0]], "part 1 of 3 is there twice"),
                             ([p[0], self.parts(3, "--max-dim", "0", prefix="q")[1], p[2]], "options")):
-            run = self.expect(65, "--join", *names, "-o", "table.csv", "--quiet")
-            self.assertIn(word, run.stderr)
-            self.assertFalse(os.path.exists(self.path("table.csv")))
+            self.refused(names, word, output="table.csv")
         self.assertIn("--plot", self.expect(64, "in", "--part", "1/3", "--plot", "x.svg").stderr)
         self.assertIn("csv", self.expect(64, "--join", *p, "-o", "x.json").stderr)
         self.write("in/z.csv", "dim,birth,death\n0,0,1\n")

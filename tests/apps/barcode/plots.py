@@ -7,9 +7,9 @@ import struct
 import subprocess
 import sys
 import unittest
-import zlib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+import png_reader  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
 KINDS = ("barcode", "diagram", "betti", "tree")
@@ -17,56 +17,12 @@ WIDTH = 1040
 H0, H1, WHITE = (0x00, 0x72, 0xb2), (0xd5, 0x5e, 0x00), (255, 255, 255)
 
 
-def chunks(data):
-    """@return name and content of each chunk of a PNG, checksums compared."""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:8]
-    at, found = 8, []
-    while at < len(data):
-        size, name = struct.unpack(">I4s", data[at:at + 8])
-        content = data[at + 8:at + 8 + size]
-        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(name + content)
-        found.append((name, content))
-        at += 12 + size
-    assert found[-1] == (b"IEND", b"")
-    return found
-
-
 def pixels(data):
-    """@return width, and the pixels of an 8-bit RGB(A) PNG as rows of colours, by the letter."""
-    parts = chunks(data)
-    width, height, bits, kind = struct.unpack(">IIBB", dict(parts)[b"IHDR"][:10])
-    assert bits == 8 and kind in (2, 6), (bits, kind)
-    step = 3 if kind == 2 else 4
-    raw = zlib.decompress(b"".join(content for name, content in parts if name == b"IDAT"))
-    assert len(raw) == height * (width * step + 1)
-    rows, above = [], bytes(width * step)
-    for y in range(height):
-        start = y * (width * step + 1)
-        above = unfiltered(raw[start], raw[start + 1:start + 1 + width * step], above, step)
-        rows.append(list(zip(above[0::step], above[1::step], above[2::step])))
-    return width, rows
-
-
-def unfiltered(kind, line, above, step):
-    """@return what a row was before a PNG filter made it shorter."""
-    if not any(line) and kind in (2, 4):  # most rows are white: the one above once more
-        return above
-    if kind == 0:
-        return line
-    if kind == 2:
-        return bytes([(byte + up) & 255 for byte, up in zip(line, above)])
-    found = bytearray(step) + line  # and no pixel before the first
-    for i, (byte, up, corner) in enumerate(zip(line, above, bytes(step) + above)):
-        left = found[i]
-        if kind == 1:
-            guess = left
-        elif kind == 3:
-            guess = (left + up) // 2
-        else:
-            a, b, c = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
-            guess = left if a <= b and a <= c else up if b <= c else corner
-        found[i + step] = (byte + guess) & 255
-    return bytes(found[step:])
+    """@return width, and the pixels of an 8-bit RGB(A) PNG as rows of colours."""
+    (width, _, bits, colour), rows = png_reader.rows_of(data)
+    assert bits == 8 and colour in (2, 6), (bits, colour)
+    step = len(rows[0]) // width
+    return width, [list(zip(row[0::step], row[1::step], row[2::step])) for row in rows]
 
 
 def places(rows, colour):
@@ -101,21 +57,17 @@ class Png(ProgramTest):
         self.assertEqual(self.files(), ["square.txt"])
         self.skipTest("PNG plots are not built in, and refused")
 
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def test_every_kind(self):
         for kind in KINDS:
             with self.subTest(kind=kind):
                 run = self.expect(0, "square.txt", "--plot", "a.png", "--plot-kind", kind, "--plot", "b.PNG",
                                   "--output-format", "none", "--quiet")
                 self.assertEqual((run.stdout, run.stderr), ("", ""))
-                self.assertEqual(self.content("a.png"), self.content("b.PNG"))
-                self.assertLess(len(self.content("a.png")), 200_000)
+                self.assertEqual(self.read_bytes("a.png"), self.read_bytes("b.PNG"))
+                self.assertLess(len(self.read_bytes("a.png")), 200_000)
                 self.assertIn((b"pHYs", struct.pack(">IIB", 11811, 11811, 1)),
-                              chunks(self.content("a.png")))
-                width, rows = pixels(self.content("a.png"))
+                              png_reader.chunks(self.read_bytes("a.png")))
+                width, rows = pixels(self.read_bytes("a.png"))
                 self.assertEqual(width, WIDTH)
                 self.assertGreater(len(places(rows, H0)), 100)
                 self.assertEqual(len(places(rows, H1)) > 100, kind != "tree")
@@ -133,7 +85,7 @@ class Png(ProgramTest):
                             "--output-format", "none")
                 theirs = subprocess.run(["rsvg-convert", "-w", str(WIDTH), "a.svg"], cwd=self.folder,
                                        check=True, stdout=subprocess.PIPE).stdout
-                (width, mine), (other_width, theirs) = pixels(self.content("a.png")), pixels(theirs)
+                (width, mine), (other_width, theirs) = pixels(self.read_bytes("a.png")), pixels(theirs)
                 self.assertEqual(width, other_width)
                 self.assertLessEqual(abs(len(mine) - len(theirs)), 1)
                 for colour in (H0, H1):
@@ -150,7 +102,7 @@ class Png(ProgramTest):
             with self.subTest(kind=kind):
                 self.expect(0, "empty.txt", "--format", "points", "--allow-empty", "--plot", "e.png",
                             "--plot-kind", kind)
-                _, rows = pixels(self.content("e.png"))
+                _, rows = pixels(self.read_bytes("e.png"))
                 self.assertGreater(len({colour for row in rows for colour in row}), 2)
                 self.assertFalse(places(rows, H0))
 

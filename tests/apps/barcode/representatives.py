@@ -11,6 +11,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+import oracle  # noqa: E402
 from program import SQUARE, ProgramTest, files, main  # noqa: E402
 
 UPDATE = "--update" in sys.argv
@@ -23,38 +24,26 @@ TORUS = [tuple(sorted((v + a) % 7 for a in triangle)) for v in range(7)
 MATRIX = "0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"  # a triangle, in PHAT's text format
 
 
-def faces(simplex):
-    return {simplex[:i] + simplex[i + 1:]: (-1) ** i for i in range(len(simplex))
-            if len(simplex) > 1}
+def cells_of(filtration):
+    """Cells with value and boundary."""
+    return {cell: (value, dict(boundary)) for cell, (value, _, boundary) in filtration.items()}
 
 
 def torus():
-    """Cells with value and boundary: vertices at 0, edges at 1, triangles at 2."""
+    """Vertices at 0, edges at 1, triangles at 2."""
     simplices = {face for t in TORUS for k in (1, 2, 3) for face in itertools.combinations(t, k)}
-    return {s: (len(s) - 1, faces(s)) for s in sorted(simplices)}
+    return cells_of(oracle.simplicial({s: len(s) - 1 for s in sorted(simplices)}))
 
 
 def rips(text):
     points = [tuple(map(float, line.split())) for line in text.splitlines()]
-    return {s: (max([math.dist(points[i], points[j]) for i in s for j in s]), faces(s))
-            for k in (1, 2, 3) for s in itertools.combinations(range(len(points)), k)}
+    return cells_of(oracle.flag_filtration([0.0] * len(points), lambda i, j: math.dist(points[i], points[j]), 1))
 
 
 def image(rows):
     """The V-construction of an image, cells by doubled coordinates."""
-    cells = {}
-    for cell in itertools.product(range(2 * len(rows) - 1), range(2 * len(rows[0]) - 1)):
-        corners = itertools.product(*({x // 2, (x + 1) // 2} for x in cell))
-        boundary, sign = {}, 1
-        for axis in (0, 1):
-            if cell[axis] % 2:
-                for step in (1, -1):
-                    facet = list(cell)
-                    facet[axis] += step
-                    boundary[tuple(facet)] = sign * step
-                sign = -sign
-        cells[cell] = (max(rows[x][y] for x, y in corners), boundary)
-    return cells
+    voxels = {(x, y): value for x, row in enumerate(rows) for y, value in enumerate(row)}
+    return cells_of(oracle.cubical_filtration((len(rows), len(rows[0])), voxels))
 
 
 def matrix():

@@ -93,15 +93,13 @@ class Formats(ProgramTest):
 
     def test_dipha(self):
         self.expect(0, "square.txt", "-o", "out.dipha", "--threshold", "1.3")
-        with open(self.path("out.dipha"), "rb") as file:
-            data = file.read()
+        data = self.read_bytes("out.dipha")
         self.assertEqual(struct.unpack("<3q", data[:24]), (8067171840, 2, 5))
         self.assertEqual(struct.unpack("<q2d", data[-24:]), (-2, 1.25, 1.3))
 
     def test_npy(self):
         self.expect(0, "square.txt", "-o", "out.npy")
-        with open(self.path("out.npy"), "rb") as file:
-            data = file.read()
+        data = self.read_bytes("out.npy")
         length = struct.unpack("<H", data[8:10])[0]
         self.assertEqual((10 + length) % 64, 0)
         self.assertIn(b"(5, 3)", data[:10 + length])

@@ -64,9 +64,8 @@ class Stored(ProgramTest):
             for form in ("csv", "pers", "dipha", "npy"):
                 self.expect(0, "plot", f"bars.{source}", "-o", f"again.{form}", "--output-format",
                             form)
-                with open(self.path(f"again.{form}"), "rb") as a, \
-                        open(self.path(f"bars.{form}"), "rb") as b:
-                    self.assertEqual(a.read(), b.read(), (source, form))
+                self.assertEqual(self.read_bytes(f"again.{form}"), self.read_bytes(f"bars.{form}"),
+                                 (source, form))
 
     def test_json_keeps_what_it_says(self):
         def members(name):
@@ -250,8 +249,7 @@ class Stored(ProgramTest):
         self.expect(0, *draw, "--size", "640x480")
         self.assertIn('width="640" height="480"', self.read("x.svg"))
         self.expect(0, "plot", "bars.csv", "-o", "x.png", "--size", "640x480")
-        with open(self.path("x.png"), "rb") as file:
-            self.assertEqual(struct.unpack(">II", file.read()[16:24]), (640, 480))
+        self.assertEqual(struct.unpack(">II", self.read_bytes("x.png")[16:24]), (640, 480))
         for option, value in (("--size", "640"), ("--size", "0x1"), ("--size", "1x20000"),
                               ("--axis", "2,1"), ("--axis", "0,1,log"), ("--axis", "0"),
                               ("--axis", "0,inf"), ("--dims", "-1"), ("--dims", "x")):

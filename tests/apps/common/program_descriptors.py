@@ -5,36 +5,25 @@ kept."""
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from option_inputs_segment import HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
-from program import SQUARE, SQUARE_CSV  # noqa: E402
+from program import SQUARE, SQUARE_CSV, FolderTest  # noqa: E402
 
 BARCODE = DISTANCE = VECTORISE = SEGMENT = None
 OWN = range(3, 9)  # those that the programs open first
 
 
-class Descriptors(unittest.TestCase):
+class Descriptors(FolderTest):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self._folder.cleanup)
-        self.folder = self._folder.name
+        super().setUp()
         image = depths(36)
         for name, content in (("p.csv", SQUARE.encode()), ("a.csv", SQUARE_CSV.encode()),
                               ("b.csv", SQUARE_CSV.encode()), ("d.png", depth_png(image)),
                               ("s.pcd", pcd(list(points_of(image)), WIDTH, HEIGHT)),
                               ("m.off", b"OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n")):
-            with open(self.path(name), "wb") as file:
-                file.write(content)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def read(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
-            return file.read()
+            self.write(name, content)
 
     def run_in_folder(self, *arguments, **options):
         options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE} | options

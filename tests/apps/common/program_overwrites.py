@@ -5,39 +5,31 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
 from files import RGB, array, png  # noqa: E402
-from program import has_page  # noqa: E402
+from program import FolderTest, has_page  # noqa: E402
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
 ALIASES = ("{}", "./{}", "folder/../{}", "link-{}", "hard-{}")
 
 
-class Overwrites(unittest.TestCase):
+class Overwrites(FolderTest):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self._folder.cleanup)
-        self.folder = self._folder.name
-        os.mkdir(os.path.join(self.folder, "folder"))
+        super().setUp()
+        os.mkdir(self.path("folder"))
 
     def write(self, name, content):
         """A file, and other names for it."""
-        path = os.path.join(self.folder, name)
-        with open(path, "wb") as file:
-            file.write(content)
+        super().write(name, content)
+        path = self.path(name)
         folder, name = os.path.split(path)
         os.symlink(name, os.path.join(folder, "link-" + name))
         os.link(path, os.path.join(folder, "hard-" + name))
-
-    def read(self, name):
-        with open(os.path.join(self.folder, name), "rb") as file:
-            return file.read()
 
     def run_in_folder(self, *arguments, **options):
         return subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True,
@@ -45,13 +37,13 @@ class Overwrites(unittest.TestCase):
 
     def refused(self, program, option, files, *arguments):
         """Exit 64 that names the option; no file changes."""
-        before = {name: self.read(name) for name in files}
+        before = {name: self.read_bytes(name) for name in files}
         run = self.run_in_folder(program, *arguments)
         self.assertEqual(run.returncode, 64, (arguments, run.stderr))
         self.assertIn(option, run.stderr)
         self.assertEqual(run.stdout, "")
         for name, content in before.items():
-            self.assertEqual(self.read(name), content, arguments)
+            self.assertEqual(self.read_bytes(name), content, arguments)
 
     def test_ph_barcode(self):
         inputs = {"p.csv": POINTS, "w.csv": b"0\n0\n0\n0\n", "v.html": POINTS, "s.svg": POINTS}
@@ -78,7 +70,7 @@ class Overwrites(unittest.TestCase):
 
     def test_a_part_of_a_file_is_an_input(self):
         for name in ("scan.npz", "a.npz"):
-            path = os.path.join(self.folder, name)
+            path = self.path(name)
             with zipfile.ZipFile(path, "w") as archive:
                 for part in ("image", "x"):
                     archive.writestr(part + ".npy", array((2, 3), [0, 0, 1, 1, 0, 2]))
@@ -92,22 +84,22 @@ class Overwrites(unittest.TestCase):
                 ("--output", ["m.off", "--values", "hard-h.ply:height", "-o", "h.ply"]),
                 ("--output", ["--compare", "scan.npz:image", "a.npz:x", "-o", "a.npz"])):
             if "link.svg" in arguments:
-                os.symlink("scan.npz", os.path.join(self.folder, "link.svg"))
+                os.symlink("scan.npz", self.path("link.svg"))
             with self.subTest(arguments=arguments):
                 self.refused(BARCODE, option, ["scan.npz", "a.npz", "h.ply"], *arguments)
 
     def test_standard_input_is_an_input(self):
         self.write("p.csv", POINTS)
-        with open(os.path.join(self.folder, "p.csv"), "rb") as file:
+        with open(self.path("p.csv"), "rb") as file:
             run = self.run_in_folder(BARCODE, "-", "-o", "p.csv", stdin=file)
-        self.assertEqual((run.returncode, self.read("p.csv")), (64, POINTS))
+        self.assertEqual((run.returncode, self.read_bytes("p.csv")), (64, POINTS))
 
     def test_standard_output_is_an_output(self):
         self.write("p.csv", POINTS)
-        with open(os.path.join(self.folder, "p.csv"), "ab") as file:
+        with open(self.path("p.csv"), "ab") as file:
             run = subprocess.run([BARCODE, "p.csv"], cwd=self.folder, stdout=file,
                                  stderr=subprocess.PIPE, timeout=60)
-        self.assertEqual((run.returncode, self.read("p.csv")), (64, POINTS))
+        self.assertEqual((run.returncode, self.read_bytes("p.csv")), (64, POINTS))
 
     def test_standard_output_of_other_modes(self):
         bars = b"dim,birth,death\n0,0,1\n"
@@ -115,10 +107,10 @@ class Overwrites(unittest.TestCase):
         self.write("p.csv", POINTS)
         for name, content, arguments in (("a.csv", bars, ["--compare", "a.csv", "link-a.csv"]),
                                          ("p.csv", POINTS, ["p.csv", "--dry-run"])):
-            with open(os.path.join(self.folder, name), "ab") as file:
+            with open(self.path(name), "ab") as file:
                 run = subprocess.run([BARCODE, *arguments], cwd=self.folder, stdout=file,
                                      stderr=subprocess.PIPE, timeout=60)
-            self.assertEqual((run.returncode, self.read(name)), (64, content), run.stderr)
+            self.assertEqual((run.returncode, self.read_bytes(name)), (64, content), run.stderr)
 
     def test_two_outputs(self):
         self.write("p.csv", POINTS)
@@ -127,15 +119,15 @@ class Overwrites(unittest.TestCase):
                          "--output-format", "csv", "--plot", alias)
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
-        self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
-        # The folder does not exist yet.
+        self.assertFalse(os.path.exists(self.path("x.svg")))
+        # In a folder that is not there yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
                           ["-o", "new/*.svg", "--output-format", "csv", "--plot",
                            "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
-        self.assertFalse(os.path.exists(os.path.join(self.folder, "new")))
-        # A device that keeps nothing may be written twice.
+        self.assertFalse(os.path.exists(self.path("new")))
+        # What keeps nothing may be written twice.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
 
@@ -143,7 +135,7 @@ class Overwrites(unittest.TestCase):
         self.write("p.csv", POINTS)
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "p.csv", "--force")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertTrue(self.read("p.csv").startswith(b"dim,birth,death\n"))
+        self.assertTrue(self.read_bytes("p.csv").startswith(b"dim,birth,death\n"))
 
     def scene(self, *clouds):
         """The same scene as clouds, as a depth image, and the camera of that."""
@@ -190,14 +182,14 @@ class Overwrites(unittest.TestCase):
         self.scene("s.pcd", "folder/s.pcd")
         self.write_list("folder/s.pcd", "s.pcd")
         files = ("s.pcd", "folder/s.pcd", "list.txt")
-        with open(os.path.join(self.folder, "list.txt"), "rb") as opened:
+        with open(self.path("list.txt"), "rb") as opened:
             for source in (["--frames-from", "list.txt"], ["--frames-from", "-"]):
                 opened.seek(0)
-                before = {name: self.read(name) for name in files}
+                before = {name: self.read_bytes(name) for name in files}
                 run = self.run_in_folder(SEGMENT, *source, "-o", "*.pcd", stdin=opened)
                 self.assertEqual(run.returncode, 64, run.stderr)
                 self.assertIn("--output: s.pcd is an input, expected another file", run.stderr)
-                self.assertEqual(before, {name: self.read(name) for name in files}, source)
+                self.assertEqual(before, {name: self.read_bytes(name) for name in files}, source)
         for output in ("s.pcd", "hard-s.pcd", "list.txt"):
             self.refused(SEGMENT, "--json", files, "--frames-from", "list.txt", "--json", output)
 
@@ -205,14 +197,14 @@ class Overwrites(unittest.TestCase):
         self.scene("s.pcd", "t.pcd")
         frames = "t.pcd\ns.pcd\nt.pcd\n"
         for labels in ([], ["--labels", "out/"]):
-            before = self.read("s.pcd")
+            before = self.read_bytes("s.pcd")
             run = self.run_in_folder(SEGMENT, "--frames-from", "-", "--json", "hard-s.pcd", *labels,
                                      input=frames)
-            self.assertEqual((run.returncode, self.read("s.pcd")), (64, before), run.stderr)
+            self.assertEqual((run.returncode, self.read_bytes("s.pcd")), (64, before), run.stderr)
             self.assertIn("--json: hard-s.pcd is the input s.pcd", run.stderr)
         run = self.run_in_folder(SEGMENT, "--frames-from", "-", "--json", "s.pcd", "--force",
                                  input=frames)
-        self.assertEqual((run.returncode, self.read("s.pcd")[:1]), (0, b"{"), run.stderr)
+        self.assertEqual((run.returncode, self.read_bytes("s.pcd")[:1]), (0, b"{"), run.stderr)
 
     def test_the_json_of_all_frames_is_a_file_of_its_own(self):
         self.scene("a.pcd", "b.pcd")
@@ -223,19 +215,19 @@ class Overwrites(unittest.TestCase):
 
     def test_text_of_ph_segment(self):
         self.scene("s.pcd")
-        before = self.read("s.pcd")
+        before = self.read_bytes("s.pcd")
         for arguments in ([], ["--explain", "1,2"], ["--json", "-"], ["hard-s.pcd", "--json", "-"]):
-            with open(os.path.join(self.folder, "s.pcd"), "ab") as file:
+            with open(self.path("s.pcd"), "ab") as file:
                 run = subprocess.run([SEGMENT, "s.pcd", *arguments], cwd=self.folder, stdout=file,
                                      stderr=subprocess.PIPE, text=True, timeout=60)
-            self.assertEqual((run.returncode, self.read("s.pcd")), (64, before), arguments)
+            self.assertEqual((run.returncode, self.read_bytes("s.pcd")), (64, before), arguments)
             self.assertIn("standard output is the input", run.stderr)
 
     def test_a_star_stands_for_the_name_of_one_input_too(self):
         self.scene("s.pcd")
         run = self.run_in_folder(SEGMENT, "s.pcd", "-o", "out/*.pcd", "--labels", "out/*.npy")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "out"))), ["s.npy", "s.pcd"])
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["s.npy", "s.pcd"])
 
     def test_force_is_not_needed(self):
         self.scene("s.pcd", "t.pcd")

@@ -128,8 +128,7 @@ class Results(ProgramTest):
         self.assertEqual(self.out(*self.bars, "--dim", "1", "--matrix", "-"), self.read("m.csv"))
         self.assertEqual(self.out(*self.bars, "--dim", "1", "--matrix", "m.npy", "--output-format", "text"),
                          self.out(*self.bars, "--dim", "1"))
-        with open(self.path("m.npy"), "rb") as file:
-            content = file.read()
+        content = self.read_bytes("m.npy")
         start = 10 + struct.unpack("<H", content[8:10])[0]
         self.assertEqual(eval(content[10:start]),  # as NumPy does
                          {"descr": "<f8", "fortran_order": False, "shape": (4, 4)})

@@ -80,8 +80,7 @@ class Reports(ReportTest):
         self.assertEqual(p["command"],
                          ["ph-barcode", "square.txt", "--threads", "1", "--field", "3",
                           "--max-dim", "1", "--report", "r.html", "--quiet"])
-        with open(self.path("square.txt"), "rb") as file:
-            self.assertEqual(p["input"]["sha256"], hashlib.sha256(file.read()).hexdigest())
+        self.assertEqual(p["input"]["sha256"], hashlib.sha256(self.read_bytes("square.txt")).hexdigest())
         self.assertIn("4 points in R^2", p["input"]["description"])
         self.assertEqual((p["complex"], p["field"], p["max_dim"]), ("rips", 3, 1))
         self.assertIn("persistence", p["timings"])

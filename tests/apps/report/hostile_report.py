@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reports, plots and JSON of inputs whose names, titles and strings try to be code: the page has
-the same elements as any other page, and the pictures are XML."""
-import html.parser
+"""Reports, plots and JSON of inputs whose names, titles and strings would like to be code: the page
+has the elements of any other page, and the pictures are XML."""
 import json
 import os
 import sys
@@ -9,6 +8,7 @@ import xml.dom.minidom
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from program import main  # noqa: E402
+from report_reader import Elements  # noqa: E402
 from report_test import ReportTest  # noqa: E402
 
 STRINGS = {
@@ -33,36 +33,11 @@ STRINGS = {
 ESCAPED = r'</script>\u2028\u0000\ud800\udc00\ud800x\u202e<!--<script>\u001b\"\\'
 
 
-class Elements(html.parser.HTMLParser):
-    """The structure of a page: tags with the names of their attributes, and the text of each
-    script."""
-
-    def __init__(self, text):
-        super().__init__(convert_charrefs=False)
-        self.tags, self.scripts, self.inside = [], [], False
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag, attributes):
-        self.tags.append((tag, tuple(name for name, _ in attributes)))
-        self.inside = tag == "script"
-        if self.inside:
-            self.scripts.append("")
-
-    def handle_endtag(self, tag):
-        self.inside = self.inside and tag != "script"
-
-    def handle_data(self, data):
-        if self.inside:
-            self.scripts[-1] += data
-
-
 class HostileStrings(ReportTest):
     def look(self, arguments, same_as=None):
         """Runs with all outputs. @return the elements of the page."""
         self.expect(0, *arguments, "--report", "r.html", "--plot", "p.svg", "-o", "o.json", "--quiet")
-        with open(self.path("r.html"), "rb") as file:
-            page = file.read()
+        page = self.read_bytes("r.html")
         text = page.decode("utf-8")
         self.assertFalse([c for c in set(text) if ord(c) < 32 and c not in "\n\t"])
         elements = Elements(text)
@@ -71,13 +46,12 @@ class HostileStrings(ReportTest):
                       "require-trusted-types-for 'script'"):
             self.assertIn(words, text)
         self.assertNotIn("unsafe", text[:text.index("<style")])
-        json.loads(elements.scripts[0])  # the metadata, and not a letter more
+        json.loads(elements.scripts[0][1])  # the metadata, and not a letter more
         xml.dom.minidom.parse(self.path("p.svg"))
-        with open(self.path("o.json"), "rb") as file:
-            json.loads(file.read().decode("utf-8"))
+        json.loads(self.read_bytes("o.json").decode("utf-8"))
         if same_as is not None:
             self.assertEqual(elements.tags, same_as.tags)
-            self.assertEqual(elements.scripts[-1], same_as.scripts[-1])  # what runs
+            self.assertEqual(elements.scripts[-1][1], same_as.scripts[-1][1])  # what runs
         return elements
 
     def test_names_and_titles(self):

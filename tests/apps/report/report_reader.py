@@ -11,24 +11,29 @@ TYPES = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "i32": "i", "
 NONE = 2 ** 32 - 1
 
 
-class _Elements(html.parser.HTMLParser):
-    """The scripts of a page, as a browser sees them: (attributes, text)."""
+class Elements(html.parser.HTMLParser):
+    """What a page is made of, as a browser sees it: tags with the names of their attributes; scripts,
+    (attributes, text)."""
 
-    def __init__(self):
+    def __init__(self, text):
         super().__init__(convert_charrefs=False)
-        self.scripts, self.inside = [], False
+        self.tags, self._pieces, self.inside = [], [], False
+        self.feed(text)
+        self.close()
+        self.scripts = [(attributes, "".join(pieces)) for attributes, pieces in self._pieces]
 
     def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, tuple(name for name, _ in attributes)))
         self.inside = tag == "script"
         if self.inside:
-            self.scripts.append((dict(attributes), []))
+            self._pieces.append((dict(attributes), []))
 
     def handle_endtag(self, tag):
         self.inside = self.inside and tag != "script"
 
     def handle_data(self, data):
         if self.inside:
-            self.scripts[-1][1].append(data)
+            self._pieces[-1][1].append(data)
 
 
 class Array:
@@ -73,11 +78,8 @@ class Report:
     def __init__(self, path):
         with open(path, encoding="utf-8", newline="") as file:
             self.text = file.read()
-        elements = _Elements()
-        elements.feed(self.text)
         self.meta, self.arrays = None, {}
-        for attributes, pieces in elements.scripts:
-            text = "".join(pieces)
+        for attributes, text in Elements(self.text).scripts:
             if attributes.get("id") == "ph-meta":
                 assert self.meta is None and attributes["type"] == "application/json"
                 assert "<" not in text

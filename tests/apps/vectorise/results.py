@@ -199,8 +199,7 @@ class Results(ProgramTest):
             self.expect(0, "a.csv", "b.csv", "--kind", kind, "-o", "x.npy", "--quiet")
             content = self.run_program("a.csv", "b.csv", "--kind", kind, "--output-format", "npy",
                                        text=False).stdout
-            with open(self.path("x.npy"), "rb") as file:
-                self.assertEqual(content, file.read())
+            self.assertEqual(content, self.read_bytes("x.npy"))
             self.assertEqual(content[:8], b"\x93NUMPY\x01\x00")
             start = 10 + struct.unpack("<H", content[8:10])[0]
             self.assertEqual(start % 64, 0)

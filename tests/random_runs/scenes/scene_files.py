@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 
 import files
+import png_reader
 
 
 PLY_TYPES = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint",
@@ -242,30 +243,9 @@ def read_labels(content, name, count, shape):
 
 
 def read_grey_png(content):
-    """16 bits of grey, by the definition of PNG."""
-    at, data, columns, rows = 8, b"", 0, 0
-    while at < len(content):
-        length, kind = struct.unpack_from(">I4s", content, at)
-        chunk = content[at + 8:at + 8 + length]
-        at += 12 + length
-        if kind == b"IHDR":
-            columns, rows, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", chunk)
-            assert (bits, colour, interlaced) == (16, 0, 0), (bits, colour, interlaced)
-        data += chunk if kind == b"IDAT" else b""
-    lines = np.frombuffer(zlib.decompress(data), "u1").reshape(rows, 1 + 2 * columns).astype(int)
-    done = np.zeros((rows + 1, 2 * columns + 2), int)  # a row above and a pixel to the left of zeros
-    for r, line in enumerate(lines):
-        kind, raw = line[0], line[1:]
-        for k, value in enumerate(raw.tolist()):
-            left, up, corner = done[r + 1, k], done[r, k + 2], done[r, k]
-            if kind == 4:
-                guess = left + up - corner
-                nearest = min((abs(guess - v), i) for i, v in enumerate((left, up, corner)))[1]
-                predicted = (left, up, corner)[nearest]
-            else:
-                predicted = (0, left, up, (left + up) // 2)[kind]
-            done[r + 1, k + 2] = (value + predicted) % 256
-    return done[1:, 2::2] * 256 + done[1:, 3::2]
+    (columns, rows, bits, colour), lines = png_reader.rows_of(content)
+    assert (bits, colour) == (16, 0), (bits, colour)
+    return np.frombuffer(b"".join(lines), ">u2").reshape(rows, columns).astype(int)
 
 
 def lzf_unpacked(packed):
