@@ -8,7 +8,7 @@
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 
 namespace ph::test {
@@ -235,8 +235,7 @@ TEST(LowerStars, RefuseWhatHasNoValue) {
 // ---- graphs
 
 TEST(FilteredGraphs, AreLowerStarsWithoutTheComplex) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Generator random(seed);
+  for_each_seed(100, [&](Generator& random) {
     const SparseDistances graph = random.sparse(random.integer(0, 9), true, 0.4);
     std::vector<double> values(static_cast<std::size_t>(graph.size()));
     for (double& v : values) v = random.value(random.coin());
@@ -244,7 +243,7 @@ TEST(FilteredGraphs, AreLowerStarsWithoutTheComplex) {
     EXPECT_EQ(
         bars_of(persistence(FilteredGraph::lower_star(values, graph.edges()), {.max_dim = 0})),
         bars_of(expected));
-  }
+  });
 }
 
 TEST(FilteredGraphs, RefuseWhatIsNoFilteredGraph) {

@@ -55,9 +55,7 @@ Image image_of_type(Generator& random, const std::vector<Index>& extents) {
 
 TEST(Gradient, AgreeWithTheOracleCellByCell) {
   std::size_t longer = 0;
-  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(1500, [&](Generator& random) {
     const std::vector<Index> extents = random_extents(random, 3);
     const int axes = static_cast<int>(extents.size());
     CubicalOptions options = random.cubical_options(axes);
@@ -74,15 +72,13 @@ TEST(Gradient, AgreeWithTheOracleCellByCell) {
       ASSERT_EQ(found, bars(Engine::standard));
       longer += found.size();
     }
-  }
+  });
   EXPECT_TRUE(is_enough(longer, std::size_t{3000})) << longer;
 }
 
 // Larger images against the boundary matrix: loops with long boundaries, columns that are added.
 TEST(Gradient, AgreeOnLargerVolumes) {
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(24, [&](Generator& random) {
     const std::vector<Index> extents{random.integer(10, 16), random.integer(10, 16),
                                      random.integer(10, 16)};
     const Cubical cubical(image_of_type(random, extents), random.cubical_options(3));
@@ -91,14 +87,12 @@ TEST(Gradient, AgreeOnLargerVolumes) {
       return pairs_of(persistence(cubical, {.field = field, .engine = engine}));
     };
     ASSERT_EQ(bars(Engine::gradient), bars(Engine::twist));
-  }
+  });
 }
 
 // Few critical cells: arrows are followed on demand, not all at once.
 TEST(Gradient, AgreeOnSmoothImages) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(40, [&](Generator& random) {
     const bool flat = random.coin();
     const std::vector<Index> extents =
         flat ? std::vector<Index>{90, 100} : std::vector<Index>{17, 18, 19};
@@ -123,15 +117,13 @@ TEST(Gradient, AgreeOnSmoothImages) {
       return pairs_of(persistence(cubical, {.engine = engine}));
     };
     ASSERT_EQ(bars(Engine::gradient), bars(Engine::twist));
-  }
+  });
 }
 
 // V of f equals T of -f with a border that enters first, with dimension k in place of d-1-k and
 // with the ends swapped and negated, except for the classes that never die.
 TEST(Gradient, ConstructionsAreDual) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(300, [&](Generator& random) {
     const int axes = random.integer(1, 4);
     std::vector<Index> extents, padded;
     std::size_t voxels = 1;
@@ -173,15 +165,13 @@ TEST(Gradient, ConstructionsAreDual) {
     std::ranges::sort(dual, before);
     // The border dies at the highest value: one more bar, in the highest dimension.
     EXPECT_EQ(direct, dual);
-  }
+  });
 }
 
 // A periodic axis of one voxel is a circle: each bar also has a copy in the next dimension.
 TEST(Gradient, CirclesRaiseDimensions) {
   std::size_t raised = 0;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     std::vector<Index> extents{3, 4, 3};
     CubicalOptions options = random.cubical_options(3);
     for (int circles = random.integer(1, 2); circles > 0; --circles) {
@@ -198,7 +188,7 @@ TEST(Gradient, CirclesRaiseDimensions) {
       ASSERT_EQ(found, bars(Engine::standard)) << min_dim;
       raised += min_dim == 2 ? found.size() : 0;
     }
-  }
+  });
   EXPECT_TRUE(is_enough(raised, std::size_t{1000})) << raised;
 }
 

@@ -161,9 +161,7 @@ void keep_memory() {
 TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
   keep_memory();
   std::size_t runs = 0, loops = 0, sent = 0;
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(3300)); ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(3300, [&](Generator& random) {
     const Case c = random_case(random);
     const auto expected = pairs_of(
         persistence(Cubical(c.image, c.options.cubical),
@@ -180,7 +178,7 @@ TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
         sent += run.traffic.columns_sent;
         ++runs;
       }
-  }
+  });
   EXPECT_TRUE(is_enough(runs, std::size_t{50000})) << runs;
   EXPECT_TRUE(is_enough(loops, std::size_t{3000})) << loops;
   EXPECT_TRUE(is_enough(sent, std::size_t{10000})) << sent;

@@ -22,13 +22,11 @@ namespace {
 
 TEST(ImagePart, AgreesWithTheOracleCellByCell) {
   std::size_t bars = 0, refused = 0;
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2000)); ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(2000, [&](Generator& random) {
     const ImageCase c = random_image_case(random);
     if (is_refused(c)) {
       ++refused;
-      continue;
+      return;
     }
     const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
                          .min_dim = c.options.min_dim,
@@ -40,18 +38,16 @@ TEST(ImagePart, AgreesWithTheOracleCellByCell) {
       ASSERT_EQ(pairs_of(whole.barcode()), expected) << count << " parts";
     }
     bars += expected.size();
-  }
+  });
   EXPECT_TRUE(is_enough(bars, std::size_t{3000})) << bars;
   EXPECT_TRUE(is_enough(bars, refused)) << refused;
 }
 
 TEST(ImagePart, MayHaveAnyLayers) {
   std::size_t bars = 0, unequal = 0;
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(1000)); ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(1000, [&](Generator& random) {
     ImageCase c = random_image_case(random);
-    if (is_refused(c)) continue;
+    if (is_refused(c)) return;
     const auto expected = pairs_of(ImagePart(c.image, 0, 1, c.options).barcode());
     for (int count = 1; count <= c.layers; ++count) {
       c.options.first_layers = random_first_layers(random, c.layers, count);
@@ -62,7 +58,7 @@ TEST(ImagePart, MayHaveAnyLayers) {
         unequal += c.options.first_layers[static_cast<std::size_t>(i)] != c.layers * i / count;
     }
     bars += expected.size();
-  }
+  });
   EXPECT_TRUE(is_enough(bars, std::size_t{1500})) << bars;
   EXPECT_TRUE(is_enough(unequal, std::size_t{500})) << unequal;
 }
@@ -124,27 +120,25 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
 // Except for holes: of two that have always existed, either may be closed first.
 TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   int compared = 0;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(1000, [&](Generator& random) {
     const ImageCase c = random_image_case(random);
     const auto is_hole = [&](double v) {
       return std::isinf(v) ||
              (c.options.cubical.threshold &&
               (c.options.cubical.superlevel ? -v : v) > *c.options.cubical.threshold);
     };
-    if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) continue;
+    if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) return;
     ++compared;
-    // The first three of four parts, in both groupings.
-    if (c.layers < 4) continue;
+    // Of four parts the first three, in both groupings.
+    if (c.layers < 4) return;
     auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
     left[0].join(std::move(left[1]));
     left[0].join(std::move(left[2]));
     right[1].join(std::move(right[2]));
     right[0].join(std::move(right[1]));
     ASSERT_TRUE(left[0].bytes() == right[0].bytes());
-  }
-  EXPECT_GT(compared, 20);
+  });
+  EXPECT_TRUE(is_enough(compared, 20)) << compared;
 }
 
 TEST(ImagePart, SlabsInsideDoNotMatter) {

@@ -38,9 +38,7 @@ Image any_image(Generator& random, const std::vector<Index>& extents) {
 
 TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
   std::size_t found_in_all = 0;
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(600, [&](Generator& random) {
     const int axes = random.integer(0, 9) == 0 ? random.integer(5, 6) : 4;
     const Image image = any_image(random, random_extents(random, axes, 1, axes == 4 ? 3 : 2));
     CubicalOptions options = random.cubical_options(axes);
@@ -60,15 +58,13 @@ TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
       ASSERT_EQ(found, bars(Engine::standard));
       found_in_all += found.size();
     }
-  }
+  });
   EXPECT_TRUE(is_enough(found_in_all, std::size_t{3000})) << found_in_all;
 }
 
 // Larger ones against the boundary matrix: columns that are added, and taken from each other.
 TEST(ManyAxes, AgreeOnLargerImages) {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(12, [&](Generator& random) {
     const Image image = any_image(random, random_extents(random, 4, 5, 8));
     const CubicalOptions choices = random.cubical_options(4);
     const std::int64_t field = random.coin() ? 2 : 5;
@@ -84,7 +80,7 @@ TEST(ManyAxes, AgreeOnLargerImages) {
     EXPECT_EQ(results[0], results[2]);
     EXPECT_EQ(results[0], pairs_of(persistence(Cubical(image, choices),
                                                {.field = field, .engine = Engine::twist})));
-  }
+  });
 }
 
 TEST(ManyAxes, KnownSpaces) {

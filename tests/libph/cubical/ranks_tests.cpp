@@ -45,18 +45,16 @@ Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks, std::int64_t field
 TEST(Ranks, AgreeWithTheOracle) {
   std::mt19937 delays(7);
   std::size_t bars = 0, loops = 0, of_many_axes = 0;
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(1500)); ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(1500, [&](Generator& random) {
     const bool has_many_axes = random.integer(0, 7) == 0;
     ImageCase c = has_many_axes ? random_case_of_many_axes(random) : random_image_case(random);
-    if (c.image.values.size() > 200) continue;  // the oracle is slow
+    if (c.image.values.size() > 200) return;  // the oracle is slow
     c.options.loops = true;
     if (random.coin()) {
       c.options.min_dim = 0;
       c.options.max_dim = std::nullopt;
     }
-    if (is_refused(c)) continue;  // other dimensions of more axes
+    if (is_refused(c)) return;  // other dimensions of more axes
     const std::int64_t field = random.coin() ? 2 : 3;
     ASSERT_EQ(ImagePart::most_parts(c.image, c.options.cubical), c.layers);
     const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
@@ -72,7 +70,7 @@ TEST(Ranks, AgreeWithTheOracle) {
     bars += expected.size();
     of_many_axes += has_many_axes ? 1 : 0;
     loops += c.image.dim() == 3 && !c.options.max_dim ? 1 : 0;
-  }
+  });
   EXPECT_TRUE(is_enough(bars, std::size_t{2000})) << bars;
   EXPECT_TRUE(is_enough(loops, std::size_t{200})) << loops;
   EXPECT_TRUE(is_enough(of_many_axes, std::size_t{30})) << of_many_axes;
@@ -80,9 +78,7 @@ TEST(Ranks, AgreeWithTheOracle) {
 
 TEST(Ranks, JoinClouds) {
   std::mt19937 delays(8);
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(200)); ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const Points points = random.points(random.integer(0, 60), random.integer(1, 4), random.coin());
     ThreadRanks ranks(random.integer(1, 9), &delays);
     Barcode bars;
@@ -94,7 +90,7 @@ TEST(Ranks, JoinClouds) {
       if (whole) bars = whole->barcode();
     });
     EXPECT_TRUE(std::ranges::equal(bars, persistence(Rips(points), {.max_dim = 0})));
-  }
+  });
 }
 
 class Mishaps : public testing::TestWithParam<Mishap> {};

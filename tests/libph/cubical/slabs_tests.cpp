@@ -38,9 +38,7 @@ Image random_image(Generator& random, const std::vector<Index>& extents, int mos
 
 TEST(Slabs, AgreeWithTheOracleCellByCell) {
   std::size_t longer = 0;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(1000, [&](Generator& random) {
     const int axes = random.integer(1, 3), most = axes == 1 ? 30 : axes == 2 ? 9 : 5;
     std::vector<Index> extents;
     for (int k = 0; k < axes; ++k) extents.push_back(random.integer(1, most));
@@ -61,14 +59,12 @@ TEST(Slabs, AgreeWithTheOracleCellByCell) {
     for (int layers = 0; layers <= extents[0]; ++layers)
       ASSERT_EQ(bars_in_slabs(cubical, wanted, layers), expected) << layers;
     longer += expected.size();
-  }
+  });
   EXPECT_TRUE(is_enough(longer, std::size_t{1500})) << longer;
 }
 
 TEST(Slabs, HeightAndThreadsDoNotMatter) {
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(6, [&](Generator& random) {
     const std::vector<Index> extents = std::vector<std::vector<Index>>{
         {60, 70}, {21, 14, 17}, {4000}}[static_cast<std::size_t>(random.integer(0, 2))];
     const Image image = random.coin() ? random_image<std::uint8_t>(random, extents, 40)
@@ -79,7 +75,7 @@ TEST(Slabs, HeightAndThreadsDoNotMatter) {
     for (const int layers : {1, 2, 3, 5, 11, 20, 60})
       for (int threads = 1; threads <= 8; ++threads)
         ASSERT_EQ(bars_in_slabs(cubical, {}, layers, threads), expected) << layers;
-  }
+  });
 }
 
 TEST(Slabs, AreTakenWhereMemoryIsShort) {

@@ -7,7 +7,7 @@
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/rips_graphs.hpp"
 
@@ -119,9 +119,7 @@ Barcode oracle_of(const Complex& complex) {
 }
 
 TEST(MergeTrees, OfPoints) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const Points points = random.points(random.integer(0, 14), 2, random.coin());
     const Rips rips(points);
     std::vector<WeightedEdge> edges;
@@ -131,13 +129,11 @@ TEST(MergeTrees, OfPoints) {
         if (metric(i, j) <= all_edges(rips).threshold()) edges.push_back({i, j, metric(i, j)});
     const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
     check_tree(merge_tree(rips), births, edges, oracle_of(rips));
-  }
+  });
 }
 
 TEST(MergeTrees, OfGraphs) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const SparseDistances graph = random.sparse(random.integer(0, 12), random.coin(), 0.2);
     std::vector<double> births(static_cast<std::size_t>(graph.size()));
     for (double& b : births) b = random.value(true);
@@ -149,14 +145,12 @@ TEST(MergeTrees, OfGraphs) {
     check_tree(merge_tree(complex), births, edges, oracle_of(complex));
     const FilteredGraph alone(births, edges);
     check_tree(merge_tree(alone), births, edges, oracle_of(alone));
-  }
+  });
 }
 
 // Voxels that never enter keep their place in the numbering.
 TEST(MergeTrees, OfImages) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const Index rows = random.integer(1, 4), columns = random.integer(1, 4);
     Image image = random.image({rows, columns}, random.coin());
     std::vector<double> births = image.values.doubles();
@@ -180,7 +174,7 @@ TEST(MergeTrees, OfImages) {
     }
     const Cubical cubical(image, options);
     check_tree(merge_tree(cubical), births, edges, oracle_of(cubical));
-  }
+  });
 }
 
 TEST(MergeTrees, CornersOfTheOtherConstruction) {

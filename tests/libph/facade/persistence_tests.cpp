@@ -5,7 +5,7 @@
 #include "rips/collapse/edge_collapse.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/rips_graphs.hpp"
 
@@ -127,8 +127,7 @@ std::vector<double> count_cells(const F& f, int top) {
 }
 
 TEST(Estimates, CountTheCells) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    Generator random(seed);
+  for_each_seed(50, [&](Generator& random) {
     const Cubical cubical(random.image({3, 4}, true), random.cubical_options(2));
     const auto with_twist = [&](int max_dim) {
       return estimate(cubical, {.max_dim = max_dim, .engine = Engine::twist}).cells;
@@ -148,7 +147,7 @@ TEST(Estimates, CountTheCells) {
       EXPECT_GE(e.bytes_high, e.bytes_low);
       EXPECT_GE(e.bytes_low, 0);
     }
-  }
+  });
   const Rips full(DistanceMatrix(6, std::vector<double>(15, 1.0)));
   EXPECT_EQ(
       estimate(full, {.max_dim = 3, .engine = Engine::cohomology, .collapse = Collapse::off}).cells,

@@ -6,7 +6,7 @@
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/rips_graphs.hpp"
 
@@ -17,8 +17,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = kInfinity;
 
 TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const Index n = random.integer(1, 12);
     const DistanceMatrix d = random.distances(n, random.coin());
     double radius = kInf;
@@ -32,7 +31,7 @@ TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
     // Beyond the radius nothing changes, whatever the distances.
     EXPECT_EQ(bars_of(persistence(rips, {.max_dim = 3})),
               bars_of(persistence(Rips(d, {.threshold = kInf}), {.max_dim = 3})));
-  }
+  });
 }
 
 TEST(RipsGraphs, TheThresholdIsInclusive) {
@@ -181,8 +180,7 @@ TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
 
 // Vertices without edges make the graph sparse but change nothing else.
 TEST(RipsGraphs, LayoutsAgree) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Generator random(seed);
+  for_each_seed(200, [&](Generator& random) {
     const SparseDistances few = random.sparse(random.integer(4, 9), random.coin(), 0.8);
     const SparseDistances many(few.size() + 40, few.edges());
     const Rips dense(few), sparse(many);
@@ -192,13 +190,12 @@ TEST(RipsGraphs, LayoutsAgree) {
     for (Pair& p : pairs_of(persistence(sparse, {.max_dim = 3, .min_persistence = -1})))
       if (p.birth_cell[0] < few.size()) found.push_back(std::move(p));
     EXPECT_EQ(found, expected);
-  }
+  });
   EXPECT_TRUE(all_edges(Rips(DistanceMatrix(3, {1, 1, 1}))).is_dense());
 }
 
 TEST(RipsGraphs, CliqueBoundsHold) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    Generator random(seed);
+  for_each_seed(300, [&](Generator& random) {
     const Rips rips(random.sparse(random.integer(0, 12), true, random.real()));
     const Index bound = all_edges(rips).adjacency().clique_bound();
     EXPECT_LE(bound, rips.size());
@@ -208,7 +205,7 @@ TEST(RipsGraphs, CliqueBoundsHold) {
     });
     // No simplex is missed: the whole complex has the Euler characteristic of its edges' cliques.
     check(rips, 12, {2});
-  }
+  });
 }
 
 TEST(RipsInputs, NoneOneAndTwoPoints) {

@@ -6,7 +6,7 @@
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/known_spaces.hpp"
 #include "support/points.hpp"
 
@@ -34,12 +34,10 @@ Points permuted(Generator& random, const Points& points) {
 
 template <class Act>
 void for_each_cloud(Act&& act) {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    SCOPED_TRACE(seed);
-    Generator random(seed);
+  for_each_seed(150, [&](Generator& random) {
     const Points points = random.points(random.integer(0, 14), random.integer(1, 3), random.coin());
     act(random, points);
-  }
+  });
 }
 
 TEST(Invariance, TheOrderOfThePointsDoesNotMatter) {
@@ -88,8 +86,7 @@ TEST(Invariance, DuplicatesOnlyAddZeroLengthBars) {
 }
 
 TEST(Invariance, AnImageMayBeTransposed) {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    Generator random(seed);
+  for_each_seed(150, [&](Generator& random) {
     const Image image = random.image({3, 5}, random.coin());
     std::vector<double> values(15);
     for (std::size_t i = 0; i < 3; ++i)
@@ -99,18 +96,17 @@ TEST(Invariance, AnImageMayBeTransposed) {
     swapped.periodic = {options.periodic[1], options.periodic[0]};
     EXPECT_EQ(bars_of(persistence(Cubical(image, options), kUpToTwo)),
               bars_of(persistence(Cubical(turned, swapped), kUpToTwo)));
-  }
+  });
 }
 
 TEST(Invariance, TheOrderOfTheSimplicesDoesNotMatter) {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    Generator random(seed);
+  for_each_seed(150, [&](Generator& random) {
     const SimplexList list = random.simplices(7, 3, 8, random.coin());
     SimplexList backwards;
     for (std::size_t i = list.size(); i-- > 0;) backwards.add(list.simplex(i), list.values[i]);
     EXPECT_EQ(bars_of(persistence(ExplicitComplex::from_simplices(list), {.field = 5})),
               bars_of(persistence(ExplicitComplex::from_simplices(backwards), {.field = 5})));
-  }
+  });
 }
 
 // The persistent Künneth formula at work: a Rips complex is the flag complex of its edges.
