@@ -8,6 +8,7 @@
 #include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::segment {
 namespace {
@@ -280,18 +281,14 @@ TEST(Pipeline, WhatIsHeldCountsInTheBudget) {
     const auto voxels = static_cast<std::size_t>(s.tree.vertices.rows());
     EXPECT_GT(context.memory.peak(), 52 * points + 400 * voxels);
     EXPECT_EQ(context.memory.used(), 0U);
-    RunContext less;
-    less.memory.set_limit(context.memory.peak() - 1);
+    ph::test::LimitedContext less(context.memory.peak() - 1);
     EXPECT_THROW(segment(CloudView{scene.xyz(), {}}, {.method = method}, less), Error);
   }
 }
 
 TEST(Pipeline, StopsWhenAsked) {
   const TableScene scene = TableScene::two_boxes();
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
-  source.request_stop();
+  ph::test::StoppedContext context;
   try {
     segment(CloudView{scene.xyz(), {}}, kPaper, context);
     FAIL() << "did not stop";

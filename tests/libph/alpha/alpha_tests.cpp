@@ -14,6 +14,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/representatives.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -334,8 +335,7 @@ TEST(Alpha, ThreadsChangeNothing) {
       options.weights.push_back(random.real() * 1e-3);
     std::optional<Barcode> first;
     for (const int threads : {1, 2, 3, 8}) {
-      RunContext context;
-      context.threads = threads;
+      ThreadsContext context(threads);
       const Barcode bars = persistence(
           Alpha(points, options, context),
           {.min_persistence = 2e-4, .representatives = Representatives::cycles}, context);
@@ -376,18 +376,15 @@ TEST(Alpha, Refusals) {
 
 TEST(Alpha, StopsAndKeepsToItsMemory) {
   const Points points = uniform_points(20'000, 3, 10);
-  std::stop_source stop;
-  RunContext context;
-  context.stop = stop.get_token();
+  StoppableContext context;
   std::vector<std::string> stages;
   context.on_progress = [&](const Progress& p) { stages.emplace_back(p.stage); };
   const Alpha alpha(points, {}, context);
   EXPECT_FALSE(stages.empty());
-  stop.request_stop();
+  context.request_stop();
   expect_error(ErrorKind::cancelled, "", [&] { Alpha(points, {}, context); });
   expect_error(ErrorKind::cancelled, "", [&] { persistence(alpha, {}, context); });
-  RunContext small;
-  small.memory.set_limit(10 << 20);
+  LimitedContext small(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, {}, small); });
   EXPECT_EQ(small.memory.used(), 0U);
   // CGAL's memory counts as well: in the plane, it is most of the total.

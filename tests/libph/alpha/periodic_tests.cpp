@@ -13,6 +13,7 @@
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -332,8 +333,7 @@ TEST(Periodic, ThreadsChangeNothing) {
   const Points points = uniform_points(20'000, 3, 8);
   std::optional<Barcode> first;
   for (const int threads : {1, 2, 3, 8}) {
-    RunContext context;
-    context.threads = threads;
+    ThreadsContext context(threads);
     const Barcode bars = persistence(Alpha(points, {.period = {1, 1, 1}}, context),
                                      {.max_dim = 3, .min_persistence = 1e-4}, context);
     if (!first) {
@@ -411,18 +411,15 @@ TEST(Periodic, Refusals) {
 TEST(Periodic, StopsAndKeepsToItsMemory) {
   const Points points = uniform_points(20'000, 3, 10);
   const AlphaOptions options{.period = {1, 1, 1}};
-  std::stop_source stop;
-  RunContext context;
-  context.stop = stop.get_token();
+  StoppableContext context;
   std::vector<std::string> stages;
   context.on_progress = [&](const Progress& p) { stages.emplace_back(p.stage); };
   const Alpha alpha(points, options, context);
   EXPECT_FALSE(stages.empty());
-  stop.request_stop();
+  context.request_stop();
   expect_error(ErrorKind::cancelled, "", [&] { Alpha(points, options, context); });
   expect_error(ErrorKind::cancelled, "", [&] { persistence(alpha, {}, context); });
-  RunContext small;
-  small.memory.set_limit(10 << 20);
+  LimitedContext small(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, options, small); });
   EXPECT_EQ(small.memory.used(), 0U);
 }

@@ -13,6 +13,7 @@
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "support/for_each_seed.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -20,8 +21,7 @@ namespace {
 TEST(ForEachInput, TakesEachOnce) {
   for (const std::size_t count : {0U, 1U, 2U, 7U, 1000U}) {
     for (const int threads : {0, 1, 2, 5}) {
-      RunContext context;
-      context.threads = threads;
+      ThreadsContext context(threads);
       std::vector<std::atomic<int>> taken(count);
       for_each_input(count, context, [&](std::size_t i, const RunContext&) { ++taken[i]; });
       for (const auto& times : taken) EXPECT_EQ(times, 1);
@@ -30,8 +30,7 @@ TEST(ForEachInput, TakesEachOnce) {
 }
 
 TEST(ForEachInput, GivesTheBarsOfEach) {
-  RunContext context;
-  context.threads = 3;
+  ThreadsContext context(3);
   std::vector<Points> clouds;
   for_each_seed(200, [&](Generator& random, bool ties, std::int64_t) {
     clouds.push_back(random.points(random.integer(0, 12), 2, ties));
@@ -45,8 +44,7 @@ TEST(ForEachInput, GivesTheBarsOfEach) {
 }
 
 TEST(ForEachInput, SharesThreadsAndMemoryOut) {
-  RunContext context;
-  context.threads = 6;
+  ThreadsContext context(6);
   context.memory.set_limit(1000);
   const MemoryClaim taken(context.memory, 400);
   for (const std::size_t count : {1U, 2U, 4U, 9U}) {
@@ -64,8 +62,7 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
 }
 
 TEST(ForEachInput, NamesTheFirstThatFails) {
-  RunContext context;
-  context.threads = 1;
+  ThreadsContext context(1);
   int taken = 0;
   try {
     for_each_input(9, context, [&](std::size_t i, const RunContext&) {
@@ -92,8 +89,7 @@ void wait_for_a_stop(const RunContext& context) {
 }
 
 TEST(ForEachInput, AnErrorStopsTheOthers) {
-  RunContext context;
-  context.threads = 2;
+  ThreadsContext context(2);
   try {
     for_each_input(3, context, [](std::size_t i, const RunContext& of_input) {
       if (i == 1) throw Error(ErrorKind::usage, "this one");
@@ -108,8 +104,7 @@ TEST(ForEachInput, AnErrorStopsTheOthers) {
 
 TEST(ForEachInput, StopsOnRequestAndTellsOfInputs) {
   std::stop_source stop;
-  RunContext context;
-  context.threads = 2;
+  ThreadsContext context(2);
   context.stop = stop.get_token();
   try {
     for_each_input(5, context, [&](std::size_t i, const RunContext& of_input) {
@@ -120,8 +115,7 @@ TEST(ForEachInput, StopsOnRequestAndTellsOfInputs) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::cancelled);
   }
-  RunContext told;
-  told.threads = 1;
+  ThreadsContext told(1);
   std::uint64_t done = 0;
   told.on_progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.stage, "inputs");

@@ -14,6 +14,7 @@
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
 #include "support/patience.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -66,8 +67,7 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
       EXPECT_EQ(context.memory.used(), 0U);
     }
     for (std::size_t k = 0; k <= 20; ++k) {
-      RunContext context;
-      context.memory.set_limit(peak * k / 20);
+      LimitedContext context(peak * k / 20);
       try {
         EXPECT_EQ(bars_of(run(context)), bars_of(expected));
       } catch (const Error& e) {
@@ -84,8 +84,7 @@ TEST(MemoryBudgets, HoldForImages) {
   Generator random(3);
   const Image image = random.image({20, 20}, false);
   for (const std::size_t limit : {0U, 100U, 5000U, 20000U, 60000U}) {
-    RunContext context;
-    context.memory.set_limit(limit);
+    LimitedContext context(limit);
     try {
       persistence(Cubical(image, {}, context), {}, context);
     } catch (const Error& e) {
@@ -118,8 +117,7 @@ TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
     const std::size_t voxels = home.memory.used();
     const std::size_t table = 17 * 15 * 13 * 4 + entering(image) * 8;
     {
-      RunContext run;
-      run.memory.set_limit(table - 1);
+      LimitedContext run(table - 1);
       expect_error(ErrorKind::resource, "memory limit",
                    [&] { persistence(cubical, options, run); });
       EXPECT_EQ(run.memory.used(), 0U);
@@ -140,8 +138,7 @@ TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
 
 TEST(MemoryBudgets, OfTheConstructionBoundsWhatACubicalFiltrationMakesLate) {
   const Image image = Generator(3).image({9, 8, 7}, false);
-  RunContext home;
-  home.memory.set_limit(image.values.bytes() + 1000);
+  LimitedContext home(image.values.bytes() + 1000);
   const Cubical cubical(image, {}, home);
   expect_error(ErrorKind::resource, "memory limit",
                [&] { persistence(cubical, {.engine = Engine::twist}); });
@@ -158,8 +155,7 @@ TEST(MemoryBudgets, HoldForExplicitComplexes) {
   const SimplexList simplices = random.simplices(40, 3, 60, false);
   const std::vector<double> values(40, 0.0);
   for (const std::size_t limit : {0U, 1000U, 20000U, 40000U, 80000U, 1000000U}) {
-    RunContext context;
-    context.memory.set_limit(limit);
+    LimitedContext context(limit);
     const auto stays_below = [&](auto&& build) {
       try {
         persistence(build(), {}, context);
@@ -218,8 +214,7 @@ TEST(MemoryBudgets, WithinAnotherBothLimitsHold) {
 }
 
 TEST(RunContexts, CountWithinAnother) {
-  RunContext outer;
-  outer.memory.set_limit(1 << 20);
+  LimitedContext outer(1 << 20);
   {
     const RunContext inner(outer.memory);
     const Rips rips(Generator(3).points(50, 3, false), {}, inner);
@@ -259,14 +254,12 @@ TEST(RunContexts, AStopRequestEndsALongJobSoon) {
     SCOPED_TRACE(engine.name());
     const Rips rips(long_job(engine), {.threshold = 10});
     rips.graph(RipsForm::distinct_edges);
-    std::stop_source source;
-    RunContext context;
-    context.stop = source.get_token();
+    StoppableContext context;
     Clock::time_point asked;
     std::thread stopper([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(150));
       asked = Clock::now();
-      source.request_stop();
+      context.request_stop();
     });
     const Options options{.max_dim = 3, .field = 3, .engine = engine, .collapse = Collapse::off};
     expect_error(ErrorKind::cancelled, "stopped", [&] { persistence(rips, options, context); });
@@ -277,10 +270,7 @@ TEST(RunContexts, AStopRequestEndsALongJobSoon) {
 }
 
 TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
-  std::stop_source source;
-  source.request_stop();
-  RunContext context;
-  context.stop = source.get_token();
+  StoppedContext context;
   const Points points = circle(5);
   const Rips rips(points);
   for (const RipsForm form : {RipsForm::edges, RipsForm::distinct_edges, RipsForm::forest}) {
@@ -311,13 +301,11 @@ TEST(RunContexts, WhatACubicalFiltrationMakesLateIsStoppedAndReported) {
     RunContext home;
     const Cubical cubical(image, {}, home);
     const std::size_t voxels = home.memory.used();
-    std::stop_source source;
-    RunContext run;
-    run.stop = source.get_token();
+    StoppableContext run;
     std::string stage;
     run.on_progress = [&](const Progress& progress) {
       stage = progress.stage;
-      source.request_stop();
+      run.request_stop();
     };
     std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
     expect_error(ErrorKind::cancelled, "stopped",
@@ -338,12 +326,10 @@ TEST(RunContexts, AThreadThatWaitsForACubicalFiltrationCanBeStopped) {
   std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
   std::thread maker([&] { cubical.prepare(slow); });
   while (!is_making) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  std::stop_source source;
-  RunContext waiting;
-  waiting.stop = source.get_token();
+  StoppableContext waiting;
   std::thread stopper([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    source.request_stop();
+    waiting.request_stop();
   });
   expect_error(ErrorKind::cancelled, "stopped", [&] { cubical.prepare(waiting); });
   stopper.join();
@@ -353,9 +339,7 @@ TEST(RunContexts, AThreadThatWaitsForACubicalFiltrationCanBeStopped) {
 }
 
 TEST(RunContexts, SlowStepsAreReportedAndStopped) {
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
+  StoppableContext context;
   int reports = 0;
   context.on_progress = [&](const Progress&) { ++reports; };
   Ticker ticker(context, "slow");
@@ -366,7 +350,7 @@ TEST(RunContexts, SlowStepsAreReportedAndStopped) {
   };
   for (int i = 0; i < 40 && reports < 2; ++i) step();
   EXPECT_EQ(reports, 2);
-  source.request_stop();
+  context.request_stop();
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     for (int i = 0; i < 4; ++i) step();
   });
@@ -385,9 +369,7 @@ TEST(RunContexts, ManyShortStagesAreReported) {
 }
 
 TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
+  StoppableContext context;
   std::vector<Clock::time_point> calls;
   context.on_progress = [&](const Progress& progress) {
     calls.push_back(Clock::now());
@@ -395,7 +377,7 @@ TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
     if (progress.total > 0) {
       EXPECT_LE(progress.done, progress.total);
     }
-    if (calls.size() == 5) source.request_stop();
+    if (calls.size() == 5) context.request_stop();
   };
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     const Rips rips(long_job(Engine::cohomology), {.threshold = 10}, context);

@@ -14,6 +14,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -271,8 +272,7 @@ TEST(Gradient, ThreadsDoNotMatter) {
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     std::vector<std::vector<Pair>> results;
     for (const int threads : {1, 2, 3, 5, 8}) {
-      RunContext context;
-      context.threads = threads;
+      ThreadsContext context(threads);
       const Cubical cubical(image, {.construction = construction}, context);
       results.push_back(pairs_of(persistence(cubical, {.max_dim = 2}, context)));
       EXPECT_EQ(results.front(), results.back()) << threads;
@@ -298,8 +298,7 @@ TEST(Gradient, LongRowsAreLookedAtInParts) {
 TEST(Gradient, ProgressComesFromOneThread) {
   Generator random(9);
   const Image image = image_of<std::uint16_t>(random, {120, 120, 120}, 60000);
-  RunContext context;
-  context.threads = 4;
+  ThreadsContext context(4);
   const std::thread::id here = std::this_thread::get_id();
   std::vector<std::string> stages;
   context.on_progress = [&](const Progress& progress) {
@@ -316,8 +315,7 @@ TEST(Gradient, HolesTakeNoMemory) {
   const std::vector<Index> extents{100, 100, 100};
   const Image image = image_of<std::uint8_t>(random, extents, 250);
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
-    RunContext context;
-    context.threads = 1;
+    ThreadsContext context(1);
     // All but a tenth of the voxels never enter.
     const Cubical cubical(image, {.construction = construction, .threshold = 25}, context);
     const std::size_t before = context.memory.used();

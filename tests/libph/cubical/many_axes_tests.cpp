@@ -14,6 +14,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -70,8 +71,7 @@ TEST(ManyAxes, AgreeOnLargerImages) {
     const std::int64_t field = random.coin() ? 2 : 5;
     std::vector<std::vector<Pair>> results;
     for (const int threads : {1, 2, 5}) {
-      RunContext context;
-      context.threads = threads;
+      ThreadsContext context(threads);
       const Cubical cubical(image, choices, context);
       results.push_back(
           pairs_of(persistence(cubical, {.field = field, .engine = Engine::gradient}, context)));
@@ -145,8 +145,7 @@ TEST(ManyAxes, BudgetsAndStops) {
     EXPECT_EQ(context.memory.used(), 0U);
   }
   for (std::size_t k = 0; k <= 20; ++k) {
-    RunContext context;
-    context.memory.set_limit(peak * k / 20);
+    LimitedContext context(peak * k / 20);
     try {
       EXPECT_EQ(run(context), expected);
     } catch (const Error& e) {
@@ -155,18 +154,14 @@ TEST(ManyAxes, BudgetsAndStops) {
     EXPECT_EQ(context.memory.used(), 0U);
   }
   const Cubical cubical(image);
-  std::stop_source source;
-  source.request_stop();
-  RunContext context;
-  context.stop = source.get_token();
+  StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped", [&] { persistence(cubical, {}, context); });
 }
 
 TEST(ManyAxes, EstimatesHold) {
   Generator random(6);
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
-    RunContext context;
-    context.threads = 1;
+    ThreadsContext context(1);
     std::vector<double> noise(12 * 12 * 12 * 12);
     for (double& v : noise) v = random.real();
     const Cubical cubical(Image{{12, 12, 12, 12}, std::move(noise)}, {.construction = construction},

@@ -12,6 +12,7 @@
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -20,8 +21,7 @@ using Construction = CubicalOptions::Construction;
 
 std::vector<Pair> bars_in_slabs(const Cubical& cubical, Options options, int layers,
                                 int threads = 1) {
-  RunContext context;
-  context.threads = threads;
+  ThreadsContext context(threads);
   context.slab_layers = layers;
   options.engine = Engine::gradient;
   return pairs_of(persistence(cubical, options, context));
@@ -118,8 +118,7 @@ void set(const Image& image, Index place, std::uint8_t value) {
 // Bars are (birth, death, coordinate of the voxel that bears it).
 using FarBar = std::tuple<double, double, Index>;
 std::vector<FarBar> far_bars(const Image& image, const CubicalOptions& options) {
-  RunContext context;
-  context.memory.set_limit(image.values.bytes() + 20'000'000);
+  LimitedContext context(image.values.bytes() + 20'000'000);
   const Barcode bars = persistence(Cubical(image, options, context), {}, context);
   std::vector<FarBar> found;
   for (std::size_t i = 0; i < bars.size(); ++i)
@@ -181,8 +180,7 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
 TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);
-  RunContext context;
-  context.memory.set_limit(image.values.bytes() + 10'000'000);
+  LimitedContext context(image.values.bytes() + 10'000'000);
   const Cubical cubical(image, {}, context);
   try {
     persistence(cubical, {.cells = false}, context);

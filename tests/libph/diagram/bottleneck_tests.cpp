@@ -7,12 +7,12 @@
 #include <cmath>
 #include <functional>
 #include <random>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -321,24 +321,18 @@ TEST(Bottleneck, RefusesWhatIsNoBar) {
 TEST(Bottleneck, StopsWhenAsked) {
   std::mt19937 random(4);
   const Bars a = random_bars(random, 3000, 0), b = random_bars(random, 3000, 0);
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
-  source.request_stop();
+  test::StoppedContext context;
   EXPECT_THROW(bottleneck_distance(a, b, context), Error);
-  RunContext small;
-  small.memory.set_limit(1000);
+  test::LimitedContext small(1000);
   EXPECT_THROW(bottleneck_distance(a, b, small), Error);
 }
 
 TEST(Bottleneck, StopsInTheMiddle) {
   std::mt19937 random(9);
   const Bars a = random_bars(random, 100'000, 0), b = random_bars(random, 100'000, 0);
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
+  test::StoppableContext context;
   context.on_progress = [&](const Progress& progress) {
-    if (progress.stage == "bottleneck distance") source.request_stop();
+    if (progress.stage == "bottleneck distance") context.request_stop();
   };
   EXPECT_THROW(bottleneck_distance(a, b, context), Error);
   EXPECT_EQ(context.memory.used(), 0);

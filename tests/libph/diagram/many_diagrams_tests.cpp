@@ -7,12 +7,12 @@
 #include <numbers>
 #include <random>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -107,8 +107,7 @@ TEST(SlicedWasserstein, UnitsAndThreadsDoNotMatter) {
     EXPECT_EQ(sliced_wasserstein_distance(bars[0], bars[1]), std::ldexp(found, exponent));
   }
   for (const int threads : {1, 2, 5}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     EXPECT_EQ(sliced_wasserstein_distance(a, b, 50, context), found) << threads;
     EXPECT_EQ(context.memory.used(), 0U);
   }
@@ -117,8 +116,7 @@ TEST(SlicedWasserstein, UnitsAndThreadsDoNotMatter) {
   expect_error(ErrorKind::bad_data, "sliced_wasserstein_distance: found a bar", [&] {
     sliced_wasserstein_distance(a, Bars{{0, 2, 1}});
   });
-  RunContext small;
-  small.memory.set_limit(1000);
+  test::LimitedContext small(1000);
   EXPECT_THROW(sliced_wasserstein_distance(a, b, 50, small), Error);
 }
 
@@ -129,8 +127,7 @@ TEST(DiagramDistances, AreThoseOfAllPairs) {
   std::vector<Bars> diagrams;
   for (int i = 0; i < 12; ++i) diagrams.push_back(random_bars(random, 5 + random() % 100));
   for (const int threads : {1, 2, 4}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     context.memory.set_limit(100'000'000);
     const DistanceMatrix found = diagram_distances(
         spans_of(diagrams),
@@ -164,8 +161,7 @@ TEST(DiagramDistances, OfSomeFromOthers) {
     return static_cast<double>(1000 + a.size()) - static_cast<double>(b.size());
   };
   for (const int threads : {1, 3}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     std::vector<double> expected;
     for (const Bars& a : some)
       for (const Bars& b : others) expected.push_back(difference(a, b, context));
@@ -184,13 +180,9 @@ TEST(DiagramDistances, EndWithTheirErrors) {
   expect_error(ErrorKind::bad_data, "found a bar [2, 1)",
                [&] { diagram_distances(spans_of(diagrams), bottleneck); });
   diagrams[3].pop_back();
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
-  source.request_stop();
+  test::StoppedContext context;
   EXPECT_THROW(diagram_distances(spans_of(diagrams), bottleneck, context), Error);
-  RunContext small;
-  small.memory.set_limit(100);
+  test::LimitedContext small(100);
   EXPECT_THROW(diagram_distances(spans_of(diagrams), bottleneck, small), Error);
 }
 
@@ -273,8 +265,7 @@ TEST(BarycentreOfDiagrams, ThreadsAndUnitsDoNotMatter) {
   const Barycentre expected = barycentre(spans_of(diagrams));
   EXPECT_GT(expected.rounds, 0);
   for (const int threads : {1, 2, 4}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     const Barycentre found = barycentre(spans_of(diagrams), {}, context);
     EXPECT_EQ(found.bars, expected.bars) << threads;
     EXPECT_EQ(found.root_mean_square, expected.root_mean_square) << threads;

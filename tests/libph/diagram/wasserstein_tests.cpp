@@ -9,13 +9,13 @@
 #include <limits>
 #include <random>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -384,16 +384,13 @@ TEST(Wasserstein, RefusesWhatMakesNoSense) {
 TEST(Wasserstein, StopsWhenAsked) {
   std::mt19937 random(8);
   const Bars a = random_bars(random, 50'000, 0), b = random_bars(random, 50'000, 0);
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
+  test::StoppableContext context;
   context.on_progress = [&](const Progress& progress) {
-    if (progress.stage == "Wasserstein distance") source.request_stop();
+    if (progress.stage == "Wasserstein distance") context.request_stop();
   };
   EXPECT_THROW(wasserstein_distance(a, b, {}, context), Error);
   EXPECT_EQ(context.memory.used(), 0U);
-  RunContext small;
-  small.memory.set_limit(1000);
+  test::LimitedContext small(1000);
   EXPECT_THROW(wasserstein_distance(a, b, {}, small), Error);
 }
 

@@ -21,6 +21,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 #include "support/points.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -239,8 +240,7 @@ TEST(CloudPart, WhatIsKeptDoesNotDependOnGroupsAndThreads) {
       parts.erase(parts.begin() + 1);  // of all but the second
       return joined(random, std::move(parts)).bytes();
     };
-    RunContext threads;
-    threads.threads = 3;
+    ThreadsContext threads(3);
     const auto bytes = some(default_context());
     ASSERT_EQ(some(threads), bytes);
     CloudPart part = CloudPart::of_bytes(bytes);
@@ -303,13 +303,9 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
 TEST(CloudPart, StopsAndKeepsToItsMemory) {
   Generator random(7);
   const Points points = random.points(20000, 3, false);
-  RunContext stopped;
-  std::stop_source source;
-  stopped.stop = source.get_token();
-  source.request_stop();
+  StoppedContext stopped;
   expect_error(ErrorKind::cancelled, "", [&] { CloudPart(points, 0, 2, {}, stopped); });
-  RunContext small;
-  small.memory.set_limit(500000);
+  LimitedContext small(500000);
   expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
 }
 

@@ -15,6 +15,7 @@
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -135,12 +136,10 @@ TEST(RipsForms, AThreadThatWaitsCanBeStopped) {
   const Rips rips(Slow{&gate});
   std::thread maker([&] { rips.graph(RipsForm::edges); });
   wait_for(gate.is_asked);
-  std::stop_source source;
-  RunContext waiting;
-  waiting.stop = source.get_token();
+  StoppableContext waiting;
   std::thread stopper([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    source.request_stop();
+    waiting.request_stop();
   });
   expect_error(ErrorKind::cancelled, "stopped", [&] { rips.graph(RipsForm::edges, waiting); });
   stopper.join();
@@ -180,10 +179,7 @@ TEST(RipsForms, AreMadeAgainAfterAStop) {
   RunContext home;
   const Rips rips(some_points(), {.subsample = GreedyLimits{.points = 20}}, home);
   const std::size_t input = home.memory.used();
-  std::stop_source source;
-  source.request_stop();
-  RunContext stopped;
-  stopped.stop = source.get_token();
+  StoppedContext stopped;
   for (const RipsForm form : {RipsForm::edges, RipsForm::distinct_edges, RipsForm::forest}) {
     expect_error(ErrorKind::cancelled, "stopped", [&] { rips.graph(form, stopped); });
     EXPECT_EQ(home.memory.used(), input) << "nothing stays";
@@ -221,8 +217,7 @@ TEST(RipsForms, AreMadeAgainWithMoreMemory) {
     const Rips rips(some_points(300), {}, home);
     const std::size_t input = home.memory.used();
     {
-      RunContext small;
-      small.memory.set_limit(1000);
+      LimitedContext small(1000);
       expect_error(ErrorKind::resource, "memory limit", [&] { rips.graph(form, small); });
       EXPECT_EQ(home.memory.used(), input) << "nothing stays";
       EXPECT_EQ(small.memory.used(), 0U);
@@ -231,8 +226,7 @@ TEST(RipsForms, AreMadeAgainWithMoreMemory) {
     expect_error(ErrorKind::resource, "memory limit", [&] { rips.graph(form); });
     EXPECT_EQ(home.memory.used(), input);
     home.memory.set_limit(MemoryBudget::kUnlimited);
-    RunContext large;
-    large.memory.set_limit(std::size_t{1} << 26);
+    LimitedContext large(std::size_t{1} << 26);
     EXPECT_GT(rips.graph(form, large).edge_count(), 0U);
     EXPECT_GT(home.memory.used(), input);
     EXPECT_EQ(large.memory.used(), 0U) << "a form counts where the filtration does";

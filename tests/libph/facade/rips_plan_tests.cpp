@@ -13,6 +13,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/points.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -153,8 +154,7 @@ TEST(RipsPlans, DependOnNothingButQuestionAndTask) {
                          .collapse = static_cast<Collapse>(2 * random.integer(0, 1)),
                          .min_persistence = random.integer(0, 3) == 0 ? -1.0 : 0.0,
                          .representatives = static_cast<Representatives>(random.integer(0, 2))};
-      RunContext context;
-      context.threads = random.integer(1, 4);
+      ThreadsContext context(random.integer(1, 4));
       context.memory.set_limit(std::size_t{1} << random.integer(24, 40));
       const std::string expected = said(make(), task);
       EXPECT_EQ(said(used, task), expected);
@@ -422,8 +422,7 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
   const Points points = Generator(1).points(20'000, 2, false);
   const double of_all = pairs_within(points, enclosing_radius(points));
   for (const std::size_t limit : {std::size_t{1} << 30, std::size_t{64} << 20}) {
-    RunContext context;
-    context.memory.set_limit(limit);
+    LimitedContext context(limit);
     const Rips rips(points, {}, context);
     const Estimate e = estimate(rips, {.max_dim = 2}, context);
     EXPECT_LE(context.memory.peak(), limit);
@@ -440,8 +439,7 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
     EXPECT_EQ(said(e), said(plan(Rips::borrowed(points), {.max_dim = 2})));
   }
   for (const double threshold : {0.3, 0.05}) {
-    RunContext context;
-    context.memory.set_limit(std::size_t{64} << 20);
+    LimitedContext context(std::size_t{64} << 20);
     const Rips rips(points, {.threshold = threshold}, context);
     const double expected = pairs_within(points, threshold);
     const Estimate e = estimate(rips, {.max_dim = 2}, context);
@@ -453,8 +451,7 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
 TEST(RipsEstimates, OfWhatNeedsNoEdgesAreMade) {
   const Points points = Generator(1).points(20'000, 2, false);
   for (const int max_dim : {0, 1}) {
-    RunContext context;
-    context.memory.set_limit(std::size_t{64} << 20);
+    LimitedContext context(std::size_t{64} << 20);
     const Rips rips(points, {}, context);
     const Estimate e = estimate(rips, {.max_dim = max_dim}, context);
     EXPECT_EQ(e.form, max_dim == 0 ? RipsForm::forest : RipsForm::points);
@@ -500,8 +497,7 @@ TEST(RipsEstimates, OfFewEdgesAreExact) {
     copies(i, 1) = static_cast<double>(i / 20 % 10);
   }
   const auto expect_exact = [](const Points& points, const RipsOptions& options) {
-    RunContext context;
-    context.memory.set_limit(std::size_t{16} << 20);
+    LimitedContext context(std::size_t{16} << 20);
     const Rips rips(points, options, context);
     const Options task{.max_dim = 2};
     const Estimate e = estimate(rips, task, context);
@@ -519,8 +515,7 @@ TEST(RipsEstimates, OfOwnMetricsAndDistancesDoNotExceedTheLimit) {
   const DistanceMatrix matrix = matrix_of(points);
   const double expected = pairs_within(points, 0.5);
   const auto expect_about = [&](const auto& data) {
-    RunContext context;
-    context.memory.set_limit(std::size_t{4} << 20);
+    LimitedContext context(std::size_t{4} << 20);
     const Rips rips(data, {.threshold = 0.5}, context);
     for (const Options& task :
          {Options{.max_dim = 2}, Options{.max_dim = 4}, Options{.engine = Engine::cohomology}}) {

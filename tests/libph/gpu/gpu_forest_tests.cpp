@@ -7,6 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/points.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -134,10 +135,7 @@ TEST_F(GpuForest, RefusesSquaresOutOfRange) {
 }
 
 TEST_F(GpuForest, StopsWhenAskedTo) {
-  std::stop_source stop;
-  stop.request_stop();
-  RunContext context;
-  context.stop = stop.get_token();
+  StoppedContext context;
   RipsOptions options;
   options.device = Device::gpu;
   Generator random(1);

@@ -20,6 +20,7 @@
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -239,8 +240,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
   Points hole = two;
   hole(1, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(kind(hole, 0.1), ErrorKind::bad_data);
-  RunContext little;
-  little.memory.set_limit(1000);
+  test::LimitedContext little(1000);
   EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
@@ -248,8 +248,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
 TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {
-    RunContext context;
-    context.memory.set_limit(bytes);
+    test::LimitedContext context(bytes);
     const std::size_t voxels =
         voxel_image(ends, 1, VoxelValue::distance, 0, context).image.values.size();
     EXPECT_EQ(context.memory.peak(), bytes);
@@ -268,12 +267,10 @@ TEST(VoxelImage, CountsWhatALineTakes) {
 
 TEST(VoxelImage, IsStoppedWithinALine) {
   const Points ends{{0}, {9}};
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
+  test::StoppableContext context;
   context.on_progress = [&](const Progress& progress) {
     if (progress.done > 0 && progress.done < progress.total)
-      source.request_stop();
+      context.request_stop();
     else
       std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
   };

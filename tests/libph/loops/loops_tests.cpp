@@ -13,6 +13,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/rips_graphs.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -250,8 +251,7 @@ TEST(Loops, StayAsTheyAreWithoutMemory) {
   const Options options{.representatives = Representatives::cycles};
   const Barcode bars = persistence(rips, options);
   for (std::size_t limit = 1; limit < (std::size_t{1} << 26); limit *= 2) {
-    RunContext context;
-    context.memory.set_limit(limit);
+    LimitedContext context(limit);
     try {
       const auto found = loops(rips, bars, options, true, context);
       for (std::size_t i = 0; i < bars.size(); ++i)
@@ -270,10 +270,7 @@ TEST(Loops, StopWhenAsked) {
   const Rips rips(random.points(60, 2, false));
   const Options options{.representatives = Representatives::cycles};
   const Barcode bars = persistence(rips, options);
-  std::stop_source source;
-  source.request_stop();
-  RunContext context;
-  context.stop = source.get_token();
+  StoppedContext context;
   expect_error(ErrorKind::cancelled, {}, [&] { loops(rips, bars, options, true, context); });
 }
 

@@ -14,6 +14,7 @@
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 #include "support/points.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -266,10 +267,7 @@ TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
 }
 
 TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
-  std::stop_source stop;
-  stop.request_stop();
-  RunContext context;
-  context.stop = stop.get_token();
+  StoppedContext context;
   Generator random(1);
   for (const auto& [n, d] : {std::pair(1000, 2), std::pair(1000, 5), std::pair(20000, 5)}) {
     const Points points = random.points(n, d, false);

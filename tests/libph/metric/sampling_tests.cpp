@@ -15,6 +15,7 @@
 #include "support/matching.hpp"
 #include "support/points.hpp"
 #include "support/rips_graphs.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -121,10 +122,7 @@ TEST(GreedyPermutations, OfFewPointsAndBadLimits) {
   expect_error(ErrorKind::usage, "at least 1", [&] { greedy_permutation(copies, {.points = 0}); });
   expect_error(ErrorKind::usage, "at least 1",
                [&] { greedy_permutation(copies, {.radius = kNan}); });
-  RunContext context;
-  std::stop_source source;
-  source.request_stop();
-  context.stop = source.get_token();
+  StoppedContext context;
   Generator random(1);
   const Points many = random.points(5000, 2, false);
   for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan})

@@ -2,13 +2,13 @@
 // Edges found from points alone give the same pairs as all edges, cell by cell, whatever the ties.
 #include <cmath>
 #include <numbers>
-#include <stop_token>
 
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -60,8 +60,7 @@ void expect_same(const Points& points, RipsOptions rips, const Options& task, in
   const Rips all(points, rips);
   ASSERT_EQ(plan(all, by_edges).form, RipsForm::edges);
   const auto expected = pairs_of(persistence(all, by_edges));
-  RunContext context;
-  context.threads = threads;
+  ThreadsContext context(threads);
   rips.merge_equal_points = std::nullopt;
   const Rips alone(points, rips, context);
   Options by_points = task;
@@ -224,10 +223,7 @@ TEST(BetaSkeleton, EndsAtTheMemoryLimitAndOnRequest) {
   rips.graph(RipsForm::points, context);
   context.memory.set_limit(context.memory.used() + 200'000);
   expect_error(ErrorKind::resource, "", [&] { persistence(rips, task, context); });
-  std::stop_source source;
-  RunContext stopped;
-  stopped.stop = source.get_token();
-  source.request_stop();
+  StoppedContext stopped;
   expect_error(ErrorKind::cancelled, "", [&] { persistence(rips, task, stopped); });
 }
 

@@ -13,6 +13,7 @@
 #include "support/known_spaces.hpp"
 #include "support/representatives.hpp"
 #include "support/rips_graphs.hpp"
+#include "support/run_contexts.hpp"
 #include "support/test_data.hpp"
 
 namespace ph::test {
@@ -262,10 +263,7 @@ TEST(EdgeCollapse, StopsWhenAsked) {
   Generator random(1);
   const Rips rips(random.points(150, 3, false));
   for (const CollapseLayout layout : {CollapseLayout::rows, CollapseLayout::lists}) {
-    std::stop_source source;
-    source.request_stop();
-    RunContext context;
-    context.stop = source.get_token();
+    StoppedContext context;
     expect_error(ErrorKind::cancelled, "",
                  [&] { collapse_edges(all_edges(rips), context, layout); });
   }
@@ -275,8 +273,7 @@ TEST(EdgeCollapse, KeepsToTheMemoryLimit) {
   Generator random(1);
   const Rips rips(random.points(100, 3, false));
   for (const CollapseLayout layout : {CollapseLayout::rows, CollapseLayout::lists}) {
-    RunContext context;
-    context.memory.set_limit(20000);
+    LimitedContext context(20000);
     expect_error(ErrorKind::resource, "memory limit",
                  [&] { collapse_edges(all_edges(rips), context, layout); });
     EXPECT_EQ(context.memory.used(), 0U);

@@ -14,6 +14,7 @@
 #include "libph/significance/random_points.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -106,10 +107,7 @@ TEST(ConfidenceRadius, Errors) {
                [&] { confidence_radius(points, {.subsamples = 0}); });
   expect_error(ErrorKind::usage, "no points", [&] { confidence_radius(Points()); });
   EXPECT_THROW(confidence_radius(Points{{0}, {std::nan("")}}), Error);
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
-  source.request_stop();
+  test::StoppedContext context;
   std::mt19937 random(9);
   expect_error(ErrorKind::cancelled, "",
                [&] { confidence_radius(random_points(random, 2000, 2), {}, context); });

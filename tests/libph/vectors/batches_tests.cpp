@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <stop_token>
 #include <string>
 
 #include "libph/vectors/bars_by_definition.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -91,8 +91,7 @@ TEST(Atol, DependsOnNothingButTheBars) {
   std::mt19937 random(3);
   Bars bars = random_bars(random, 20'000, 0);
   const AtolOptions options{.centres = 7, .seed = 5};
-  RunContext context;
-  context.threads = 1;
+  test::ThreadsContext context(1);
   const Atol expected = fit_atol(Spans{bars}, options, context);
   EXPECT_NE(fit_atol(Spans{bars}, {.centres = 7, .seed = 6}, context), expected);
   context.threads = 4;
@@ -186,13 +185,9 @@ TEST(Atol, RefusesWhatMakesNoSenseAndStops) {
     expect_error(ErrorKind::usage, "expected equal numbers",
                  [&] { atol_vector(bars, wrong, out); });
   expect_error(ErrorKind::usage, "expected 1", [&] { atol_vector(bars, {{{0, 1}}, {1}}, out); });
-  RunContext context;
-  std::stop_source source;
-  source.request_stop();
-  context.stop = source.get_token();
+  test::StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped", [&] { fit_atol(Spans{bars}, {}, context); });
-  RunContext small;
-  small.memory.set_limit(1000);
+  test::LimitedContext small(1000);
   expect_error(ErrorKind::resource, "memory limit", [&] { fit_atol(Spans{bars}, {}, small); });
 }
 
@@ -259,8 +254,7 @@ TEST(Kernels, GramMatricesAreThoseOfAllPairs) {
     return scale_space_kernel(a, b, 0.1, context);
   };
   for (const int threads : {1, 3}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     const std::vector<double> gram = gram_matrix(spans, kernel, context);
     ASSERT_EQ(gram.size(), 36U);
     for (std::size_t i = 0; i < 6; ++i)
@@ -288,10 +282,7 @@ TEST(Kernels, RefuseWhatMakesNoSenseAndStop) {
                [&] { scale_space_kernel(one, endless, 1); });
   expect_error(ErrorKind::bad_data, "expected finite ones",
                [&] { weighted_gaussian_kernel(endless, one); });
-  RunContext context;
-  std::stop_source source;
-  source.request_stop();
-  context.stop = source.get_token();
+  test::StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped", [&] { scale_space_kernel(one, one, 1, context); });
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <stop_token>
 #include <string>
 
 #include "ph/error.hpp"
@@ -13,6 +12,7 @@
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/random_images.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -51,8 +51,7 @@ void check(const Image& image, const CubicalOptions& options) {
       {.max_dim = std::max(cubical.top_dim(), 0), .engine = Engine::standard, .cells = false});
   const StepFunction expected = curve_of(changes_of(bars));
   for (const int threads : {1, 3}) {
-    RunContext context;
-    context.threads = threads;
+    test::ThreadsContext context(threads);
     ASSERT_EQ(euler_curve(cubical, context), expected);
     ASSERT_EQ(context.memory.used(), 0U);
     for (const Grid& grid : {Grid{-1, 3, 9}, Grid{-2.5, 0.5, 50}, Grid{0.3, 0.3, 1}}) {
@@ -231,19 +230,16 @@ TEST(EulerCurves, RefuseWhatMakesNoSenseAndStop) {
   expect_error(ErrorKind::bad_data, "euler_curve: found a bar", [&] {
     euler_curve(std::vector<Bar>{{0, 2, 1}});
   });
-  RunContext context;
-  std::stop_source source;
-  context.stop = source.get_token();
+  test::StoppableContext context;
   context.on_progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.stage, "Euler curve");
-    source.request_stop();
+    context.request_stop();
   };
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     for (int i = 0; i < 1000; ++i) euler_curve(cubical, context);
   });
   EXPECT_EQ(context.memory.used(), 0U);
-  RunContext small;
-  small.memory.set_limit(10'000);
+  test::LimitedContext small(10'000);
   expect_error(ErrorKind::resource, "memory limit", [&] { euler_curve(cubical, small); });
 }
 

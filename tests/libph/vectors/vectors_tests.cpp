@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <stop_token>
 #include <string>
 
 #include "libph/vectors/bars_by_definition.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
 #include "support/expect_error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
@@ -272,10 +272,7 @@ TEST(Images, RefuseWhatMakesNoSenseAndStop) {
     longest_lengths(Bars{{0, 1, kInfinity}}, out);
   });
   expect_error(ErrorKind::usage, "expected 38", [&] { statistics(one, out); });
-  RunContext context;
-  std::stop_source source;
-  source.request_stop();
-  context.stop = source.get_token();
+  test::StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped",
                [&] { persistence_image(one, frame, 1, 1, out, context); });
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "libsegment/scenery.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::pcl {
 namespace {
@@ -108,18 +109,15 @@ TEST(PclAdapter, ARunContextStopsAndBoundsIt) {
   PersistenceSegmentation<::pcl::PointXYZ> s;
   s.setInputCloud(cloud_of<::pcl::PointXYZ>(scene));
   std::vector<::pcl::PointIndices> clusters;
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
+  ph::test::StoppableContext context;
   s.setRunContext(context);
   s.segment(clusters);
   EXPECT_EQ(clusters.size(), 2U);
   EXPECT_GT(context.memory.peak(), 0U);
-  source.request_stop();
+  context.request_stop();
   EXPECT_THROW(s.cut(0.1, clusters), ph::Error);
   EXPECT_THROW(s.segment(clusters), ph::Error);
-  RunContext small;
-  small.memory.set_limit(1000);
+  ph::test::LimitedContext small(1000);
   s.setRunContext(small);
   EXPECT_THROW(s.segment(clusters), ph::Error);
 }

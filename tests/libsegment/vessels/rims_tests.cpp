@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/error.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::segment {
 namespace {
@@ -80,10 +81,7 @@ TEST(Rims, ThousandsOfSpecksOfOneHeightAreNotAllCompared) {
   EXPECT_EQ(joins, 0);
   EXPECT_LT(took.count(), 10) << "seventy million circles take minutes";
 
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
-  source.request_stop();
+  ph::test::StoppedContext context;
   EXPECT_THROW(join_around_rims(
                    points, kVoxel, {0, 0, 1}, number_parts(part_of, 1),
                    [](std::uint32_t, std::uint32_t) {}, context),

@@ -10,6 +10,7 @@
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 #include "support/patience.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -51,8 +52,7 @@ TEST(Input, ReadsSmallMappedAndEmptyFiles) {
 
 TEST(Input, AnEndlessStreamStopsAtTheBudget) {
   if (!std::filesystem::is_character_file("/dev/urandom")) GTEST_SKIP() << "no device /dev/urandom";
-  RunContext context;
-  context.memory.set_limit(std::size_t{8} << 20);
+  LimitedContext context(std::size_t{8} << 20);
   EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { Input::open("/dev/urandom", &context); }));
   EXPECT_LE(context.memory.peak(), std::size_t{8} << 20);
   EXPECT_EQ(context.memory.used(), 0U);
@@ -63,8 +63,7 @@ TEST(Input, ReadersKeepToTheBudget) {
   for (int i = 0; i < 20000; ++i) text += "1 2 3\n";
   const TempDir dir;
   const auto path = dir.write("p.txt", text);
-  RunContext context;
-  context.memory.set_limit(text.size() + 1000);
+  LimitedContext context(text.size() + 1000);
   EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { read_points(path, {.context = &context}); }));
   context.memory.set_limit(text.size() * 8);
   EXPECT_EQ(read_points(path, {.context = &context}).rows(), 20000);
@@ -74,15 +73,11 @@ TEST(Input, ReadersKeepToTheBudget) {
 TEST(Input, BytesInMemoryHaveABudgetToo) {
   std::string text;
   for (int i = 0; i < 300000; ++i) text += std::to_string(i) + " 1\n";
-  RunContext context;
-  context.memory.set_limit(100'000);
+  LimitedContext context(100'000);
   EXPECT_TRUE(
       fails_with(ErrorKind::resource, [&] { read_points(Input::view(text, "t.txt", &context)); }));
   EXPECT_EQ(read_points(Input::view(text, "t.txt")).rows(), 300000);
-  RunContext stopped;
-  std::stop_source stop;
-  stopped.stop = stop.get_token();
-  stop.request_stop();
+  StoppedContext stopped;
   EXPECT_TRUE(
       fails_with(ErrorKind::cancelled, [&] { read_points(Input::view(text, "t.txt", &stopped)); }));
 }

@@ -12,6 +12,7 @@
 #include "libph/io/read_support.hpp"
 #include "nifti_file.hpp"
 #include "ph/io/read.hpp"
+#include "support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {
@@ -64,8 +65,7 @@ void expect_same_in_file(const std::string& name, const std::string& bytes,
   const std::filesystem::path path = dir.write(name, bytes);
   const Image expected = read_image(path, options);
   EXPECT_FALSE(expected.values.is_in_file());
-  RunContext context;
-  context.memory.set_limit(3'000'000);
+  LimitedContext context(3'000'000);
   options.context = &context;
   const Image found = read_image(path, options);
   EXPECT_TRUE(found.values.is_in_file());
@@ -99,8 +99,7 @@ TEST(ImagesInFiles, MaskNan) {
   expect_same_in_file("nan.npy", bytes, {.nan = NanPolicy::drop});
   const TempDir dir;
   const std::filesystem::path path = dir.write("nan.npy", bytes);
-  RunContext context;
-  context.memory.set_limit(3'000'000);
+  LimitedContext context(3'000'000);
   EXPECT_TRUE(contains(bad_data([&] { read_image(path, {.context = &context}); }), "[0, 0, 5]"));
 }
 
@@ -112,8 +111,7 @@ TEST(ImagesInFiles, OfAnyAlignment) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("volume.raw", bytes);
   const RawLayout layout{.extents = {kDepth, kHeight, kWidth}, .type = "f4", .skip = 3};
-  RunContext context;
-  context.memory.set_limit(3'000'000);
+  LimitedContext context(3'000'000);
   const Image image =
       read_raw(Input::open(path, &context, Excess::stays_in_file), layout, {.context = &context});
   EXPECT_TRUE(image.values.is_in_file());
@@ -123,8 +121,7 @@ TEST(ImagesInFiles, OfAnyAlignment) {
 TEST(ImagesInFiles, ChangeInMemory) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));
-  RunContext context;
-  context.memory.set_limit(3'000'000);
+  LimitedContext context(3'000'000);
   const Image image = read_image(path, {.context = &context});
   Voxels changed = image.values;
   const double before = changed[7];
@@ -251,8 +248,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
     SCOPED_TRACE(fmt::format("round {}, {}", round, name));
     const std::filesystem::path path = dir.write(name, bytes);
     const Outcome expected = outcome(path, {.nan = nan});
-    RunContext context;
-    context.memory.set_limit(3'000'000);
+    LimitedContext context(3'000'000);
     const Outcome found = outcome(path, {.nan = nan, .context = &context});
     ASSERT_LE(context.memory.peak(), context.memory.limit());
     if (found.is_refused) {
@@ -278,8 +274,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
 TEST(ImagesInFiles, OtherInputsDoNot) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));
-  RunContext context;
-  context.memory.set_limit(3'000'000);
+  LimitedContext context(3'000'000);
   const ReadOptions options{.array = ArrayMeaning::points, .context = &context};
   for (const Format format : {Format::npy, Format::points}) {
     try {
@@ -297,8 +292,7 @@ TEST(ImagesInFiles, OtherInputsAreCounted) {
   while (text.size() < 600'000) text += "0.25 0.5 0.75\n";
   const TempDir dir;
   const std::filesystem::path path = dir.write("points.txt", text);
-  RunContext context;
-  context.memory.set_limit(1'000'000);
+  LimitedContext context(1'000'000);
   const Input input = Input::open(path, &context, Excess::stays_in_file);
   EXPECT_TRUE(input.stays_in_file());
   EXPECT_LT(context.memory.used(), text.size());
