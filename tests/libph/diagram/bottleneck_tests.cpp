@@ -12,12 +12,14 @@
 
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
+#include "support/random_bars.hpp"
 #include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
 
-using Bars = std::vector<Bar>;
+using test::Bars;
+using test::random_bars;
 
 double apart(const Bar& a, const Bar& b) {
   return std::max(std::abs(a.birth - b.birth), std::abs(a.death - b.death));
@@ -80,20 +82,6 @@ double by_growing_matchings(const Bars& a, const Bars& b) {
     return true;
   };
   return *std::ranges::partition_point(values, [&](double v) { return !is_possible(v); });
-}
-
-/// Bars with ends on a grid of `steps` values, or anywhere for 0.
-Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
-  const auto number = [&] {
-    if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));
-    return std::uniform_real_distribution<>(-1, 1)(random);
-  };
-  Bars bars;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [low, high] = std::minmax({number(), number()});
-    bars.push_back({1, low, high});
-  }
-  return bars;
 }
 
 TEST(Bottleneck, IsTheBestOfAllMatchings) {

@@ -12,24 +12,16 @@
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/random_bars.hpp"
 #include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
 
-using Bars = std::vector<Bar>;
 using Spans = std::vector<std::span<const Bar>>;
+using test::Bars;
 using test::expect_error;
-
-Bars random_bars(std::mt19937& random, std::size_t count) {
-  std::uniform_real_distribution<> number(-1, 1);
-  Bars bars;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [low, high] = std::minmax({number(random), number(random)});
-    bars.push_back({1, low, high});
-  }
-  return bars;
-}
+using test::random_bars;
 
 Spans spans_of(const std::vector<Bars>& diagrams) { return {diagrams.begin(), diagrams.end()}; }
 

@@ -15,12 +15,14 @@
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 #include "support/expect_error.hpp"
+#include "support/random_bars.hpp"
 #include "support/run_contexts.hpp"
 
 namespace ph {
 namespace {
 
-using Bars = std::vector<Bar>;
+using test::Bars;
+using test::random_bars;
 
 double norm(double x, double y, double q) {
   if (q == kInfinity) return std::max(std::abs(x), std::abs(y));
@@ -106,21 +108,8 @@ double by_hungarian_method(const Bars& a, const Bars& b, double p, double q) {
   return sum;
 }
 
-Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
-  const auto number = [&] {
-    if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));
-    return std::uniform_real_distribution<>(-1, 1)(random);
-  };
-  Bars bars;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [low, high] = std::minmax({number(), number()});
-    bars.push_back({1, low, high});
-  }
-  return bars;
-}
-
-/// True if bounds fit a known distance, up to rounding.
-/// @param alone the cost of all bars on the diagonal: the rounding of prices is proportional to it.
+/// Whether bounds are those of a known distance, exact but for rounding.
+/// @param alone what all bars cost that go to the diagonal: prices are rounded in proportion to it.
 void expect_distance(const DistanceBounds& found, double expected, const std::string& where,
                      double p = 1, double alone = 0) {
   ASSERT_NEAR(found.value, expected, 1e-11 * expected) << where;

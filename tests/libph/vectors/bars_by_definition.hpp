@@ -3,31 +3,12 @@
 // Vectors of diagrams by definition, value by value, with more digits.
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <span>
 #include <vector>
 
-#include "ph/barcode.hpp"
+#include "support/random_bars.hpp"
 
 namespace ph::test {
-
-using Bars = std::vector<Bar>;
-
-/// @param steps 0: any numbers in [-1, 1]; else whole numbers from 0 to it, ties and bars of length
-/// 0
-///        among them.
-inline Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
-  const auto number = [&] {
-    if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));
-    return std::uniform_real_distribution<>(-1, 1)(random);
-  };
-  Bars bars;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double a = number(), b = number();
-    bars.push_back({1, std::min(a, b), std::max(a, b)});
-  }
-  return bars;
-}
 
 inline double tent(const Bar& bar, double t) {
   return std::max(0.0, std::min(t - bar.birth, bar.death - t));
