@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "readers.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph::fuzz {
 namespace {
@@ -193,11 +194,9 @@ class Prefixes {
       if (length > 0) file.append(sample_.bytes[length - 1]);
       SCOPED_TRACE(std::to_string(length) + " bytes");
       std::optional<Content> content;
-      try {
+      ph::test::fails_with(ErrorKind::bad_data, [&] {
         content = reader->read(Input::open(sample_.opened(file.path())), {});
-      } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
-      }
+      });
       contents_.push_back(content);
     }
     ASSERT_TRUE(contents_.back()) << "the whole is rejected";

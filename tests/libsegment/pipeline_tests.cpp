@@ -211,12 +211,7 @@ TEST(Pipeline, OptionsOutOfRange) {
   const CloudView cloud{xyz, {}};
   const double nan = std::nan("");
   const auto expect_usage = [&](const SegmentOptions& options) {
-    try {
-      segment(cloud, options);
-      FAIL() << "no error";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-    }
+    EXPECT_TRUE(ph::test::fails_with(ErrorKind::usage, [&] { segment(cloud, options); }));
   };
   for (const double bad : {0.0, -1.0, nan, kInfinity}) {
     expect_usage({.voxel = bad});
@@ -252,12 +247,11 @@ TEST(Pipeline, PlainArraysKeepTheirRowsAndColumns) {
   const std::pair<Index, Index> wrong[] = {
       {320, 239}, {321, 240}, {-320, -240}, {Index{1} << 62, 4}, {320, 0}};
   for (const auto& [width, height] : wrong) {
-    try {
-      segment(CloudView{scene.xyz(), {}, width, height});
-      ADD_FAILURE() << width << " x " << height;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
-    }
+    EXPECT_TRUE(ph::test::fails_with(ErrorKind::bad_data,
+                                     [&] {
+                                       segment(CloudView{scene.xyz(), {}, width, height});
+                                     }))
+        << width << " x " << height;
   }
 }
 
@@ -289,12 +283,9 @@ TEST(Pipeline, WhatIsHeldCountsInTheBudget) {
 TEST(Pipeline, StopsWhenAsked) {
   const TableScene scene = TableScene::two_boxes();
   ph::test::StoppedContext context;
-  try {
+  EXPECT_TRUE(ph::test::fails_with(ErrorKind::cancelled, [&] {
     segment(CloudView{scene.xyz(), {}}, kPaper, context);
-    FAIL() << "did not stop";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-  }
+  })) << "did not stop";
 }
 
 }  // namespace

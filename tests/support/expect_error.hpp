@@ -23,4 +23,16 @@ void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
   ADD_FAILURE() << "expected an error with '" << part << "', found none";
 }
 
+/// Whether `act` throws an Error. One of another kind fails the test.
+template <class Act>
+bool fails_with(ErrorKind kind, Act&& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    return error.kind() == kind;
+  }
+  return false;
+}
+
 }  // namespace ph::test

@@ -12,6 +12,7 @@
 
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
+#include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/run_contexts.hpp"
 
@@ -106,15 +107,12 @@ TEST(ForEachInput, StopsOnRequestAndTellsOfInputs) {
   std::stop_source stop;
   ThreadsContext context(2);
   context.stop = stop.get_token();
-  try {
+  EXPECT_TRUE(fails_with(ErrorKind::cancelled, [&] {
     for_each_input(5, context, [&](std::size_t i, const RunContext& of_input) {
       if (i == 0) stop.request_stop();
       wait_for_a_stop(of_input);
     });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-  }
+  }));
   ThreadsContext told(1);
   std::uint64_t done = 0;
   told.on_progress = [&](const Progress& progress) {

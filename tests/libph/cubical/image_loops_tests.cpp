@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "support/conformance.hpp"
+#include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 
@@ -261,13 +262,7 @@ TEST(ImageLoops, RefuseDamagedMessages) {
   ASSERT_EQ(messages[0].to, 1);
   const std::vector<std::byte>& bytes = messages[0].bytes;
   const auto is_refused = [](ImageLoops& part, std::span<const std::byte> message) {
-    try {
-      part.receive(message);
-      return false;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
-      return true;
-    }
+    return fails_with(ErrorKind::bad_data, [&] { part.receive(message); });
   };
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_TRUE(is_refused(all.loops[1], std::span(bytes).first(size))) << size;

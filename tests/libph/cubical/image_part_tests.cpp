@@ -13,6 +13,7 @@
 #include "core/bytes/crc32.hpp"
 #include "core/bytes/sealed_part.hpp"
 #include "support/conformance.hpp"
+#include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 #include "support/image_cases.hpp"
@@ -158,13 +159,7 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
   Generator random(1);
   const Image image = random.image({8, 6}, false), other = random.image({8, 6}, false);
   const auto refused = [](ImagePart& a, ImagePart b, const char* why) {
-    try {
-      a.join(std::move(b));
-      ADD_FAILURE() << why;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
-      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
-    }
+    expect_error(ErrorKind::bad_data, why, [&] { a.join(std::move(b)); });
   };
   ImagePart first(image, 0, 3);
   refused(first, ImagePart(image, 2, 3), "found part 3 after part 1");
@@ -185,13 +180,7 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   Generator random(2);
   const Image image = random.image({4, 5}, false);
   const auto refused = [](const Image& of, int part, int parts, const char* why) {
-    try {
-      ImagePart(of, part, parts);
-      ADD_FAILURE() << why;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
-    }
+    expect_error(ErrorKind::usage, why, [&] { ImagePart(of, part, parts); });
   };
   refused(image, 0, 5, "found 5, expected 1 to 4");
   refused(image, 0, 0, "found 0, expected 1 to 4");
@@ -210,18 +199,14 @@ TEST(ImagePart, RefusesDamagedBytes) {
   std::size_t refused = 0;
   // Bytes accepted as a part can be joined: no index leaves its list.
   const auto is_refused = [&](std::span<const std::byte> damaged) {
-    try {
+    return fails_with(ErrorKind::bad_data, [&] {
       ImagePart whole(image, 0, 3);
       whole.join(ImagePart::of_bytes(damaged));
       whole.join(ImagePart(image, 2, 3));
       const Barcode bars = whole.barcode();
       for (std::size_t i = 0; i < bars.size(); ++i)
         EXPECT_FALSE(std::isnan(bars[i].birth) || std::isnan(bars[i].death));
-      return false;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
-      return true;
-    }
+    });
   };
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
@@ -261,14 +246,10 @@ TEST(ImagePart, RefusesDamagedLayers) {
   ASSERT_EQ(found.size(), layers.bytes().size());
   const auto begin = static_cast<std::size_t>(found.begin() - content.begin());
   const auto is_refused = [&](std::span<const std::byte> damaged) {
-    try {
+    return fails_with(ErrorKind::bad_data, [&] {
       ImagePart first(image, 0, 3, options);
       first.join(ImagePart::of_bytes(sealed_part("image", damaged)));
-      return false;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
-      return true;
-    }
+    });
   };
   EXPECT_FALSE(is_refused(content));
   for (std::size_t i = begin; i < begin + found.size(); ++i)

@@ -146,11 +146,7 @@ TEST(ManyAxes, BudgetsAndStops) {
   }
   for (std::size_t k = 0; k <= 20; ++k) {
     LimitedContext context(peak * k / 20);
-    try {
-      EXPECT_EQ(run(context), expected);
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::resource);
-    }
+    fails_with(ErrorKind::resource, [&] { EXPECT_EQ(run(context), expected); });
     EXPECT_EQ(context.memory.used(), 0U);
   }
   const Cubical cubical(image);

@@ -10,6 +10,7 @@
 #include "facade/parts/loops_of_ranks.hpp"
 #include "ph/parts/cloud_part.hpp"
 #include "support/conformance.hpp"
+#include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/image_cases.hpp"
 #include "support/thread_ranks.hpp"
@@ -102,14 +103,12 @@ TEST_P(Mishaps, AreSeen) {
     const ImageCase c{random.image({9, 5}, false), {}, 9};
     ThreadRanks ranks(9, nullptr);
     ranks.plan(GetParam(), static_cast<int>(seed) % 8);
-    try {
+    fails_with(ErrorKind::io, [&] {
       const Barcode bars = bars_of_ranks(c, ranks);
       // The second of two equal messages stays unread, because nobody asks for it.
       EXPECT_TRUE(GetParam() == Mishap::doubled || !ranks.has_happened());
       EXPECT_EQ(pairs_of(bars), pairs_of(ImagePart(c.image, 0, 1).barcode()));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::io) << error.what();
-    }
+    });
     happened += ranks.has_happened() ? 1 : 0;
   }
   EXPECT_EQ(happened, 12);
@@ -142,15 +141,8 @@ TEST(Post, KnowsItsMessages) {
     for (int message = 0; message < 2; ++message) {
       ThreadRanks ranks(2, nullptr);
       ranks.plan(mishap, message);
-      try {
-        three_messages(ranks);
-        ADD_FAILURE() << static_cast<int>(mishap);
-      } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::io);
-        EXPECT_NE(std::string(error.what()).find("rank 0: message from rank 1: found"),
-                  std::string::npos)
-            << error.what();
-      }
+      expect_error(ErrorKind::io, "rank 0: message from rank 1: found",
+                   [&] { three_messages(ranks); });
     }
 }
 

@@ -350,13 +350,7 @@ TEST(CloudPart, RefusesDamagedBytes) {
   const Points points = random.points(40, 2, true);
   const std::vector<std::byte> bytes = CloudPart(points, 1, 3).bytes();
   const auto is_refused = [&](std::span<const std::byte> damaged) {
-    try {
-      CloudPart::of_bytes(damaged);
-      return false;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
-      return true;
-    }
+    return fails_with(ErrorKind::bad_data, [&] { CloudPart::of_bytes(damaged); });
   };
   EXPECT_FALSE(is_refused(bytes));
   for (std::size_t size = 0; size < bytes.size(); ++size)

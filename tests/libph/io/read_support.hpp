@@ -15,6 +15,7 @@
 #include "ph/error.hpp"
 #include "ph/image.hpp"
 #include "ph/io/read.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph::test {
 
@@ -41,18 +42,6 @@ std::string bad_data(F&& f) {
   }
   ADD_FAILURE() << "no error";
   return {};
-}
-
-/// True if `f` throws an Error of this kind.
-template <class F>
-bool fails_with(ErrorKind kind, F&& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.kind() == kind;
-  }
-  return false;
 }
 
 /// Calls `read(Input)` on every proper prefix of `bytes`: it must throw bad_data or return true

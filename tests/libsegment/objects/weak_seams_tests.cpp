@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ph/error.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -162,12 +163,8 @@ TEST(WeakSeams, CanBeStopped) {
   context.stop = source.get_token();
   EXPECT_EQ(basins.joined(2, context), basins.joined(2));
   source.request_stop();
-  try {
-    basins.joined(2, context);
-    ADD_FAILURE() << "not stopped";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-  }
+  EXPECT_TRUE(ph::test::fails_with(ErrorKind::cancelled, [&] { basins.joined(2, context); }))
+      << "not stopped";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/eigen.hpp"
 #include "ph/error.hpp"
+#include "support/expect_error.hpp"
 #include "surface/concavity.hpp"
 #include "voxels/voxel_pairs.hpp"
 
@@ -64,12 +65,7 @@ TEST(VoxelPairs, AreAllThatAreClose) {
 
 TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
   const auto refuses = [](const VoxelGrid& grid) {
-    try {
-      close_voxels(grid, 0.005, 3);
-    } catch (const Error& error) {
-      return error.kind() == ErrorKind::usage;
-    }
-    return false;
+    return ph::test::fails_with(ErrorKind::usage, [&] { close_voxels(grid, 0.005, 3); });
   };
   for (const std::size_t axis : {0U, 1U, 2U}) {
     for (const double sign : {-1.0, 1.0}) {

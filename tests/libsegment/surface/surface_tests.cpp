@@ -15,6 +15,7 @@
 #include "methods.hpp"
 #include "objects/objects.hpp"
 #include "ph/error.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -304,12 +305,9 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
     reached |= progress.stage == "objects";
     if (reached) source.request_stop();
   };
-  try {
-    for (int again = 0; again < 1000; ++again) cut(s.tree, s.tree.first_cut, context);
-    ADD_FAILURE() << "did not stop";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-  }
+  EXPECT_TRUE(ph::test::fails_with(ErrorKind::cancelled, [&] {
+    for (int again = 0; again < 1000; ++again) cut(s, s.first_cut, context);
+  })) << "did not stop";
   EXPECT_TRUE(reached);
 }
 

@@ -13,6 +13,7 @@
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "plane/range_filter.hpp"
+#include "support/expect_error.hpp"
 #include "tree/cross_check.hpp"
 #include "tree/tree_barcode.hpp"
 #include "voxels/rips_graph.hpp"
@@ -189,12 +190,9 @@ TEST(RipsGraph, FarFromTheOrigin) {
 TEST(RipsGraph, KeepsTheMemoryLimit) {
   RunContext context;
   context.memory.set_limit(100000);
-  try {
+  EXPECT_TRUE(ph::test::fails_with(ErrorKind::resource, [&] {
     rips_graph(random_points(2000, 1), 2, 10, context);
-    FAIL() << "two million edges in 100 kB";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::resource);
-  }
+  })) << "two million edges in 100 kB";
 }
 
 }  // namespace

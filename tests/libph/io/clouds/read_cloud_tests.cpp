@@ -148,11 +148,7 @@ TEST(Pcd, RefusesLyingCompression) {
     for (const int value : {0, 31, 32, 255}) {
       std::string bytes = whole;
       bytes[i] = static_cast<char>(value);
-      try {
-        EXPECT_EQ(pcd(bytes).size(), 40);
-      } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::bad_data);
-      }
+      fails_with(ErrorKind::bad_data, [&] { EXPECT_EQ(pcd(bytes).size(), 40); });
     }
   }
   // 2000 bytes cannot stand for a gigabyte.
