@@ -16,19 +16,16 @@ The script measures user + system CPU seconds and peak resident memory of whole 
 reading the image, with output discarded; bench/README.md explains how. Needs numpy.
 """
 import argparse
-import datetime
-import json
 import math
 import pathlib
 import re
 import shlex
-import subprocess
 import sys
 import tempfile
 
 import image_rows
 import rips_table
-from compare_rips import Program, merged, processor, save, size
+from compare_rips import Program, add_options, calls_of, merged, report_of, save
 from measuring import Limits, Meter
 from rips_table import OURS
 
@@ -104,8 +101,7 @@ class Comparison:
     def row(self, row, construction, path):
         name = f"{row.name}, {construction}"
         result = {"name": name, "results": [], "bars": {}}
-        calls = [(program, threads) for program in self.programs(row, construction)
-                 for threads in (self._arguments.threads if program.has_threads else [1])]
+        calls = calls_of(self.programs(row, construction), self._arguments.threads)
         runs = self._meter.best_in_turns([program.command([str(path)], threads) for program, threads in calls])
         finished = {}
         for (program, threads), taken in zip(calls, runs):
@@ -134,21 +130,11 @@ def parse():
     parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
                         help="build folder, with ph-barcode and bench_run")
     parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
-    parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
     parser.add_argument("--scans", type=pathlib.Path, default=pathlib.Path(),
                         help="folder of the scans that --rows names: skull_2.9.inr, ch2.nii.gz")
     parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: the usual)")
     parser.add_argument("--construction", choices=CONSTRUCTIONS, action="append", help="repeatable (default: both)")
-    parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
-                        help="numbers of threads, comma-separated (default: 1)")
-    parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
-    parser.add_argument("--together", type=float, default=0.5, metavar="SECONDS",
-                        help="runs below 50 ms are repeated until they took this long together (default: 0.5)")
-    parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
-    parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
-    parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")
-    parser.add_argument("--json", type=pathlib.Path, help="all results; what it holds already is kept or replaced")
-    parser.add_argument("--list", action="store_true", help="print the names of the rows and end")
+    add_options(parser)
     return parser.parse_args()
 
 
@@ -160,13 +146,7 @@ def main():
     rows = [row for row in image_rows.ROWS if (row.name in arguments.rows if arguments.rows else row.usual)]
     if arguments.rows and (unknown := set(arguments.rows) - {row.name for row in rows}):
         raise SystemExit(f"no such row: {', '.join(sorted(unknown))}; --list names them")
-    report = {"rows": []}
-    if arguments.json and arguments.json.exists():
-        report = json.loads(arguments.json.read_text())
-    version = subprocess.run([arguments.build / "apps/barcode/ph-barcode", "--version"], capture_output=True, text=True,
-                             check=True)
-    report.update(machine=processor(), date=str(datetime.date.today()), version=version.stdout.strip(),
-                  peers={**report.get("peers", {}), **{p.name: str(p) for p in arguments.peer}})
+    report = report_of(arguments)
     known = {row["name"]: row for row in report["rows"]}
     with tempfile.TemporaryDirectory() as folder:
         made = arguments.made or pathlib.Path(folder)

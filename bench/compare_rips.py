@@ -122,10 +122,8 @@ class Comparison:
         return self._startups[command]
 
     def measure(self, row, path):
-        """The time and memory of each program with each number of threads; the programs take
-        turns."""
-        calls = [(program, threads) for program in self.programs(row)
-                 for threads in (self.arguments.threads if program.has_threads else [1])]
+        """What each program takes, with each number of threads; they take turns."""
+        calls = calls_of(self.programs(row), self.arguments.threads)
         runs = self._meter.best_in_turns([program.command(self.options(program, row, path), threads)
                                           for program, threads in calls])
         for (program, threads), taken in zip(calls, runs):
@@ -192,6 +190,39 @@ def processor():
         return platform.machine()
 
 
+def add_options(parser):
+    """What all comparisons take."""
+    parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
+    parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
+                        help="numbers of threads, comma-separated (default: 1)")
+    parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
+    parser.add_argument("--together", type=float, default=0.5, metavar="SECONDS",
+                        help="runs below 50 ms are repeated until they took this long together (default: 0.5)")
+    parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
+    parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
+    parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")
+    parser.add_argument("--json", type=pathlib.Path, help="all results; what it holds already is kept or replaced")
+    parser.add_argument("--list", action="store_true", help="print the names of the rows and end")
+
+
+def calls_of(programs, threads):
+    """Each program with each number of threads."""
+    return [(program, n) for program in programs for n in (threads if program.has_threads else [1])]
+
+
+def report_of(arguments):
+    """@return the report, with the rows of an earlier run."""
+    report = {"rows": []}
+    if arguments.json and arguments.json.exists():
+        report = json.loads(arguments.json.read_text())
+    version = subprocess.run([arguments.build / "apps/barcode/ph-barcode", "--version"], capture_output=True,
+                             text=True, check=True)
+    report.update(machine=f"{processor()}, {os.cpu_count()} processors", date=str(datetime.date.today()),
+                  version=version.stdout.strip(),
+                  peers={**report.get("peers", {}), **{p.name: str(p) for p in arguments.peer}})
+    return report
+
+
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                                      fromfile_prefix_chars="@")
@@ -203,20 +234,10 @@ def parse():
     parser.add_argument("--data", type=pathlib.Path, default=rips_rows.data_folder(),
                         help="folder of the inputs that are not generated (default: data in the folder that the "
                              "environment variable PH_TEST_DATA names, else shared/data beside the clone)")
-    parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
     parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: all)")
     parser.add_argument("--only", action="append", default=[], metavar="NAME",
                         help="only programs whose name begins so, repeatable")
-    parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
-                        help="numbers of threads, comma-separated (default: 1)")
-    parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
-    parser.add_argument("--together", type=float, default=0.5, metavar="SECONDS",
-                        help="runs below 50 ms are repeated until they took this long together (default: 0.5)")
-    parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
-    parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
-    parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")
-    parser.add_argument("--json", type=pathlib.Path, help="all results; what it holds already is kept or replaced")
-    parser.add_argument("--list", action="store_true", help="print the names of the rows and end")
+    add_options(parser)
     return parser.parse_args()
 
 
@@ -240,14 +261,7 @@ def main():
     if arguments.list:
         print("\n".join(row.name for row in rips_rows.ROWS))
         return
-    report = {"rows": []}
-    if arguments.json and arguments.json.exists():
-        report = json.loads(arguments.json.read_text())
-    version = subprocess.run([arguments.build / "apps/barcode/ph-barcode", "--version"], capture_output=True,
-                             text=True, check=True)
-    report.update(machine=f"{processor()}, {os.cpu_count()} processors", date=str(datetime.date.today()),
-                  version=version.stdout.strip(),
-                  peers={**report.get("peers", {}), **{p.name: str(p) for p in arguments.peer}})
+    report = report_of(arguments)
     with tempfile.TemporaryDirectory() as folder:
         made = arguments.made or pathlib.Path(folder)
         made.mkdir(parents=True, exist_ok=True)
