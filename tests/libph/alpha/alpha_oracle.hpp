@@ -67,6 +67,49 @@ inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>&
   return sphere;
 }
 
+struct OracleBar {
+  int dim;
+  Rational birth;
+  std::optional<Rational> death;
+};
+
+/// The bars of positive length, over Z/p: the textbook's reduction.
+/// @param order simplices with their values, faces first.
+/// @param visit_facets(simplex, visit) calls visit(facet, sign) for each.
+template <class Simplex, class Dim, class VisitFacets>
+std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex>>& order, int p,
+                                   Dim&& dim_of, VisitFacets&& visit_facets) {
+  std::map<Simplex, std::size_t> place;
+  std::vector<std::map<std::size_t, int>> columns(order.size());
+  std::map<std::size_t, std::size_t> column_of_pivot;
+  std::vector<bool> is_paired(order.size(), false);
+  std::vector<OracleBar> result;
+  const auto add = [&](std::map<std::size_t, int>& column, std::size_t row, int a) {
+    if ((column[row] = ((column[row] + a) % p + p) % p) == 0) column.erase(row);
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[order[i].second] = i;
+    auto& column = columns[i];
+    visit_facets(order[i].second,
+                 [&](const Simplex& facet, int sign) { add(column, place.at(facet), sign); });
+    while (!column.empty() && column_of_pivot.contains(column.rbegin()->first)) {
+      const auto& other = columns[column_of_pivot.at(column.rbegin()->first)];
+      int factor = 0;
+      while ((column.rbegin()->second + factor * other.rbegin()->second) % p != 0) ++factor;
+      for (const auto& [row, a] : other) add(column, row, factor * a);
+    }
+    if (column.empty()) continue;
+    const std::size_t born = column.rbegin()->first;
+    column_of_pivot[born] = i;
+    is_paired[born] = is_paired[i] = true;
+    if (order[born].first < order[i].first)
+      result.push_back({dim_of(order[born].second), order[born].first, order[i].first});
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (!is_paired[i]) result.push_back({dim_of(order[i].second), order[i].first, std::nullopt});
+  return result;
+}
+
 /// A simplex is a set of points, as bits. It has a value if the Voronoi cells (power cells) of its
 /// points meet: the least power, with respect to its points, of a point in the intersection. All
 /// such simplices are listed, which for cospherical points are more than a triangulation has. They
@@ -74,12 +117,6 @@ inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>&
 /// balls.
 class AlphaOracle {
  public:
-  struct OracleBar {
-    int dim;
-    Rational birth;
-    std::optional<Rational> death;
-  };
-
   AlphaOracle(PointsView points, const std::vector<double>& weights) {
     for (Index i = 0; i < points.rows(); ++i) {
       points_.emplace_back();
@@ -119,7 +156,7 @@ class AlphaOracle {
     return result;
   }
 
-  /// Bars of positive length over Z/p, by the textbook's reduction.
+  /// Of positive length, over Z/p.
   std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, unsigned>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);
@@ -128,36 +165,12 @@ class AlphaOracle {
       const int m = __builtin_popcount(a.second), n = __builtin_popcount(b.second);
       return m != n ? m < n : a.second < b.second;
     });
-    std::map<unsigned, std::size_t> place;
-    std::vector<std::map<std::size_t, int>> columns(order.size());
-    std::map<std::size_t, std::size_t> column_of_pivot;
-    std::vector<bool> is_paired(order.size(), false);
-    std::vector<OracleBar> result;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const unsigned simplex = order[i].second;
-      place[simplex] = i;
-      auto& column = columns[i];
+    return oracle_bars(order, p, dim_of, [](unsigned simplex, auto&& visit) {
       int sign = 1;
       if (__builtin_popcount(simplex) > 1)
         for (unsigned left = simplex; left != 0; left &= left - 1, sign = -sign)
-          column[place.at(simplex & ~(left & -left))] = (sign + p) % p;
-      while (!column.empty() && column_of_pivot.contains(column.rbegin()->first)) {
-        const auto& other = columns[column_of_pivot.at(column.rbegin()->first)];
-        int factor = 0;
-        while ((column.rbegin()->second + factor * other.rbegin()->second) % p != 0) ++factor;
-        for (const auto& [row, a] : other)
-          if ((column[row] = (column[row] + factor * a) % p) == 0) column.erase(row);
-      }
-      if (column.empty()) continue;
-      const std::size_t born = column.rbegin()->first;
-      column_of_pivot[born] = i;
-      is_paired[born] = is_paired[i] = true;
-      if (order[born].first < order[i].first)
-        result.push_back({dim_of(order[born].second), order[born].first, order[i].first});
-    }
-    for (std::size_t i = 0; i < order.size(); ++i)
-      if (!is_paired[i]) result.push_back({dim_of(order[i].second), order[i].first, std::nullopt});
-    return result;
+          visit(simplex & ~(left & -left), sign);
+    });
   }
 
  private:

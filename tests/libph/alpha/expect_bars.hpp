@@ -15,8 +15,8 @@ inline bool is_near(double found, const Rational& exact, double absolute) {
   return std::abs(found - expected) <= absolute + 1e-12 * std::abs(expected);
 }
 
-/// Removes matching bars one by one; the remaining found bars must have no length.
-inline void expect_bars(const Barcode& found, const std::vector<AlphaOracle::OracleBar>& exact,
+/// Takes out one of the bars by one; what is left of those found must have no length.
+inline void expect_bars(const Barcode& found, const std::vector<OracleBar>& exact,
                         double absolute) {
   std::vector<Bar> left(found.begin(), found.end());
   for (const auto& bar : exact) {

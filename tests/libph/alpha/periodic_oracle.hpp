@@ -65,8 +65,8 @@ class PeriodicOracle {
 
   const std::map<Simplex, Rational>& values() const { return values_; }
 
-  /// Bars of positive length over Z/p, by the textbook's reduction.
-  std::vector<AlphaOracle::OracleBar> bars(int p) const {
+  /// Of positive length, over Z/p.
+  std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, Simplex>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
@@ -74,40 +74,14 @@ class PeriodicOracle {
       if (a.second.size() != b.second.size()) return a.second.size() < b.second.size();
       return a.second < b.second;
     });
-    std::map<Simplex, std::size_t> place;
-    std::vector<std::map<std::size_t, int>> columns(order.size());
-    std::map<std::size_t, std::size_t> column_of_pivot;
-    std::vector<bool> is_paired(order.size(), false);
-    std::vector<AlphaOracle::OracleBar> result;
-    const auto dim_of = [&](std::size_t i) { return static_cast<int>(order[i].second.size()) - 1; };
-    const auto add = [&](std::map<std::size_t, int>& column, std::size_t row, int a) {
-      if ((column[row] = ((column[row] + a) % p + p) % p) == 0) column.erase(row);
-    };
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Simplex& simplex = order[i].second;
-      place[simplex] = i;
-      auto& column = columns[i];
+    const auto dim_of = [](const Simplex& simplex) { return static_cast<int>(simplex.size()) - 1; };
+    return oracle_bars(order, p, dim_of, [](const Simplex& simplex, auto&& visit) {
       for (std::size_t k = 0; simplex.size() > 1 && k < simplex.size(); ++k) {
         Simplex facet = simplex;
         facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
-        add(column, place.at(brought_home(facet)), k % 2 == 0 ? 1 : -1);
+        visit(brought_home(facet), k % 2 == 0 ? 1 : -1);
       }
-      while (!column.empty() && column_of_pivot.contains(column.rbegin()->first)) {
-        const auto& other = columns[column_of_pivot.at(column.rbegin()->first)];
-        int factor = 0;
-        while ((column.rbegin()->second + factor * other.rbegin()->second) % p != 0) ++factor;
-        for (const auto& [row, a] : other) add(column, row, factor * a);
-      }
-      if (column.empty()) continue;
-      const std::size_t born = column.rbegin()->first;
-      column_of_pivot[born] = i;
-      is_paired[born] = is_paired[i] = true;
-      if (order[born].first < order[i].first)
-        result.push_back({dim_of(born), order[born].first, order[i].first});
-    }
-    for (std::size_t i = 0; i < order.size(); ++i)
-      if (!is_paired[i]) result.push_back({dim_of(i), order[i].first, std::nullopt});
-    return result;
+    });
   }
 
  private:
