@@ -111,17 +111,19 @@ class Program:
         self.path, self.folder = path, folder
         self.command, self.run, self.said = None, None, ""
 
-    def __call__(self, options):
+    def __call__(self, options, stdin=None):
+        """@return the exit code."""
         self.command = [self.path, *sum(options, [])]
+        given = {"input": stdin} if stdin is not None else {"stdin": subprocess.DEVNULL}
         try:
-            self.run = subprocess.run(self.command, cwd=self.folder, stdin=subprocess.DEVNULL,
-                                      capture_output=True, timeout=120)
+            self.run = subprocess.run(self.command, cwd=self.folder, capture_output=True, timeout=120, **given)
         except subprocess.TimeoutExpired:
             raise Difference(f"no end after 120 s: {shlex.join(self.command)}") from None
         self.said = self.run.stderr.decode(errors="replace")
         return self.run.returncode
 
     def differ(self, what):
+        what = what if len(what) < 1500 else what[:1500] + " …"
         raise Difference(f"{what}\n  {shlex.join(self.command)}\n"
                          f"  exit {self.run.returncode}: {self.said[-600:]}")
 

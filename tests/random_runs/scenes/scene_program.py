@@ -2,37 +2,22 @@
 """Runs ph-segment in a folder, and checks its messages."""
 import pathlib
 import re
-import shlex
-import subprocess
 
-from many_runs import Difference
+import random_runs
 
 
-class Program:
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
-        self.command, self.run, self.said, self.before = None, None, "", set()
+class Program(random_runs.Program):
+    def files(self):
+        return {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
 
     def __call__(self, options, stdin=None):
-        """@return the exit code. Files of earlier calls are kept."""
-        self.command = [self.path, *sum(options, [])]
-        self.before = {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
-        given = {"input": stdin} if stdin is not None else {"stdin": subprocess.DEVNULL}
-        try:
-            self.run = subprocess.run(self.command, cwd=self.folder, capture_output=True, timeout=120, **given)
-        except subprocess.TimeoutExpired:
-            raise Difference(f"no end after 120 s: {shlex.join(self.command)}") from None
-        self.said = self.run.stderr.decode(errors="replace")
-        return self.run.returncode
+        """@return the exit code. Files of earlier calls are left where they are."""
+        self.before = self.files()
+        return super().__call__(options, stdin)
 
     def must(self, options, stdin=None):
         if self(options, stdin) != 0:
             self.differ("found a refusal, expected a result")
-
-    def differ(self, what):
-        what = what if len(what) < 1500 else what[:1500] + " …"
-        raise Difference(f"{what}\n  {shlex.join(self.command)}\n"
-                         f"  exit {self.run.returncode}: {self.said[-600:]}")
 
     def output(self, name):
         return pathlib.Path(self.folder, name).read_bytes()
@@ -48,7 +33,7 @@ class Program:
             self.differ(f"found another last line than one that names {named or 'the program'}")
         if "--quiet" in self.command and self.said.count("\n") != 1:
             self.differ("found more than one line with --quiet")
-        now = {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
+        now = self.files()
         if now != self.before:
             self.differ(f"found other files after a refusal: {sorted(set(now) ^ set(self.before))}")
 
