@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <zlib.h>
 
 #include <chrono>
 #include <cmath>
 
+#include "libph/io/packed.hpp"
 #include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
@@ -11,20 +11,6 @@
 
 namespace ph::test {
 namespace {
-
-std::string gzipped(const std::string& bytes) {
-  std::string out(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 
 TEST(Gzip, IsUnpackedByContentWhateverTheFormat) {
   const TempDir dir;

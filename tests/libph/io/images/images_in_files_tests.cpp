@@ -2,13 +2,13 @@
 // Images that exceed the memory limit stay in their file, or in a temporary one: with the same
 // numbers as in memory.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <array>
 #include <limits>
 #include <optional>
 #include <random>
 
+#include "libph/io/packed.hpp"
 #include "libph/io/read_support.hpp"
 #include "nifti_file.hpp"
 #include "ph/io/read.hpp"
@@ -43,20 +43,6 @@ std::string npy(const std::string& type, const std::vector<T>& values, bool fort
   return bytes.append(raw, values.size() * sizeof(T));
 }
 
-std::string gzipped(const std::string& bytes) {
-  std::string packed(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
-
 // Reads it with much memory, then with little.
 void expect_same_in_file(const std::string& name, const std::string& bytes,
                          ReadOptions options = {}) {
@@ -89,7 +75,7 @@ TEST(ImagesInFiles, AreTheSameAsInMemory) {
     std::memcpy(&value, raw.data(), 4);
   }
   expect_same_in_file("big-endian.npy", npy(">f4", turned));
-  expect_same_in_file("packed.npy.gz", gzipped(npy("<f4", numbers<float>())));
+  expect_same_in_file("packed.npy.gz", gzipped(npy("<f4", numbers<float>()), 1));
 }
 
 TEST(ImagesInFiles, MaskNan) {
@@ -154,7 +140,7 @@ class RandomFiles {
         break;
     }
     if (is_packed) {
-      bytes = gzipped(bytes);
+      bytes = gzipped(bytes, 1);
       if (below(3) == 0) bytes[below(bytes.size())] ^= 1;
     }
     return {std::string(is_nifti ? "a.nii" : "a.npy") + (is_packed ? ".gz" : ""), std::move(bytes),

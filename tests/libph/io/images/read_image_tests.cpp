@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "libph/io/packed.hpp"
 #include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
@@ -107,20 +108,6 @@ TEST(ReadPerseus, RefusesDamage) {
                                "2\n2 3\n1 2 3 4 5 nan\n", "2\n2 x\n1 2\n",
                                "2\n1000000000 1000000000\n1 2 3\n", "2\n9223372036854775807 2\n1\n",
                                "2 2 3\n1\n", "2\n1099511627776 1099511627776\n1\n"});
-}
-
-std::string deflated(const std::string& bytes) {
-  std::string out(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 struct ZipMember {
