@@ -10,17 +10,13 @@ from scipy.spatial.distance import pdist, squareform
 import libph as ph
 from libph.compat import _flag
 from libph.compat.gph import modules, ripser_parallel
-from reference import INF, Flag, random_distances, same
+from reference import INF, Flag, random_distances, same, single
 
 SINGLE = np.float32
 
 
 def of_matrix(matrix, **options):
     return ripser_parallel(matrix, metric="precomputed", **options)
-
-
-def single(numbers):
-    return np.asarray(numbers, dtype=SINGLE).astype(float)
 
 
 # ---- diagrams
