@@ -319,7 +319,7 @@ MUTANTS = [
      "return label == 0 || page.numbers.empty() ? label : page.numbers[label - 1];",
      "return label;", ["ph-segment"], "ph_segment_report"),
     ("report: the answer has walls, but no leaf is on one", "libreport/report/scene_page.cpp",
-     "surfaces[leaf] = s.surface_labels[static_cast<std::size_t>(s.points[k])];",
+     "surfaces[leaf] = s.cut.surface_labels[static_cast<std::size_t>(s.tree.points[k])];",
      "surfaces[leaf] = 0;", ["ph-segment"], "ph_segment_report"),
     ("report: a leaf is counted on the plane that was removed", "libsegment/src/supports/bounds.cpp",
      "count_on(scene.surfaces[s].plane, scene.vertices, of_group",
