@@ -55,8 +55,7 @@ class Run {
       fit_output_->commit();
     }
     session_.note(fmt::format("{}, {}: {} of {}", app::count_of(files_.size(), "input"),
-                              kKinds[static_cast<std::size_t>(fit_.kind)],
-                              app::count_of(files_.size(), "vector"),
+                              name_of(fit_.kind), app::count_of(files_.size(), "vector"),
                               app::count_of(table.columns, "number")));
   }
 

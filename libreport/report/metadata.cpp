@@ -24,11 +24,10 @@ std::string list(const Values& values, Write&& write) {
 std::string texts(const std::vector<std::string>& values) { return list(values, json::string); }
 
 std::string barcode(const BarcodeMeta& meta) {
-  constexpr std::string_view kinds[] = {"vertices", "grid", "row"};
-  constexpr std::string_view chains[] = {"", "cycles", "cocycles", "voxels"};
+  const bool has_chains = meta.representatives != Representatives::none;
   return object({{"name", text(meta.name)},
-                 {"cells", text(kinds[static_cast<int>(meta.cells)])},
-                 {"representatives", text(chains[static_cast<int>(meta.representatives)])}});
+                 {"cells", text(name_of(meta.cells))},
+                 {"representatives", text(has_chains ? name_of(meta.representatives) : "")}});
 }
 
 std::string cloud(const CloudMeta& meta) {

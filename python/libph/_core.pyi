@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Written by hand. python/tests/test_types.py compares it with the module.
 from collections.abc import Sequence
-from typing import Any, Callable, ClassVar
+from typing import Any, Callable
 
 # An array of any kind: any object with the buffer protocol.
 _Buffer = Any
@@ -12,17 +12,6 @@ class _Object(metaclass=_Metaclass):
     """The base class of all pybind11 classes."""
     # Raises TypeError for classes without a constructor: functions create their objects.
     def __init__(self, *args: Any, **kwargs: Any) -> None: ...
-
-class _Enum(_Object):
-    """The members of pybind11's enumerations, which are not Python enums."""
-    __members__: ClassVar[dict[str, Any]]
-    def __init__(self, value: int) -> None: ...
-    def __int__(self) -> int: ...
-    def __index__(self) -> int: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def value(self) -> int: ...
 
 version: str
 
@@ -37,60 +26,12 @@ def memory_left() -> int: ...
 def end_calls() -> None: ...
 def forget_calls() -> None: ...
 
-class PointDistance(_Enum):
-    euclidean: ClassVar[PointDistance]
-    manhattan: ClassVar[PointDistance]
-    chebyshev: ClassVar[PointDistance]
-    minkowski: ClassVar[PointDistance]
-    cosine: ClassVar[PointDistance]
-    hamming: ClassVar[PointDistance]
-
-class Symmetrise(_Enum):
-    none: ClassVar[Symmetrise]
-    max: ClassVar[Symmetrise]
-    min: ClassVar[Symmetrise]
-    lower: ClassVar[Symmetrise]
-
-class NanPolicy(_Enum):
-    error: ClassVar[NanPolicy]
-    drop: ClassVar[NanPolicy]
-
-class VoxelValue(_Enum):
-    distance: ClassVar[VoxelValue]
-    occupancy: ClassVar[VoxelValue]
-    density: ClassVar[VoxelValue]
-
-class Device(_Enum):
-    cpu: ClassVar[Device]
-    gpu: ClassVar[Device]
-
-class WeightExponent(_Enum):
-    one: ClassVar[WeightExponent]
-    two: ClassVar[WeightExponent]
-    infinity: ClassVar[WeightExponent]
-
-class Representatives(_Enum):
-    none: ClassVar[Representatives]
-    cycles: ClassVar[Representatives]
-    cocycles: ClassVar[Representatives]
-    voxels: ClassVar[Representatives]
-
-class Collapse(_Enum):
-    automatic: ClassVar[Collapse]
-    on: ClassVar[Collapse]
-    off: ClassVar[Collapse]
-
-class LoopChoice(_Enum):
-    none: ClassVar[LoopChoice]
-    plain: ClassVar[LoopChoice]
-    tight: ClassVar[LoopChoice]
-
 class MetricSpace(_Object):
     @staticmethod
-    def of_points(points: _Buffer, distance: PointDistance, p: float) -> MetricSpace: ...
+    def of_points(points: _Buffer, distance: str, p: float) -> MetricSpace: ...
     @staticmethod
-    def of_distances(distances: _Buffer, symmetrise: Symmetrise, nan: NanPolicy,
-                     has_zero_diagonal: bool, has_nan_option: bool = True) -> MetricSpace: ...
+    def of_distances(distances: _Buffer, symmetrise: str, nan: str, has_zero_diagonal: bool,
+                     has_nan_option: bool = True) -> MetricSpace: ...
     @staticmethod
     def of_pairs(size: int, i: _Buffer, j: _Buffer, distances: _Buffer) -> MetricSpace: ...
     @property
@@ -101,7 +42,7 @@ class MetricSpace(_Object):
 def farthest_points(space: MetricSpace, points: int, radius: float, run: RunOptions
                     ) -> tuple[Block, Block, float]: ...
 def distance_to_measure(space: MetricSpace, neighbours: int, run: RunOptions) -> Block: ...
-def point_image(points: _Buffer, voxel: float, value: VoxelValue, margin: int, run: RunOptions
+def point_image(points: _Buffer, voxel: float, value: str, margin: int, run: RunOptions
                 ) -> tuple[Block, Block]: ...
 
 class Facts(_Object):
@@ -133,7 +74,7 @@ class Bars(_Object):
     @property
     def has_cells(self) -> bool: ...
     @property
-    def representatives(self) -> Representatives: ...
+    def representatives(self) -> str: ...
     def birth_cells(self, dim: int) -> Block: ...
     def death_cells(self, dim: int) -> Block: ...
     def chain(self, i: int) -> tuple[Block, Block]: ...
@@ -151,10 +92,9 @@ class Recipe(_Object): ...
 
 class RipsRecipe(Recipe):
     def __init__(self, space: MetricSpace, threshold: float | None, births: _Buffer | None,
-                 dtm_neighbours: int | None, weight_exponent: WeightExponent,
-                 subsample: int | None, subsample_radius: float | None,
-                 approximation: float | None, merge_equal_points: bool | None,
-                 device: Device, ids: _Buffer | None) -> None: ...
+                 dtm_neighbours: int | None, weight_exponent: str, subsample: int | None,
+                 subsample_radius: float | None, approximation: float | None,
+                 merge_equal_points: bool | None, device: str, ids: _Buffer | None) -> None: ...
 
 class AlphaRecipe(Recipe):
     def __init__(self, space: MetricSpace, value: str, squared: bool, weights: _Buffer | None,
@@ -179,8 +119,8 @@ def boundary_recipe(dims: _Buffer, offsets: _Buffer, rows: _Buffer, incidences: 
 
 class Task(_Object):
     def __init__(self, max_dim: int | None, min_dim: int, field: int, engine: str,
-                 collapse: Collapse, min_persistence: float, representatives: Representatives,
-                 cells: bool, loops: LoopChoice) -> None: ...
+                 collapse: str, min_persistence: float, representatives: str, cells: bool,
+                 loops: str) -> None: ...
 
 class Estimate(_Object):
     @property

@@ -69,7 +69,7 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
     name = _options.choice("value", value, ["distance", "occupancy", "density"])
     edge = _options.positive("voxel", voxel)
     image, first = _run.run(
-        _core.point_image, _arrays.as_points(X), edge, getattr(_core.VoxelValue, name),
+        _core.point_image, _arrays.as_points(X), edge, name,
         _options.whole("margin", margin, 0, 2**31), options=dict(run))
     return PointImage(np.asarray(image), np.asarray(first), edge)
 

@@ -192,5 +192,4 @@ def _page(bars: Barcode, source: _Source | None, title: str) -> Report:
     return Report._of(page, title)
 
 
-_EMPTY_TASK = _core.Task(None, 0, 2, "auto", _core.Collapse.automatic, 0.0,
-                         _core.Representatives.none, True, _core.LoopChoice.none)
+_EMPTY_TASK = _core.Task(None, 0, 2, "auto", "auto", 0.0, "none", True, "none")

@@ -16,8 +16,8 @@ from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn,
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
-_MOST_DIMENSIONS = 1_000_000  # larger than any simplex that fits into memory
-_EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
+_MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
+_EXPONENTS = {1: "1", 2: "2", math.inf: "inf"}
 ALPHA_VALUES = ["alpha", "delaunay-cech", "delaunay-rips"]
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}
 _Result = TypeVar("_Result")
@@ -97,17 +97,17 @@ def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, mi
     known = _core.engine_named(engine) if isinstance(engine, str) else None
     if known is None:
         raise _options.refuse("engine", engine, ", ".join(_core.engine_names()))
-    how = {"auto": "automatic", True: "on", False: "off", "on": "on", "off": "off"}[
-        _options.choice("collapse", collapse, ["auto", True, False, "on", "off"])]
+    collapse = _options.choice("collapse", collapse, ["auto", True, False, "on", "off"])
+    how = {True: "on", False: "off"}.get(collapse, collapse)
     kind = _options.choice("representatives", representatives, [None, *kinds]) or "none"
     highest = None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS)
     lowest = _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS)
     if highest is not None and lowest > highest:
         raise _options.refuse("min_dim", lowest, f"at most max_dim, {highest}")
     return _core.Task(
-        highest, lowest, _options.whole("field", field, 2, 2**31 - 1), known, getattr(_core.Collapse, how),
-        _options.real("min_persistence", min_persistence), getattr(_core.Representatives, kind),
-        _options.flag("cells", cells), getattr(_core.LoopChoice, loops))
+        highest, lowest, _options.whole("field", field, 2, 2**31 - 1), known, how,
+        _options.real("min_persistence", min_persistence), kind, _options.flag("cells", cells),
+        loops)
 
 
 _cached_task = functools.lru_cache(maxsize=64, typed=True)(_task)
@@ -180,9 +180,8 @@ def rips_request(o: dict[str, Any]) -> Request:
             raise UsageError(f"{name}: needs all distances, found some of them")
     task = _task_of(o, _loops_of(o, "tight"))
     recipe = _core.RipsRecipe(
-        source.space, threshold, births, neighbours, getattr(_core.WeightExponent, exponent),
-        subsample, radius, approximation, merge,
-        getattr(_core.Device, device), source.ids)
+        source.space, threshold, births, neighbours, exponent, subsample, radius, approximation,
+        merge, device, source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
     others = {name: o[name] for name in ("subsample", "subsample_radius")}
     for name in ("nan", "diagonal", "symmetrise"):
@@ -230,7 +229,7 @@ def _weights(o: dict[str, Any], source: Source
             raise UsageError(f"weights: entry {int(np.argmax(bad))}: found "
                              f"{births[np.argmax(bad)]}, expected a finite number, at least 0")
     if exponent is None:
-        return births, neighbours, "one" if is_dtm else "infinity"
+        return births, neighbours, "1" if is_dtm else "inf"
     if births is None and not is_dtm:
         raise UsageError("weight_exponent: does nothing without weights")
     number = _options.real("weight_exponent", exponent, "1, 2 or inf")

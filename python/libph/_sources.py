@@ -85,12 +85,8 @@ def _of_points(X: Any, name: str, p: float, nan: str | None) -> Source:
         if not whole.all():
             ids = np.flatnonzero(whole)
             points = points[whole]
-    space = _core.MetricSpace.of_points(points, getattr(_core.PointDistance, name), p)
+    space = _core.MetricSpace.of_points(points, name, p)
     return Source(space, count, points.shape[1], None, ids)
-
-
-def _policy(nan: str | None) -> _core.NanPolicy:
-    return _core.NanPolicy.drop if nan == "drop" else _core.NanPolicy.error
 
 
 def _of_matrix(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
@@ -106,8 +102,7 @@ def _of_matrix(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
     if diagonal == "births":
         births = np.array(np.diagonal(array), dtype=np.float64)
     space = _core.MetricSpace.of_distances(
-        array, getattr(_core.Symmetrise, symmetrise or "none"), _policy(nan), diagonal == "zero",
-        nan is not None)
+        array, symmetrise or "none", nan or "error", diagonal == "zero", nan is not None)
     return Source(space, space.size, None, births)
 
 
@@ -237,7 +232,7 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -
                                 f"{type(distance).__name__}, expected a number") from None
             place += 1
     if n == 0:
-        distances = np.empty((0, 0))  # an empty array is the condensed form of one point
-    space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none,
-                                           _policy(nan), True, nan is not None)
+        distances = np.empty((0, 0))  # no numbers are the condensed form of one point
+    space = _core.MetricSpace.of_distances(distances, "none", nan or "error", True,
+                                           nan is not None)
     return Source(space, n)

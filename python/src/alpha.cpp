@@ -33,18 +33,13 @@ bool AlphaRecipe::is_short(const Options& task) const {
 
 namespace {
 
-AlphaOptions::Value value_named(const std::string& name) {
-  if (name == "delaunay-cech") return AlphaOptions::Value::delaunay_cech;
-  if (name == "delaunay-rips") return AlphaOptions::Value::delaunay_rips;
-  return AlphaOptions::Value::alpha;
-}
-
-std::unique_ptr<AlphaRecipe> recipe_of(std::shared_ptr<MetricSpace> space, const std::string& value,
-                                       bool squared, const std::optional<py::buffer>& weights,
+std::unique_ptr<AlphaRecipe> recipe_of(std::shared_ptr<MetricSpace> space,
+                                       AlphaOptions::Value value, bool squared,
+                                       const std::optional<py::buffer>& weights,
                                        std::vector<double> period, double threshold,
                                        const std::optional<py::buffer>& ids) {
   AlphaOptions options;
-  options.value = value_named(value);
+  options.value = value;
   options.unit = squared ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
   if (weights) options.weights = vector_of<double>(*weights);
   options.period = std::move(period);

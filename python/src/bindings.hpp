@@ -4,6 +4,31 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <concepts>
+#include <string>
+
+#include "ph/detail/core/names.hpp"
+
+namespace pybind11::detail {
+
+/// A value of an enum with names is its name in Python.
+template <class Enum>
+requires(std::is_enum_v<Enum>&& ph::names_of<Enum>.size() > 0) class type_caster<Enum> {
+ public:
+  PYBIND11_TYPE_CASTER(Enum, const_name("str"));
+  bool load(handle source, bool) {
+    const auto named =
+        isinstance<str>(source) ? ph::value_named<Enum>(source.cast<std::string>()) : std::nullopt;
+    if (named) value = *named;
+    return named.has_value();
+  }
+  static handle cast(Enum value, return_value_policy, handle) {
+    return str(std::string(ph::name_of(value))).release();
+  }
+};
+
+}  // namespace pybind11::detail
+
 namespace ph::python {
 
 namespace py = pybind11;

@@ -122,19 +122,6 @@ Engine engine_of(const std::string& name) {
 }  // namespace
 
 void bind_computations(py::module_& m) {
-  py::enum_<Representatives>(m, "Representatives")
-      .value("none", Representatives::none)
-      .value("cycles", Representatives::cycles)
-      .value("cocycles", Representatives::cocycles)
-      .value("voxels", Representatives::voxels);
-  py::enum_<Collapse>(m, "Collapse")
-      .value("automatic", Collapse::automatic)
-      .value("on", Collapse::on)
-      .value("off", Collapse::off);
-  py::enum_<LoopChoice>(m, "LoopChoice")
-      .value("none", LoopChoice::none)
-      .value("plain", LoopChoice::plain)
-      .value("tight", LoopChoice::tight);
   py::class_<Task>(m, "Task").def(
       py::init([](std::optional<int> max_dim, int min_dim, std::int64_t field,
                   const std::string& engine, Collapse collapse, double min_persistence,

@@ -104,27 +104,16 @@ class Answer {
   SharedContext context_;
 };
 
-template <class Enum, std::size_t n>
-Enum choice_of(const py::dict& options, const char* name, const std::array<const char*, n>& names) {
-  const auto given = options[name].cast<std::string>();
-  const auto found = std::ranges::find(names, given);
-  if (found == names.end()) throw Error(ErrorKind::internal, "a choice that is none reached _core");
-  return static_cast<Enum>(found - names.begin());
-}
-
 ReadOptions read_options_of(const py::dict& given) {
   ReadOptions options;
   options.allow_empty = true;
-  options.symmetrise =
-      choice_of<Symmetrise>(given, "symmetrise", std::array{"none", "max", "min", "lower"});
+  options.symmetrise = given["symmetrise"].cast<Symmetrise>();
   options.from_correlation = given["from_correlation"].cast<bool>();
-  options.diagonal = choice_of<Diagonal>(given, "diagonal", std::array{"zero", "any", "births"});
-  options.nan = choice_of<NanPolicy>(given, "nan", std::array{"error", "drop"});
-  options.array = choice_of<ArrayMeaning>(
-      given, "array", std::array{"auto", "rips", "image", "points", "distances"});
+  options.diagonal = given["diagonal"].cast<Diagonal>();
+  options.nan = given["nan"].cast<NanPolicy>();
+  options.array = given["array"].cast<ArrayMeaning>();
   options.columns = given["columns"].cast<std::vector<std::string>>();
-  options.channel = choice_of<Channel>(given, "channel",
-                                       std::array{"auto", "grey", "red", "green", "blue", "alpha"});
+  options.channel = given["channel"].cast<Channel>();
   if (!given["raw_shape"].is_none()) {
     RawLayout layout;
     layout.extents = given["raw_shape"].cast<std::vector<Index>>();

@@ -180,11 +180,6 @@ std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offse
 }  // namespace
 
 void bind_complexes(py::module_& m) {
-  py::enum_<WeightExponent>(m, "WeightExponent")
-      .value("one", WeightExponent::one)
-      .value("two", WeightExponent::two)
-      .value("infinity", WeightExponent::infinity);
-  py::enum_<Device>(m, "Device").value("cpu", Device::cpu).value("gpu", Device::gpu);
   py::class_<Recipe>(m, "Recipe");
   py::class_<RipsRecipe, Recipe>(m, "RipsRecipe")
       .def(py::init([](std::shared_ptr<MetricSpace> space, std::optional<double> threshold,

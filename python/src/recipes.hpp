@@ -107,3 +107,14 @@ class ListedRecipe final : public Recipe {
 };
 
 }  // namespace ph::python
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<python::LoopChoice>{
+    Named{python::LoopChoice::none, "none"},
+    Named{python::LoopChoice::plain, "plain"},
+    Named{python::LoopChoice::tight, "tight"},
+};
+
+}  // namespace ph

@@ -176,7 +176,7 @@ def test_arrays_outlive_what_they_came_from():
     gc.collect()
     [ph.rips(POINTS) for _ in range(20)]
     assert np.array_equal(cells, expected[0]) and np.array_equal(chain.cells, expected[1])
-    block = np.asarray(_core.point_image(POINTS, 0.5, _core.VoxelValue.distance, 1,
+    block = np.asarray(_core.point_image(POINTS, 0.5, "distance", 1,
                                          _core.RunOptions(0, None, None, None, None, 0))[0])
     total = block.sum()
     gc.collect()

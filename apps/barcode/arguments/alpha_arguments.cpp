@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "common/arguments/choices.hpp"
@@ -34,14 +33,10 @@ Surface surface_of(const std::string& option, const std::string& text, bool is_w
 
 void add_alpha_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("alpha");
-  app::add_choice(
-      app, "--alpha-values", {"radius", "squared"},
-      "what values are: the radius of the balls, or its square (default radius; with "
-      "--weights squared)",
-      [&a](std::size_t i) {
-        constexpr std::array kUnits{AlphaOptions::Unit::radius, AlphaOptions::Unit::squared};
-        a.alpha_unit = kUnits[i];
-      });
+  app::add_choice(app, "--alpha-values",
+                  "what values are: the radius of the balls, or its square (default radius; with "
+                  "--weights squared)",
+                  a.alpha_unit);
   app::add_path(app, "--weights", "FILE",
                 "the square of each ball's first radius, one number a point (default: all 0); of "
                 "complex alpha",

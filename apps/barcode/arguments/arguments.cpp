@@ -66,13 +66,14 @@ void add_input_options(CLI::App& app, Arguments& a) {
            "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
            a.values);
   app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error");
-  add_choice(app, "--symmetrise", {"max", "min", "lower"},
-             "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
-             [&a](std::size_t i) {
-               constexpr std::array kWays{Symmetrise::max, Symmetrise::min, Symmetrise::lower};
-               a.read.symmetrise = kWays[i];
-               a.read.array = ArrayMeaning::distances;
-             });
+  add_choice<Symmetrise>(
+      app, "--symmetrise",
+      "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
+      [&a](Symmetrise way) {
+        a.read.symmetrise = way;
+        a.read.array = ArrayMeaning::distances;
+      },
+      std::span(names_of<Symmetrise>).subspan(1));
   app.add_flag_callback(
       "--from-correlation",
       [&a] {
@@ -87,9 +88,9 @@ void add_input_options(CLI::App& app, Arguments& a) {
                a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
                a.read.array = ArrayMeaning::distances;
              });
-  add_choice(app, "--nan", {"error", "drop"},
+  add_choice(app, "--nan",
              "what NaN means: an error (default), or a point, distance or voxel that is not there",
-             [&a](std::size_t i) { a.read.nan = i == 0 ? NanPolicy::error : NanPolicy::drop; });
+             a.read.nan);
 }
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};

@@ -123,3 +123,14 @@ struct Arguments {
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
 }  // namespace ph::barcode
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<barcode::LoopChoice>{
+    Named{barcode::LoopChoice::tight, "tight"},
+    Named{barcode::LoopChoice::plain, "plain"},
+    Named{barcode::LoopChoice::none, "none"},
+};
+
+}  // namespace ph

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -29,8 +28,6 @@ using Names = std::vector<std::string_view>;
 constexpr int kMostDimensions = 1'000'000;  // beyond any simplex that fits a memory
 
 void take_metric(Arguments& a, const std::string& text) {
-  static const Names names{"euclidean",   "manhattan", "chebyshev",
-                           "minkowski:P", "cosine",    "hamming"};
   constexpr std::string_view kMinkowski = "minkowski:";
   if (text.starts_with(kMinkowski)) {
     a.rips.distance = PointDistance::minkowski;
@@ -41,10 +38,9 @@ void take_metric(Arguments& a, const std::string& text) {
     throw Error(ErrorKind::usage,
                 "--metric: found 'minkowski', expected minkowski:P with its exponent P");
   } else {
-    static constexpr std::array kMetrics{PointDistance::euclidean, PointDistance::manhattan,
-                                         PointDistance::chebyshev, PointDistance::minkowski,
-                                         PointDistance::cosine,    PointDistance::hamming};
-    a.rips.distance = kMetrics[choose("--metric", text, names)];
+    Names names(all_names<PointDistance>.begin(), all_names<PointDistance>.end());
+    std::ranges::replace(names, "minkowski", "minkowski:P");
+    a.rips.distance = names_of<PointDistance>[choose("--metric", text, names)].value;
   }
 }
 
@@ -125,19 +121,15 @@ void add_homology_options(CLI::App& app, Arguments& a) {
             [&a](const std::string& text) {
               a.options.min_persistence = parse_number("--min-persistence", text);
             });
-  add_choice(app, "--representatives", {"none", "cycles", "cocycles", "voxels"},
+  add_choice(app, "--representatives",
              "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
              "coefficients; of images also voxels: components and hollows as sets of voxels, all "
              "else as cycles (default none)",
-             [&a](std::size_t i) {
-               constexpr std::array kKinds{Representatives::none, Representatives::cycles,
-                                           Representatives::cocycles, Representatives::voxels};
-               a.options.representatives = kKinds[i];
-             });
-  add_choice(app, "--loops", {"tight", "plain", "none"},
+             a.options.representatives);
+  add_choice(app, "--loops",
              "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
              "short as is cheap (tight, default) or as found (plain)",
-             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); });
+             a.loops);
   app.add_flag("--significance", a.significance,
                "with each bar of dimension 1 and above, in CSV and JSON: p, how likely noise is to "
                "have a bar that stands out as much (times the number of bars, at most 1; Bobrowski "

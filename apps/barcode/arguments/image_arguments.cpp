@@ -40,11 +40,8 @@ RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.empl
 
 void add_cubical_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("cubical");
-  add_choice(app, "--construction", {"vertices", "cells"},
-             "voxels are vertices (default) or top cells", [&a](std::size_t i) {
-               using Construction = CubicalOptions::Construction;
-               a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
-             });
+  add_choice(app, "--construction", "voxels are vertices (default) or top cells",
+             a.cubical.construction);
   app.add_flag_callback(
       "--superlevel", [&a] { a.cubical.superlevel = true; },
       "superlevel sets, the largest values first; values are those of the negated image");
@@ -69,10 +66,10 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
                     fmt::format("--voxel: found '{}', expected a finite number above 0", text));
             });
   add_choice(
-      app, "--voxel-value", {"distance", "occupancy", "density"},
+      app, "--voxel-value",
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
-      [&a](std::size_t i) { a.voxel_value = static_cast<VoxelValue>(i); });
+      a.voxel_value);
 }
 
 void add_raw_options(CLI::App& app, Arguments& a) {

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -33,17 +32,14 @@ void add_rips_options(CLI::App& app, Arguments& a) {
       take(value);
     });
   };
-  add_choice(app, "--collapse", {"auto", "on", "off"},
+  add_choice(app, "--collapse",
              "collapse edges first, which leaves fewer of them and the same bars (default auto: "
              "where it pays)",
-             [&a](std::size_t i) {
-               constexpr std::array kWays{Collapse::automatic, Collapse::on, Collapse::off};
-               a.options.collapse = kWays[i];
-             });
-  add_choice(app, "--device", {"cpu", "gpu"},
+             a.options.collapse);
+  add_choice(app, "--device",
              "what finds the components of points with Euclidean distances, --max-dim 0 (default "
              "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
-             [&a](std::size_t i) { a.rips.device = i == 0 ? Device::cpu : Device::gpu; });
+             a.rips.device);
   const auto limits = [&a]() -> GreedyLimits& {
     if (!a.rips.subsample) a.rips.subsample.emplace();
     return *a.rips.subsample;
@@ -69,14 +65,10 @@ void add_rips_options(CLI::App& app, Arguments& a) {
       "DTM filtration: points enter at twice their distance to the measure of their K "
       "nearest points, themselves included",
       [&a](const std::string& text) { a.rips.dtm_neighbours = parse_integer("--dtm", text, 1); });
-  add_choice(app, "--weight-exponent", {"1", "2", "inf"},
+  add_choice(app, "--weight-exponent",
              "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
              "with --dtm 1)",
-             [&a](std::size_t i) {
-               constexpr std::array kExponents{WeightExponent::one, WeightExponent::two,
-                                               WeightExponent::infinity};
-               a.rips.weight_exponent = kExponents[i];
-             });
+             a.rips.weight_exponent);
 }
 
 void check_rips_arguments(Arguments& a) {

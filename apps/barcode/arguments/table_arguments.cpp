@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -58,14 +57,11 @@ void add_table_options(CLI::App& app, Arguments& a) {
             "the input is a time series, a row for each time: points are its values at D times, "
             "TAU rows apart (default TAU 1)",
             [&a](const std::string& text) { take_delay(a, text); });
-  add_choice(app, "--channel", {"grey", "red", "green", "blue", "alpha"},
-             "what of a colour picture is read (default: its grey, if it has no colours); grey of "
-             "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
-             [&a](std::size_t i) {
-               constexpr std::array kChannels{Channel::grey, Channel::red, Channel::green,
-                                              Channel::blue, Channel::alpha};
-               a.read.channel = kChannels[i];
-             });
+  add_choice<Channel>(
+      app, "--channel",
+      "what of a colour picture is read (default: its grey, if it has no colours); grey of "
+      "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
+      [&a](Channel channel) { a.read.channel = channel; }, std::span(names_of<Channel>).subspan(1));
 }
 
 void check_table_arguments(Arguments& a) {

@@ -140,9 +140,8 @@ class Builder {
     if (points.rows() == 0) return cubical(Image{{0}, {}});
     PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
     BuiltComplex built = cubical(made.image);
-    constexpr const char* kValues[] = {"distance", "occupancy", "density"};
     built.voxels = {made.voxel, std::move(made.first),
-                    kValues[static_cast<int>(arguments_.voxel_value)]};
+                    std::string(name_of(arguments_.voxel_value))};
     return built;
   }
 
@@ -226,10 +225,9 @@ class Builder {
     const RipsOptions& rips = arguments_.rips;
     if (rips.dtm_neighbours) source = fmt::format("dtm {}", *rips.dtm_neighbours);
     if (source.empty()) return source;
-    constexpr std::string_view kExponents[] = {"1", "2", "inf"};
     return fmt::format("{}, exponent {}", source,
-                       kExponents[static_cast<int>(rips.weight_exponent.value_or(
-                           rips.dtm_neighbours ? WeightExponent::one : WeightExponent::infinity))]);
+                       name_of(rips.weight_exponent.value_or(
+                           rips.dtm_neighbours ? WeightExponent::one : WeightExponent::infinity)));
   }
 
   static Index size_of(const Points& points) { return points.rows(); }

@@ -20,8 +20,6 @@
 namespace ph::app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kProgressModes{"auto", "bar", "json", "none"};
-
 /// All long names of a program's options, with their dashes.
 std::vector<std::string> long_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -98,12 +96,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
               options.memory_limit = parse_size("--memory-limit", text);
             });
   app.option_defaults()->group(std::string(kMessagesTopic.name));
-  add_value(app, "--progress", "auto|bar|json|none",
-            "progress on stderr (default auto: a bar on a terminal, else silent)",
-            [&options](const std::string& text) {
-              options.progress =
-                  static_cast<ProgressMode>(choose("--progress", text, kProgressModes));
-            });
+  add_choice(app, "--progress",
+             "progress on stderr (default auto: a bar on a terminal, else silent)",
+             options.progress);
   app.add_flag("--quiet", options.quiet, "no messages but errors");
   app.add_flag("--verbose", options.verbose, "say what was chosen and why");
   app.add_flag("--force", options.force, "write over an input, which is refused else");

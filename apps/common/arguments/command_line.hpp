@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "common/arguments/cli_names.hpp"
 #include "common/manual/manual.hpp"
+#include "ph/detail/core/names.hpp"
 
 namespace ph::app {
 
@@ -44,7 +46,28 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names,
                         const std::vector<std::string_view>& choices,
                         const std::string& description,
                         const std::function<void(std::size_t)>& take);
-/// The same for a path that is not empty; it is stored in `path`, which must outlive `app`.
+/// The same for the values of an enum: `take` gets the one of the name that was given.
+template <class Enum>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, const std::string& description,
+                        const std::function<void(Enum)>& take,
+                        std::span<const Named<Enum>> choices = names_of<Enum>) {
+  std::vector<std::string_view> words;
+  for (const Named<Enum>& choice : choices) words.push_back(choice.name);
+  return add_choice(app, names, words, description, [=](std::size_t i) { take(choices[i].value); });
+}
+/// The same for all values of an enum. The one that was given is put into `to`, an Enum or an
+/// optional one, which outlives `app`.
+template <class Enum>
+requires std::is_enum_v<Enum> CLI::Option* add_choice(CLI::App& app, const std::string& names,
+                                                      const std::string& description, Enum& to) {
+  return add_choice<Enum>(app, names, description, [&to](Enum value) { to = value; });
+}
+template <class Enum>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, const std::string& description,
+                        std::optional<Enum>& to) {
+  return add_choice<Enum>(app, names, description, [&to](Enum value) { to = value; });
+}
+/// The same for a path, which is not empty; it is put into `path`, which outlives `app`.
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
                       const std::string& description, std::string& path);
 
@@ -69,3 +92,15 @@ int answer_command_line(const std::string& answer);
 std::string program_and_version(const std::string& program);
 
 }  // namespace ph::app
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<app::ProgressMode>{
+    Named{app::ProgressMode::automatic, "auto"},
+    Named{app::ProgressMode::bar, "bar"},
+    Named{app::ProgressMode::json, "json"},
+    Named{app::ProgressMode::none, "none"},
+};
+
+}  // namespace ph

@@ -15,9 +15,21 @@
 namespace ph::app {
 
 enum class DistanceKind { bottleneck, wasserstein, sliced };
-/// The names of the distances on the command line and in files.
-inline constexpr std::array<std::string_view, 3> kDistanceKinds{"bottleneck", "wasserstein",
-                                                                "sliced"};
+
+}  // namespace ph::app
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<app::DistanceKind>{
+    Named{app::DistanceKind::bottleneck, "bottleneck"},
+    Named{app::DistanceKind::wasserstein, "wasserstein"},
+    Named{app::DistanceKind::sliced, "sliced"},
+};
+
+}  // namespace ph
+
+namespace ph::app {
 
 /// The distance of barcodes to compute, and the required accuracy.
 struct DistanceChoice {
@@ -27,7 +39,7 @@ struct DistanceChoice {
   int directions = 50;    ///< for the sliced distance
   DistanceLimits limits;  ///< for the other distances
 
-  std::string_view name() const { return kDistanceKinds[static_cast<std::size_t>(kind)]; }
+  std::string_view name() const { return name_of(kind); }
   /// p; infinite for the bottleneck distance.
   double order() const;
   /// The norm that measures a pair of bars; none for the sliced distance.

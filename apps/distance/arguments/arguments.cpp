@@ -59,11 +59,11 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_distance_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("distances");
-  add_choice(app, "--distance", {app::kDistanceKinds.begin(), app::kDistanceKinds.end()},
+  add_choice(app, "--distance",
              "bottleneck (default): the largest difference, which has no parameters and is what "
              "noise of a known size cannot exceed; wasserstein: the sum of all; sliced: an "
              "approximation by projections to lines",
-             [&a](std::size_t i) { a.distance.kind = static_cast<DistanceKind>(i); });
+             a.distance.kind);
   add_value(app, "--order", "P", "of the Wasserstein distance, at least 1 (default 1)",
             [&a](const std::string& text) { a.distance.wasserstein_order = parse_order(text); });
   add_value(
@@ -103,9 +103,8 @@ void add_output_options(CLI::App& app, Arguments& a) {
               if (text.empty()) reject("--output: found '', expected a path");
               a.output = text;
             });
-  add_choice(app, "--output-format", {"text", "csv", "json"},
-             "format of the distances (default: by extension, or text)",
-             [&a](std::size_t i) { a.output_format = static_cast<OutputFormat>(i); });
+  add_choice(app, "--output-format", "format of the distances (default: by extension, or text)",
+             a.output_format);
   auto* matching =
       add_path(app, "--matching", "FILE.csv|.json",
                "write which bars of two barcodes are paired, and what each pair costs", a.matching);

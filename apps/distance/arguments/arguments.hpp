@@ -41,3 +41,14 @@ struct Arguments {
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
 }  // namespace ph::distance_program
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<distance_program::OutputFormat>{
+    Named{distance_program::OutputFormat::text, "text"},
+    Named{distance_program::OutputFormat::csv, "csv"},
+    Named{distance_program::OutputFormat::json, "json"},
+};
+
+}  // namespace ph

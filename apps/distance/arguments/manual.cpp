@@ -67,7 +67,7 @@ std::vector<app::FormatList> format_lists() {
 }
 
 std::string built_in() {
-  return fmt::format("distances  {}\n", fmt::join(app::kDistanceKinds, " "));
+  return fmt::format("distances  {}\n", fmt::join(all_names<app::DistanceKind>, " "));
 }
 
 constexpr app::Manual kManual{

@@ -86,17 +86,12 @@ void add_input_options(CLI::App& app, Arguments& a) {
                  "barcodes, as ph-barcode writes them, or folders of them; - is standard input. "
                  "With --kind euler also images")
       ->type_name("");
-  add_choice(app, "--format", {"auto", "barcode", "image"},
-             "what the inputs of an Euler curve are (default auto: by content)",
-             [&a](std::size_t i) { a.format = static_cast<InputKind>(i); });
-  add_choice(app, "--nan", {"error", "drop"},
-             "what NaN in an image means: an error (default), or a voxel that is not there",
-             [&a](std::size_t i) { a.nan = i == 0 ? NanPolicy::error : NanPolicy::drop; });
-  add_choice(app, "--construction", {"vertices", "cells"},
-             "voxels of an image are vertices (default) or top cells", [&a](std::size_t i) {
-               using Construction = CubicalOptions::Construction;
-               a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
-             });
+  add_choice(app, "--format", "what the inputs of an Euler curve are (default auto: by content)",
+             a.format);
+  add_choice(app, "--nan",
+             "what NaN in an image means: an error (default), or a voxel that is not there", a.nan);
+  add_choice(app, "--construction", "voxels of an image are vertices (default) or top cells",
+             a.cubical.construction);
   app.add_flag_callback(
       "--superlevel", [&a] { a.cubical.superlevel = true; },
       "superlevel sets of an image; values are those of the negated image");
@@ -108,8 +103,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_vector_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("vectors");
-  add_choice(app, "--kind", {kKinds.begin(), kKinds.end()}, "what is made (default statistics)",
-             [&a](std::size_t i) { a.kind = static_cast<Kind>(i); });
+  add_choice(app, "--kind", "what is made (default statistics)", a.kind);
   add_value(app, "--dims,--dim", "D,…",
             "dimensions, a block of columns each (default: all that the inputs have)",
             [&a](const std::string& text) {
@@ -143,10 +137,10 @@ void add_parameter_options(CLI::App& app, Arguments& a) {
   add_value(app, "--power", "P", "a bar weighs length^P in images and silhouettes (default 1)",
             [&a](const std::string& text) { a.power = parse_finite("--power", text, true); });
   app.add_flag("--normalised", a.normalised, "entropies divided by ln n for n bars");
-  add_choice(app, "--contrast", {"laplace", "gauss"},
+  add_choice(app, "--contrast",
              "what a bar at distance d adds to a centre of ATOL of width w: exp(-d/w) (default), "
              "or exp(-(d/w)^2)",
-             [&a](std::size_t i) { a.atol.contrast = static_cast<Atol::Contrast>(i); });
+             a.atol.contrast);
   add_value(app, "--seed", "N", "of the first centres of ATOL (default 0)",
             [&a](const std::string& text) {
               a.atol.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
@@ -157,9 +151,8 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("output");
   add_path(app, "-o,--output", "FILE", "where the table goes (default -: standard output)",
            a.output);
-  add_choice(app, "--output-format", {"csv", "npy"},
-             "format of the table (default: by extension, or csv)",
-             [&a](std::size_t i) { a.output_format = static_cast<OutputFormat>(i); });
+  add_choice(app, "--output-format", "format of the table (default: by extension, or csv)",
+             a.output_format);
   auto* fit = add_path(app, "--fit", "FILE.json",
                        "write what was fitted: kind, dimensions, grids, widths, centres", a.fit);
   add_path(app, "--fitted", "FILE.json",
@@ -186,7 +179,7 @@ void check_together(const Arguments& a) {
     require_kind(a, a.kind);
   if (a.infinite && a.infinite->rule == InfiniteRule::Rule::keep && !may_keep_infinite(a.kind))
     reject(fmt::format("--infinite: found keep, expected drop, error or a number with --kind {}",
-                       kKinds[static_cast<std::size_t>(a.kind)]));
+                       name_of(a.kind)));
 }
 
 }  // namespace
@@ -201,7 +194,7 @@ OutputFormat Arguments::written_format() const {
 
 void require_kind(const Arguments& arguments, Kind kind) {
   app::require_in_scope(arguments.given, situation_of(kind),
-                        fmt::format("--kind {}", kKinds[static_cast<std::size_t>(kind)]));
+                        fmt::format("--kind {}", name_of(kind)));
 }
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,

@@ -58,3 +58,20 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 void require_kind(const Arguments& arguments, Kind kind);
 
 }  // namespace ph::vectorise
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<vectorise::InputKind>{
+    Named{vectorise::InputKind::automatic, "auto"},
+    Named{vectorise::InputKind::barcode, "barcode"},
+    Named{vectorise::InputKind::image, "image"},
+};
+
+template <>
+inline constexpr std::array names_of<vectorise::OutputFormat>{
+    Named{vectorise::OutputFormat::csv, "csv"},
+    Named{vectorise::OutputFormat::npy, "npy"},
+};
+
+}  // namespace ph

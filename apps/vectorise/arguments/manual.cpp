@@ -58,7 +58,7 @@ std::vector<app::FormatList> format_lists() {
   return lists;
 }
 
-std::string built_in() { return fmt::format("kinds      {}\n", fmt::join(kKinds, " ")); }
+std::string built_in() { return fmt::format("kinds      {}\n", fmt::join(all_names<Kind>, " ")); }
 
 constexpr app::Manual kManual{
     .program = "ph-vectorise",

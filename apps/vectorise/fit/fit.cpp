@@ -29,7 +29,7 @@ std::string_view word_of(Kind kind) {
     case Kind::life_entropy:
       return "life_entropy";
     default:
-      return kKinds[static_cast<std::size_t>(kind)];
+      return std::string(name_of(kind));
   }
 }
 

@@ -26,9 +26,6 @@ enum class Kind {
   atol,
   euler,
 };
-inline constexpr std::array<std::string_view, 10> kKinds{
-    "statistics", "betti",        "landscape", "silhouette", "image",
-    "entropy",    "life-entropy", "lengths",   "atol",       "euler"};
 
 /// The treatment of bars that are not finite.
 struct InfiniteRule {
@@ -82,3 +79,28 @@ void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
                  std::span<double> out, const RunContext& context);
 
 }  // namespace ph::vectorise
+
+namespace ph {
+
+template <>
+inline constexpr std::array names_of<vectorise::Kind>{
+    Named{vectorise::Kind::statistics, "statistics"},
+    Named{vectorise::Kind::betti, "betti"},
+    Named{vectorise::Kind::landscape, "landscape"},
+    Named{vectorise::Kind::silhouette, "silhouette"},
+    Named{vectorise::Kind::image, "image"},
+    Named{vectorise::Kind::entropy, "entropy"},
+    Named{vectorise::Kind::life_entropy, "life-entropy"},
+    Named{vectorise::Kind::lengths, "lengths"},
+    Named{vectorise::Kind::atol, "atol"},
+    Named{vectorise::Kind::euler, "euler"},
+};
+
+template <>
+inline constexpr std::array names_of<vectorise::InfiniteRule::Rule>{
+    Named{vectorise::InfiniteRule::Rule::drop, "drop"},
+    Named{vectorise::InfiniteRule::Rule::keep, "keep"},
+    Named{vectorise::InfiniteRule::Rule::error, "error"},
+};
+
+}  // namespace ph

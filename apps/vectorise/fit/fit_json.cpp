@@ -24,10 +24,7 @@ namespace {
 using detail::JsonCursor;
 
 constexpr std::string_view kFormat = "ph-vectorise fit";
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest number of anything that is counted
-constexpr std::array<std::string_view, 3> kRules{"drop", "keep", "error"};
-constexpr std::array<std::string_view, 2> kContrasts{"laplace", "gauss"};
-constexpr std::array<std::string_view, 2> kConstructions{"vertices", "cells"};
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // of anything that is counted
 
 std::string range_json(double lo, double hi, std::string_view name, std::size_t count) {
   return json::object(
@@ -59,7 +56,7 @@ std::string block_json(const Fit& fit, const Block& block) {
         members,
         {{"centres", json::array(block.atol.centres, json::numbers<std::array<double, 2>>)},
          {"widths", json::numbers(block.atol.widths)},
-         {"contrast", json::string(kContrasts[static_cast<std::size_t>(block.atol.contrast)])}});
+         {"contrast", json::string(name_of(block.atol.contrast))}});
   return "{" + members + "}";
 }
 
@@ -82,7 +79,7 @@ class Reader {
       } else if (name == "version") {
         json_.integer(1, 1, "version");
       } else if (name == "kind") {
-        fit_.kind = static_cast<Kind>(word("kind", kKinds));
+        fit_.kind = word<Kind>("kind");
         has_kind = true;
       } else if (name == "length") {
         length = json_.integer(1, std::numeric_limits<std::int64_t>::max(), "length");
@@ -97,8 +94,7 @@ class Reader {
       } else if (name == "normalised") {
         fit_.normalised = json_.boolean();
       } else if (name == "construction") {
-        fit_.cubical.construction =
-            static_cast<CubicalOptions::Construction>(word("construction", kConstructions));
+        fit_.cubical.construction = word<CubicalOptions::Construction>("construction");
       } else if (name == "superlevel") {
         fit_.cubical.superlevel = json_.boolean();
       } else if (name == "periodic") {
@@ -142,19 +138,21 @@ class Reader {
   std::size_t count(const char* what) {
     return static_cast<std::size_t>(json_.integer(1, kMost, what));
   }
-  std::size_t word(const char* what, std::span<const std::string_view> words) {
+  template <class Enum>
+  Enum word(const char* what) {
     const std::size_t place = json_.place();
-    const std::string value = json_.string();
-    const auto found = std::ranges::find(words, value);
-    if (found == words.end())
-      json_.fail(place,
-                 {what, printable(value, 40), fmt::format("{}", fmt::join(words, ", ")), {}});
-    return static_cast<std::size_t>(found - words.begin());
+    const std::string text = json_.string();
+    const std::optional<Enum> value = value_named<Enum>(text);
+    if (!value)
+      json_.fail(
+          place,
+          {what, printable(text, 40), fmt::format("{}", fmt::join(all_names<Enum>, ", ")), {}});
+    return *value;
   }
   void read_infinite() {
     using Rule = InfiniteRule::Rule;
     if (json_.peek() == '"')
-      fit_.infinite = {static_cast<Rule>(word("infinite", kRules)), 0};
+      fit_.infinite = {word<Rule>("infinite"), 0};
     else
       fit_.infinite = {Rule::cap, json_.number()};
   }
@@ -197,7 +195,7 @@ class Reader {
       else if (name == "widths")
         for_each_element([&] { block.atol.widths.push_back(json_.number()); });
       else if (name == "contrast")
-        block.atol.contrast = static_cast<Atol::Contrast>(word("contrast", kContrasts));
+        block.atol.contrast = word<Atol::Contrast>("contrast");
       else
         json_.skip_value();
     });
@@ -277,19 +275,16 @@ std::string fit_json(const Fit& fit, std::size_t dropped) {
       {"format", json::string(kFormat)},
       {"version", "1"},
       {"program", json::string(app::program_and_version("ph-vectorise"))},
-      {"kind", json::string(kKinds[static_cast<std::size_t>(kind)])},
+      {"kind", json::string(name_of(kind))},
       {"length", json::integer(length_of(fit))},
-      {"infinite", fit.infinite.rule == Rule::cap
-                       ? json::number(fit.infinite.cap)
-                       : json::string(kRules[static_cast<std::size_t>(fit.infinite.rule)])},
+      {"infinite", fit.infinite.rule == Rule::cap ? json::number(fit.infinite.cap)
+                                                  : json::string(name_of(fit.infinite.rule))},
       {"dropped", json::integer(dropped)},
       {"layers", only(kind == Kind::landscape, json::integer(fit.layers))},
       {"count", only(kind == Kind::lengths, json::integer(fit.count))},
       {"power", only(kind == Kind::silhouette || kind == Kind::image, json::number(fit.power))},
       {"normalised", only(kind == Kind::entropy, json::boolean(fit.normalised))},
-      {"construction",
-       only(is_euler,
-            json::string(kConstructions[static_cast<std::size_t>(fit.cubical.construction)]))},
+      {"construction", only(is_euler, json::string(name_of(fit.cubical.construction)))},
       {"superlevel", only(is_euler, json::boolean(fit.cubical.superlevel))},
       {"periodic", only(is_euler, json::array(fit.cubical.periodic, json::boolean))},
       {"blocks",

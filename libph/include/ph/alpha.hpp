@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/detail/core/names.hpp"
 #include "ph/explicit.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
@@ -49,6 +50,19 @@ struct AlphaOptions {
     squared,  ///< square of that radius
   } unit = Unit::radius;
   double threshold = kInfinity;  ///< largest value that enters, inclusive
+};
+
+template <>
+inline constexpr std::array names_of<AlphaOptions::Value>{
+    Named{AlphaOptions::Value::alpha, "alpha"},
+    Named{AlphaOptions::Value::delaunay_cech, "delaunay-cech"},
+    Named{AlphaOptions::Value::delaunay_rips, "delaunay-rips"},
+};
+
+template <>
+inline constexpr std::array names_of<AlphaOptions::Unit>{
+    Named{AlphaOptions::Unit::radius, "radius"},
+    Named{AlphaOptions::Unit::squared, "squared"},
 };
 
 /// The alpha complex of points of R², R³ (or R¹): the simplices of their Delaunay triangulation. A

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 
@@ -63,6 +64,14 @@ enum class Representatives {
   /// second highest dimension get the voxels of the hollow just after its birth. All others get a
   /// cycle.
   voxels,
+};
+
+template <>
+inline constexpr std::array names_of<Representatives>{
+    Named{Representatives::none, "none"},
+    Named{Representatives::cycles, "cycles"},
+    Named{Representatives::cocycles, "cocycles"},
+    Named{Representatives::voxels, "voxels"},
 };
 
 /// A part of the voxels that a barcode keeps.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 #include "ph/filtration.hpp"
 #include "ph/image.hpp"
@@ -29,7 +30,13 @@ struct CubicalOptions {
   std::optional<double> threshold = std::nullopt;
 };
 
-/// The cubical filtration of an image of any dimension, in doubled grid coordinates. An axis of n
+template <>
+inline constexpr std::array names_of<CubicalOptions::Construction>{
+    Named{CubicalOptions::Construction::vertices, "vertices"},
+    Named{CubicalOptions::Construction::cells, "cells"},
+};
+
+/// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n
 /// voxels has 2n-1 coordinates in the V-construction (even: a voxel, odd: between two), 2n+1 in the
 /// T-construction (odd: a voxel), and 2n in both if it is periodic. A cell's dimension is the
 /// number of its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid

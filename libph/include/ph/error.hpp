@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
+
 namespace ph {
 
 /// The kind of an error, in classes that a caller can act on. The programs turn each kind into an
@@ -72,6 +74,55 @@ enum class Setting : std::uint8_t {
   values,
   viewpoint,
   voxel,
+};
+
+template <>
+inline constexpr std::array names_of<Setting>{
+    Named{Setting::allow_empty, "allow_empty"},
+    Named{Setting::camera, "camera"},
+    Named{Setting::cell, "cell"},
+    Named{Setting::channel, "channel"},
+    Named{Setting::collapse, "collapse"},
+    Named{Setting::columns, "columns"},
+    Named{Setting::complex, "complex"},
+    Named{Setting::construction, "construction"},
+    Named{Setting::crop, "crop"},
+    Named{Setting::cut, "cut"},
+    Named{Setting::depth_scale, "depth_scale"},
+    Named{Setting::diagonal, "diagonal"},
+    Named{Setting::distance, "distance"},
+    Named{Setting::engine, "engine"},
+    Named{Setting::first_meeting, "first_meeting"},
+    Named{Setting::format, "format"},
+    Named{Setting::from_correlation, "from_correlation"},
+    Named{Setting::infinite, "infinite"},
+    Named{Setting::intrinsics, "intrinsics"},
+    Named{Setting::labels, "labels"},
+    Named{Setting::max_dim, "max_dim"},
+    Named{Setting::max_range, "max_range"},
+    Named{Setting::memory_limit, "memory_limit"},
+    Named{Setting::min_part, "min_part"},
+    Named{Setting::min_persistence, "min_persistence"},
+    Named{Setting::min_seam, "min_seam"},
+    Named{Setting::min_size, "min_size"},
+    Named{Setting::nan, "nan"},
+    Named{Setting::patience, "patience"},
+    Named{Setting::plane_distance, "plane_distance"},
+    Named{Setting::plane_guess, "plane_guess"},
+    Named{Setting::plane_noise, "plane_noise"},
+    Named{Setting::raw_shape, "raw_shape"},
+    Named{Setting::raw_skip, "raw_skip"},
+    Named{Setting::raw_type, "raw_type"},
+    Named{Setting::report, "report"},
+    Named{Setting::representatives, "representatives"},
+    Named{Setting::spacing, "spacing"},
+    Named{Setting::steps, "steps"},
+    Named{Setting::subsample, "subsample"},
+    Named{Setting::symmetrise, "symmetrise"},
+    Named{Setting::threshold, "threshold"},
+    Named{Setting::values, "values"},
+    Named{Setting::viewpoint, "viewpoint"},
+    Named{Setting::voxel, "voxel"},
 };
 
 /// The name of a setting in lower case, its words separated by underscores: "max_dim".

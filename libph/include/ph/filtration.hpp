@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
+
 namespace ph {
 
 struct RunContext;
@@ -18,6 +20,13 @@ enum class CellKind {
   vertices,  ///< the vertices of a simplex, ascending: vertex i is input point i
   grid,      ///< doubled grid coordinates, one per axis: 2i is voxel i, 2i+1 spans voxels i and i+1
   row,       ///< the row of an explicit boundary matrix (one number)
+};
+
+template <>
+inline constexpr std::array names_of<CellKind>{
+    Named{CellKind::vertices, "vertices"},
+    Named{CellKind::grid, "grid"},
+    Named{CellKind::row, "row"},
 };
 
 // THE CONTRACT

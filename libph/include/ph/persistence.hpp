@@ -11,6 +11,7 @@
 #include "ph/cubical.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/core/engine.hpp"
+#include "ph/detail/core/names.hpp"
 #include "ph/explicit.hpp"
 #include "ph/rips.hpp"
 #include "ph/run_context.hpp"
@@ -25,7 +26,14 @@ enum class Collapse {
   off,
 };
 
-/// The task, and the way to compute it.
+template <>
+inline constexpr std::array names_of<Collapse>{
+    Named{Collapse::automatic, "auto"},
+    Named{Collapse::on, "on"},
+    Named{Collapse::off, "off"},
+};
+
+/// What to compute, and how.
 struct Options {
   /// Highest dimension of homology that is reported; default: 1 for Rips, otherwise all dimensions.
   std::optional<int> max_dim = std::nullopt;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/detail/core/names.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -185,6 +186,12 @@ struct Atol {
   std::vector<double> widths;                  ///< as many as centres, > 0
   Contrast contrast = Contrast::laplace;
   friend bool operator==(const Atol&, const Atol&) = default;
+};
+
+template <>
+inline constexpr std::array names_of<Atol::Contrast>{
+    Named{Atol::Contrast::laplace, "laplace"},
+    Named{Atol::Contrast::gauss, "gauss"},
 };
 
 struct AtolOptions {

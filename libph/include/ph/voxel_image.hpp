@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/image.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
@@ -27,6 +28,13 @@ enum class VoxelValue {
   distance,
   occupancy,  ///< 0 if it contains a point; otherwise absent, see Image::masked
   density,    ///< the negated number of points in it; absent if there are none
+};
+
+template <>
+inline constexpr std::array names_of<VoxelValue>{
+    Named{VoxelValue::distance, "distance"},
+    Named{VoxelValue::occupancy, "occupancy"},
+    Named{VoxelValue::density, "density"},
 };
 
 /// The voxels of a grid around a point cloud, as an image.

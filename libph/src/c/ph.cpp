@@ -106,6 +106,16 @@ ph_options complete(const ph_options* given) {
   return options;
 }
 
+static_assert(static_cast<ph_distance>(PointDistance::euclidean) == PH_EUCLIDEAN &&
+              static_cast<ph_distance>(PointDistance::manhattan) == PH_MANHATTAN &&
+              static_cast<ph_distance>(PointDistance::chebyshev) == PH_CHEBYSHEV &&
+              static_cast<ph_distance>(PointDistance::minkowski) == PH_MINKOWSKI &&
+              static_cast<ph_distance>(PointDistance::cosine) == PH_COSINE &&
+              static_cast<ph_distance>(PointDistance::hamming) == PH_HAMMING);
+static_assert(static_cast<ph_construction>(CubicalOptions::Construction::vertices) == PH_VERTICES &&
+              static_cast<ph_construction>(CubicalOptions::Construction::cells) == PH_CELLS);
+
+/// The value of an enum whose values C has by number.
 template <class Enum>
 Enum choice(std::int32_t value, Enum last, const char* name) {
   if (value < 0 || value > static_cast<std::int32_t>(last))

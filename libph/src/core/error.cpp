@@ -14,71 +14,11 @@ namespace {
 constexpr char kBegin = '\x1e', kValue = '\x1d', kEnd = '\x1f';
 constexpr std::string_view kPlace = "@place", kFound = "@found", kClause = "; ";
 
-struct Named {
-  Setting setting;
-  std::string_view name;
-};
-#define PH_NAMED(name) \
-  Named { Setting::name, #name }
-constexpr std::array kNames{
-    PH_NAMED(allow_empty),
-    PH_NAMED(camera),
-    PH_NAMED(cell),
-    PH_NAMED(channel),
-    PH_NAMED(collapse),
-    PH_NAMED(columns),
-    PH_NAMED(complex),
-    PH_NAMED(construction),
-    PH_NAMED(crop),
-    PH_NAMED(cut),
-    PH_NAMED(depth_scale),
-    PH_NAMED(diagonal),
-    PH_NAMED(distance),
-    PH_NAMED(engine),
-    PH_NAMED(first_meeting),
-    PH_NAMED(format),
-    PH_NAMED(from_correlation),
-    PH_NAMED(infinite),
-    PH_NAMED(intrinsics),
-    PH_NAMED(labels),
-    PH_NAMED(max_dim),
-    PH_NAMED(max_range),
-    PH_NAMED(memory_limit),
-    PH_NAMED(min_part),
-    PH_NAMED(min_persistence),
-    PH_NAMED(min_seam),
-    PH_NAMED(min_size),
-    PH_NAMED(nan),
-    PH_NAMED(patience),
-    PH_NAMED(plane_distance),
-    PH_NAMED(plane_guess),
-    PH_NAMED(plane_noise),
-    PH_NAMED(raw_shape),
-    PH_NAMED(raw_skip),
-    PH_NAMED(raw_type),
-    PH_NAMED(report),
-    PH_NAMED(representatives),
-    PH_NAMED(spacing),
-    PH_NAMED(steps),
-    PH_NAMED(subsample),
-    PH_NAMED(symmetrise),
-    PH_NAMED(threshold),
-    PH_NAMED(values),
-    PH_NAMED(viewpoint),
-    PH_NAMED(voxel),
-};
-#undef PH_NAMED
-
 constexpr auto kAll = [] {
-  std::array<Setting, kNames.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = kNames[i].setting;
+  std::array<Setting, names_of<Setting>.size()> all{};
+  std::ranges::transform(names_of<Setting>, all.begin(), &Named<Setting>::value);
   return all;
 }();
-
-Setting setting_named(std::string_view name) {
-  const auto found = std::ranges::find(kNames, name, &Named::name);
-  return found == kNames.end() ? Setting::none : found->setting;
-}
 
 std::string marked(std::string_view name, std::string_view value) {
   std::string text(1, kBegin);
@@ -111,7 +51,8 @@ void each_piece(std::string_view text, Use&& use) {
     const std::size_t value = std::min(inside.find(kValue), inside.size());
     const std::string_view name = inside.substr(0, value);
     use(MessagePart{text.substr(begin, end + 1 - begin), name,
-                    inside.substr(std::min(value + 1, inside.size())), setting_named(name)});
+                    inside.substr(std::min(value + 1, inside.size())),
+                    value_named<Setting>(name).value_or(Setting::none)});
     text.remove_prefix(end + 1);
   }
 }
@@ -173,10 +114,7 @@ std::string marked_value(std::string_view text, std::string_view name) {
 
 }  // namespace
 
-std::string_view setting_name(Setting setting) {
-  const auto found = std::ranges::find(kNames, setting, &Named::setting);
-  return found == kNames.end() ? std::string_view() : found->name;
-}
+std::string_view setting_name(Setting setting) { return name_of(setting); }
 
 std::span<const Setting> all_settings() { return kAll; }
 

@@ -69,21 +69,8 @@ class Direction {
 }  // namespace
 
 std::string metric_name(PointDistance distance, double p) {
-  switch (distance) {
-    case PointDistance::euclidean:
-      return "euclidean";
-    case PointDistance::manhattan:
-      return "manhattan";
-    case PointDistance::chebyshev:
-      return "chebyshev";
-    case PointDistance::minkowski:
-      return fmt::format("minkowski:{}", p);
-    case PointDistance::cosine:
-      return "cosine";
-    case PointDistance::hamming:
-      return "hamming";
-  }
-  return "";
+  return fmt::format("{}{}", name_of(distance),
+                     distance == PointDistance::minkowski ? fmt::format(":{}", p) : "");
 }
 
 PointMetric::PointMetric(PointsView points, PointDistance distance, double p, double largest)

@@ -77,14 +77,14 @@ class Cells:
         >>> bars.representative(bars.longest(1)).loop()
         array([0, 1, 2, 3])
         """
-        if self._bars.representatives == _core.Representatives.none and len(self):
+        if self._bars.representatives == "none" and len(self):
             raise UsageError("representative: found none, expected a barcode computed with "
                              "representatives='cycles' or 'cocycles'")
         return Chain(self._bars, self._place(i))
 
     def _require_voxels(self) -> tuple[int, ...]:
         shape = self.meta.get("shape")
-        if self._bars.representatives != _core.Representatives.voxels or shape is None:
+        if self._bars.representatives != "voxels" or shape is None:
             raise UsageError("voxels: found none, expected a barcode of an image computed with "
                              "representatives='voxels'")
         return tuple(shape)

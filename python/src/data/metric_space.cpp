@@ -117,25 +117,6 @@ py::tuple image_of_points(const py::buffer& points, double voxel, VoxelValue val
 }  // namespace
 
 void bind_metric_spaces(py::module_& m) {
-  py::enum_<PointDistance>(m, "PointDistance")
-      .value("euclidean", PointDistance::euclidean)
-      .value("manhattan", PointDistance::manhattan)
-      .value("chebyshev", PointDistance::chebyshev)
-      .value("minkowski", PointDistance::minkowski)
-      .value("cosine", PointDistance::cosine)
-      .value("hamming", PointDistance::hamming);
-  py::enum_<Symmetrise>(m, "Symmetrise")
-      .value("none", Symmetrise::none)
-      .value("max", Symmetrise::max)
-      .value("min", Symmetrise::min)
-      .value("lower", Symmetrise::lower);
-  py::enum_<NanPolicy>(m, "NanPolicy")
-      .value("error", NanPolicy::error)
-      .value("drop", NanPolicy::drop);
-  py::enum_<VoxelValue>(m, "VoxelValue")
-      .value("distance", VoxelValue::distance)
-      .value("occupancy", VoxelValue::occupancy)
-      .value("density", VoxelValue::density);
   py::class_<MetricSpace, std::shared_ptr<MetricSpace>>(m, "MetricSpace")
       .def_static(
           "of_points",

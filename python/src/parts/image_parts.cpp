@@ -93,8 +93,7 @@ py::dict image_part_facts(const py::bytes& bytes) {
   facts["last"] = part.last();
   facts["parts"] = part.parts();
   facts["shape"] = py::tuple(py::cast(part.extents()));
-  facts["construction"] =
-      options.cubical.construction == CubicalOptions::Construction::vertices ? "vertices" : "cells";
+  facts["construction"] = options.cubical.construction;
   facts["superlevel"] = options.cubical.superlevel;
   facts["periodic"] = options.cubical.periodic;
   facts["threshold"] = options.cubical.threshold;

@@ -115,11 +115,6 @@ auto block_of_bar(Numbers&& numbers) {
   };
 }
 
-const char* name_of(CellKind kind) {
-  constexpr const char* kNames[] = {"vertices", "grid", "row"};
-  return kNames[static_cast<int>(kind)];
-}
-
 }  // namespace
 
 Bars::Range Bars::range_of(int dim) const {
@@ -143,8 +138,7 @@ void bind_bars(py::module_& m) {
       .def("__len__", [](const Bars& bars) { return bars.barcode.size(); })
       .def_readonly("facts", &Bars::facts)
       .def_readonly("field", &Bars::field)
-      .def_property_readonly("cell_kind",
-                             [](const Bars& bars) { return name_of(bars.barcode.cell_kind()); })
+      .def_property_readonly("cell_kind", [](const Bars& bars) { return bars.barcode.cell_kind(); })
       .def_property_readonly("has_cells",
                              [](const Bars& bars) {
                                return bars.barcode.empty() ||

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/explicit.hpp"
@@ -26,7 +27,14 @@ enum class Diagonal {
   births,  ///< the value at which each point enters
 };
 
-/// The way to turn an asymmetric square matrix into a distance matrix.
+template <>
+inline constexpr std::array names_of<Diagonal>{
+    Named{Diagonal::zero, "zero"},
+    Named{Diagonal::any, "any"},
+    Named{Diagonal::births, "births"},
+};
+
+/// How an asymmetric square matrix becomes a distance matrix.
 enum class Symmetrise {
   none,   ///< an error if entries differ by more than 1e-6 of the largest one
   max,    ///< d(i,j) = max of both entries
@@ -34,14 +42,28 @@ enum class Symmetrise {
   lower,  ///< the entry below the diagonal
 };
 
-/// The meaning of a NaN in the input.
+template <>
+inline constexpr std::array names_of<Symmetrise>{
+    Named{Symmetrise::none, "none"},
+    Named{Symmetrise::max, "max"},
+    Named{Symmetrise::min, "min"},
+    Named{Symmetrise::lower, "lower"},
+};
+
+/// What a NaN in the input means.
 enum class NanPolicy {
   error,  ///< bad data; only a hole of a point cloud is accepted
   drop,   ///< points: the row is left out; distances: the pair is never joined (+infinity); images:
           ///< the voxel is absent, see Image::masked
 };
 
-/// The content of a two-dimensional array (NPY), or of a text of numbers.
+template <>
+inline constexpr std::array names_of<NanPolicy>{
+    Named{NanPolicy::error, "error"},
+    Named{NanPolicy::drop, "drop"},
+};
+
+/// What a two-dimensional array (NPY), or a text of numbers, holds.
 enum class ArrayMeaning {
   automatic,  ///< decided by shape, type and diagonal, with a note; by default an image (NPY) or
               ///< points (text)
@@ -51,7 +73,14 @@ enum class ArrayMeaning {
   distances,  ///< a square distance matrix
 };
 
-/// The number of a pixel that is its value.
+template <>
+inline constexpr std::array names_of<ArrayMeaning>{
+    Named{ArrayMeaning::automatic, "auto"},      Named{ArrayMeaning::rips, "rips"},
+    Named{ArrayMeaning::image, "image"},         Named{ArrayMeaning::points, "points"},
+    Named{ArrayMeaning::distances, "distances"},
+};
+
+/// Which number of a pixel is its value.
 enum class Channel {
   automatic,  ///< the only channel, or the value that all channels share
   grey,       ///< for colours: their luma by ITU-R BT.601, 0.299 R + 0.587 G + 0.114 B, to the
@@ -62,7 +91,13 @@ enum class Channel {
   alpha,  ///< opacity
 };
 
-/// The layout of an image in a file that does not describe it.
+template <>
+inline constexpr std::array names_of<Channel>{
+    Named{Channel::automatic, "auto"}, Named{Channel::grey, "grey"}, Named{Channel::red, "red"},
+    Named{Channel::green, "green"},    Named{Channel::blue, "blue"}, Named{Channel::alpha, "alpha"},
+};
+
+/// How an image lies in a file that does not say so itself.
 struct RawLayout {
   std::vector<Index> extents = {};  ///< sizes of the axes, the last one fastest
   std::string type = "u1";          ///< as in NumPy: u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8

@@ -39,21 +39,7 @@ std::string json_cell(const std::optional<InputCell>& cell) {
   return fmt::format("{{{}}}", json_cell_member(*cell));
 }
 
-std::string_view representatives_name(Representatives kind) {
-  switch (kind) {
-    case Representatives::none:
-      return "none";
-    case Representatives::cycles:
-      return "cycles";
-    case Representatives::cocycles:
-      return "cocycles";
-    case Representatives::voxels:
-      return "voxels";
-  }
-  return "";
-}
-
-/// A chain can be as long as the input, and is therefore written term by term.
+/// A chain can be as long as the input: written term by term.
 void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("[");
   for (std::size_t i = 0; i < chain.size(); ++i)
@@ -211,8 +197,7 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
   json::add_members(
       heading,
       {{"engine", text(info.engine)},
-       {"representatives",
-        has_chains ? json::string(representatives_name(barcode.representatives())) : ""}},
+       {"representatives", has_chains ? json::string(name_of(barcode.representatives())) : ""}},
       kBetween);
   return heading;
 }

@@ -11,7 +11,6 @@ namespace ph::detail {
 namespace {
 
 constexpr std::array<std::string_view, 5> kKinds{"", "grey", "grey + alpha", "RGB", "RGB + alpha"};
-constexpr std::array<std::string_view, 6> kChannels{"", "grey", "red", "green", "blue", "alpha"};
 
 // Luma of ITU-R BT.601, to the nearest integer, halves up.
 std::uint16_t luma(const std::uint16_t* pixel) {
@@ -48,7 +47,7 @@ std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const
       if (has_colours)
         return static_cast<std::size_t>(channel) - static_cast<std::size_t>(Channel::red);
   }
-  input.fail({fmt::format("no channel {}", kChannels[static_cast<std::size_t>(channel)]),
+  input.fail({fmt::format("no channel {}", name_of(channel)),
               std::string(kKinds[channels]),
               "a picture that has it",
               {}});

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <string>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/filtration.hpp"
 #include "ph/points.hpp"
 
@@ -58,7 +59,14 @@ enum class PointDistance {
   hamming,    ///< the number of coordinates that differ
 };
 
-/// The name of a distance as in the JSON of bars: "euclidean", "minkowski:3".
+template <>
+inline constexpr std::array names_of<PointDistance>{
+    Named{PointDistance::euclidean, "euclidean"}, Named{PointDistance::manhattan, "manhattan"},
+    Named{PointDistance::chebyshev, "chebyshev"}, Named{PointDistance::minkowski, "minkowski"},
+    Named{PointDistance::cosine, "cosine"},       Named{PointDistance::hamming, "hamming"},
+};
+
+/// The name of a distance, as JSON of bars has it: "euclidean", "minkowski:3".
 /// @param p exponent of PointDistance::minkowski.
 std::string metric_name(PointDistance distance, double p = 2);
 
@@ -68,8 +76,14 @@ enum class Device {
   gpu,  ///< an NVIDIA GPU, if libph was built with PH_WITH_CUDA
 };
 
-/// A set of points with one of the named distances. It keeps a view of the points. Coordinates of
-/// any finite size are allowed: sums of squares are scaled before they overflow.
+template <>
+inline constexpr std::array names_of<Device>{
+    Named{Device::cpu, "cpu"},
+    Named{Device::gpu, "gpu"},
+};
+
+/// A set of points with one of the named distances. Keeps a view of the points.
+/// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
 class PointMetric {
  public:
   /// @param points one point per row, finite coordinates. @param p exponent of `minkowski`.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "ph/detail/core/names.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {
@@ -18,7 +19,14 @@ enum class WeightExponent {
   infinity,  ///< p = infinity: full size from the birth on
 };
 
-/// The values at which the vertices of a Rips filtration enter, and their effect on its edges.
+template <>
+inline constexpr std::array names_of<WeightExponent>{
+    Named{WeightExponent::one, "1"},
+    Named{WeightExponent::two, "2"},
+    Named{WeightExponent::infinity, "inf"},
+};
+
+/// When the vertices of a Rips filtration enter, and its edges because of them.
 class VertexWeights {
  public:
   /// All vertices enter at 0, and edges enter at their distance.
