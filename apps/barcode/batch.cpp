@@ -9,7 +9,7 @@
 #include <map>
 #include <string_view>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/batch_inputs.hpp"
 #include "barcode/output/report.hpp"
 #include "barcode/output/significance.hpp"
@@ -165,9 +165,9 @@ void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::
   constexpr std::array<std::string_view, 5> kOfBars{"min-persistence", "max-dim", "min-dim",
                                                     "field", "engine"};
   std::vector<std::string> given;
-  for (const app::OptionScope* scope : arguments.given)
-    if (std::ranges::find(kOfBars, scope->option) != kOfBars.end())
-      given.push_back(fmt::format("--{}", scope->option));
+  for (const app::GivenOption& option : arguments.given)
+    if (std::ranges::find(kOfBars, option.name) != kOfBars.end())
+      given.push_back(fmt::format("--{}", option.name));
   if (!given.empty())
     session.note(fmt::format("nothing is done for {}: only the merge tree is written",
                              fmt::join(given, ", ")));

@@ -11,7 +11,7 @@
 #include <new>
 #include <optional>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/load.hpp"
 #include "barcode/memory/alternatives.hpp"

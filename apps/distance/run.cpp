@@ -13,7 +13,7 @@
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "distance/arguments/option_scopes.hpp"
+#include "distance/arguments/scopes.hpp"
 #include "distance/data/groups.hpp"
 #include "distance/data/pairs.hpp"
 #include "distance/output/group_tests.hpp"

@@ -19,7 +19,7 @@
 #include "ph/error.hpp"
 #include "report/encoding/sha256.hpp"
 #include "segment/arguments/arguments.hpp"
-#include "segment/arguments/option_scopes.hpp"
+#include "segment/arguments/scopes.hpp"
 #include "segment/input/depth_camera.hpp"
 #include "segment/output/outputs.hpp"
 #include "segment/output/summary.hpp"

@@ -12,7 +12,7 @@
 #include "common/terminal/exit_code.hpp"
 #include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
-#include "vectorise/arguments/option_scopes.hpp"
+#include "vectorise/arguments/scopes.hpp"
 #include "vectorise/data/samples.hpp"
 #include "vectorise/data/table.hpp"
 #include "vectorise/fit/fit_json.hpp"

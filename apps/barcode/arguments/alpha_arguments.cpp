@@ -2,7 +2,6 @@
 #include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,41 +30,34 @@ Surface surface_of(const std::string& option, const std::string& text, bool is_w
 
 }  // namespace
 
-void add_alpha_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("alpha");
-  app::add_choice(app, "--alpha-values",
-                  "what values are: the radius of the balls, or its square (default radius; with "
-                  "--weights squared)",
-                  a.alpha_unit);
-  app::add_path(app, "--weights", "FILE",
-                "the square of each ball's first radius, one number a point (default: all 0); of "
-                "complex alpha",
-                a.weights);
-  app::add_value(app, "--period", "L|L,L,…",
-                 "points of a periodic space: the length after which each axis closes up, one for "
-                 "all or one an axis; 0: it does not",
-                 [&a](const std::string& text) {
-                   a.period = app::parse_numbers("--period", text);
-                   for (const double length : a.period)
-                     if (!(length >= 0 && std::isfinite(length)))
-                       throw Error(ErrorKind::usage,
-                                   fmt::format("--period: found '{}', expected finite numbers of "
-                                               "at least 0",
-                                               text));
-                 });
+void add_alpha_options(app::Options& options, Arguments& a) {
+  options.topic("alpha");
+  options.choice({"--alpha-values", kOfAlpha},
+                 "what values are: the radius of the balls, or its square (default radius; with "
+                 "--weights squared)",
+                 a.alpha_unit);
+  options.path({"--weights", kOfAlpha}, "FILE",
+               "the square of each ball's first radius, one number a point (default: all 0); of "
+               "complex alpha",
+               a.weights);
+  options.value({"--period", kOfAlpha}, "L|L,L,…",
+                "points of a periodic space: the length after which each axis closes up, one for "
+                "all or one an axis; 0: it does not",
+                [&a](const std::string& text) {
+                  a.period = app::parse_numbers("--period", text);
+                  for (const double length : a.period)
+                    if (!(length >= 0 && std::isfinite(length)))
+                      throw Error(ErrorKind::usage,
+                                  fmt::format("--period: found '{}', expected finite numbers of "
+                                              "at least 0",
+                                              text));
+                });
   const auto add_surfaces = [&](const std::string& option, const std::string& what, bool is_wrap) {
-    app.add_option_function<std::vector<std::string>>(
-           option,
-           [&a, option, is_wrap](const std::vector<std::string>& all) {
-             for (const std::string& text : all)
-               a.surfaces.push_back(surface_of(option, text, is_wrap));
-           },
-           what)
-        ->type_name("R=FILE.ply|.off")
-        ->type_size(1)
-        ->expected(1)
-        ->allow_extra_args(false)  // what follows may be an input
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    options.repeated({option, kOfAlpha}, "R=FILE.ply|.off", what,
+                     [&a, option, is_wrap](const std::vector<std::string>& all) {
+                       for (const std::string& text : all)
+                         a.surfaces.push_back(surface_of(option, text, is_wrap));
+                     });
   };
   add_surfaces("--alpha-shape",
                "the surface of the complex at value R, as triangles in a file (repeatable)", false);

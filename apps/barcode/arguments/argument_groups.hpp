@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "barcode/arguments/arguments.hpp"
+#include "barcode/arguments/scopes.hpp"
+#include "common/arguments/options.hpp"
 
 // The options of ph-barcode by topic, a file each. `add_…` registers them, and `arguments` must
-// outlive `app`. `check_…` looks at what no single one of them can see, sets what follows from
+// outlive `options`. `check_…` looks at what no single one of them can see, sets what follows from
 // them, and throws Error (usage).
 namespace ph::barcode {
 
 /// What of a table or a picture is read: --columns, --channel.
-void add_table_options(CLI::App& app, Arguments& arguments);
+void add_table_options(app::Options& options, Arguments& arguments);
 /// Decides what a table means where other options leave one reading only.
 void check_table_arguments(Arguments& arguments);
 
 /// How an image lies in a file without a header.
-void add_raw_options(CLI::App& app, Arguments& arguments);
+void add_raw_options(app::Options& options, Arguments& arguments);
 /// Those that images and cubical complexes have.
-void add_cubical_options(CLI::App& app, Arguments& arguments);
+void add_cubical_options(app::Options& options, Arguments& arguments);
 /// Of both.
 void check_image_arguments(Arguments& arguments);
 
 /// Which complex is built.
-void add_complex_options(CLI::App& app, Arguments& arguments);
+void add_complex_options(app::Options& options, Arguments& arguments);
 /// What is computed of it: dimensions, field, engine, representatives.
-void add_homology_options(CLI::App& app, Arguments& arguments);
+void add_homology_options(app::Options& options, Arguments& arguments);
 
 /// Those that only Rips complexes have: collapse, samples, approximation, weights.
-void add_rips_options(CLI::App& app, Arguments& arguments);
+void add_rips_options(app::Options& options, Arguments& arguments);
 /// Weights come from one place, and exclude what makes sense for plain distances only.
 void check_rips_arguments(Arguments& arguments);
 
 /// Those that only alpha complexes have.
-void add_alpha_options(CLI::App& app, Arguments& arguments);
+void add_alpha_options(app::Options& options, Arguments& arguments);
 void check_alpha_arguments(Arguments& arguments);
 
 /// --part, --join and what goes with them.
-void add_part_options(CLI::App& app, Arguments& arguments);
+void add_part_options(app::Options& options, Arguments& arguments);
 void check_part_arguments(const Arguments& arguments);
 
 }  // namespace ph::barcode

@@ -12,7 +12,6 @@
 
 #include "barcode/arguments/argument_groups.hpp"
 #include "barcode/arguments/manual.hpp"
-#include "barcode/arguments/option_scopes.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "core/lower_case.hpp"
@@ -21,9 +20,6 @@
 namespace ph::barcode {
 namespace {
 
-using app::add_choice;
-using app::add_path;
-using app::add_value;
 using Names = std::vector<std::string_view>;
 
 Names format_names() {
@@ -47,50 +43,54 @@ void take_report(Arguments& a, const std::string& path) {
   a.report = path;
 }
 
-void add_input_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("input");
-  app.add_option(
-         "INPUT", a.inputs,
-         a.on_ranks
-             ? "the image, or the points; all ranks have to see the file"
-             : "files to read; - is standard input. Several, or a folder, are a batch: its "
-               "outputs are folders (FOLDER/) or have a * for the input's name. A stored barcode "
-               "is drawn, converted or reported again; the word plot before it says that it is one")
-      ->type_name("");
+void add_input_options(app::Options& options, Arguments& a) {
+  options.topic("input");
+  options.inputs(
+      "INPUT",
+      a.on_ranks
+          ? "the image, or the points; all ranks have to see the file"
+          : "files to read; - is standard input. Several, or a folder, are a batch: its outputs "
+            "are folders (FOLDER/) or have a * for the input's name. A stored barcode is drawn, "
+            "converted or reported again; the word plot before it says that it is one",
+      a.inputs);
   static const Names formats = format_names();
-  add_choice(app, "--format", formats,
-             "format of the input (default auto: by content and extension)",
-             [&a](std::size_t i) { a.format = ph::formats()[i].format; });
-  add_path(app, "--values", "FILE",
-           "values of the cells of a boundary matrix (default: their order), or of the vertices of "
-           "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
-           a.values);
-  app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error");
-  add_choice<Symmetrise>(
-      app, "--symmetrise",
+  options.choice({"--format", kOfInputs.with(kSomeLayers | kSomeBlocks)}, formats,
+                 "format of the input (default auto: by content and extension)",
+                 [&a](std::size_t i) { a.format = ph::formats()[i].format; });
+  options.path(
+      {"--values", kOfInputs}, "FILE",
+      "values of the cells of a boundary matrix (default: their order), or of the vertices of "
+      "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
+      a.values);
+  options.flag({"--allow-empty", kOfInputs}, "an input without points is no error",
+               a.read.allow_empty);
+  options.choice<Symmetrise>(
+      {"--symmetrise", kOfMatrices},
       "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
       [&a](Symmetrise way) {
         a.read.symmetrise = way;
         a.read.array = ArrayMeaning::distances;
       },
       std::span(names_of<Symmetrise>).subspan(1));
-  app.add_flag_callback(
-      "--from-correlation",
-      [&a] {
-        a.read.from_correlation = true;
+  options.flag({"--from-correlation", kOfDistances},
+               "the matrix holds correlations r; distances are 1 - r", [&a] {
+                 a.read.from_correlation = true;
+                 a.read.array = ArrayMeaning::distances;
+               });
+  options.choice(
+      {"--diagonal", kOfMatrices}, {"zero", "births"},
+      "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
+      "point enters (default: 0, else an error)",
+      [&a](std::size_t i) {
+        a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
         a.read.array = ArrayMeaning::distances;
-      },
-      "the matrix holds correlations r; distances are 1 - r");
-  add_choice(app, "--diagonal", {"zero", "births"},
-             "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
-             "point enters (default: 0, else an error)",
-             [&a](std::size_t i) {
-               a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
-               a.read.array = ArrayMeaning::distances;
-             });
-  add_choice(app, "--nan",
-             "what NaN means: an error (default), or a point, distance or voxel that is not there",
-             a.read.nan);
+      });
+  options.choice(
+      {"--nan",
+       {kRips | kCubical | kOwn | kAlpha | kSomeLayers | kSomeBlocks,
+        "points, distances and images"}},
+      "what NaN means: an error (default), or a point, distance or voxel that is not there",
+      a.read.nan);
 }
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
@@ -104,10 +104,10 @@ void take_compared(Arguments& a, const std::vector<std::string>& paths) {
   a.compare = paths;
 }
 
-void add_output_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("output");
-  add_value(
-      app, "-o,--output", "FILE",
+void add_output_options(app::Options& options, Arguments& a) {
+  options.topic("output");
+  options.value(
+      "-o,--output", "FILE",
       "where the barcode goes (default -: standard output); FOLDER/ for several inputs; after the "
       "word plot, where the picture goes",
       [&a](const std::string& text) {
@@ -115,43 +115,33 @@ void add_output_options(CLI::App& app, Arguments& a) {
         a.output = text;
       });
   static const Names names = output_formats();
-  add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
-             [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); });
-  add_value(app, "--report", "FILE.html|.htm",
-            "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
-            [&a](const std::string& path) { take_report(a, path); });
-  app.add_option_function<std::vector<std::string>>(
-         "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
-         "compute nothing but the bottleneck distances of two barcode files, dimension by "
-         "dimension: "
-         "text, or --output-format csv or json; with --report also side by side in a page; "
-         "ph-distance has others")
+  options.choice("--output-format", names, "format of the barcode (default: by extension, or csv)",
+                 [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); });
+  options.value(
+      {"--report", kOffRanks}, "FILE.html|.htm",
+      "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
+      [&a](const std::string& path) { take_report(a, path); });
+  CLI::Option* compare = options.cli().add_option_function<std::vector<std::string>>(
+      "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
+      "compute nothing but the bottleneck distances of two barcode files, dimension by dimension: "
+      "text, or --output-format csv or json; with --report also side by side in a page; "
+      "ph-distance has others");
+  options.limit(compare, kOffRanks)
       ->type_name("FILE FILE")
       ->type_size(1)
       ->expected(1, kAnyNumber);  // take_compared() says what is wrong
 }
 
-void add_picture_options(CLI::App& app, app::PlotArguments& plots) {
-  app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
-                        plots);
+void add_picture_options(app::Options& options, app::PlotArguments& plots) {
+  app::add_plot_options(options, kPlotKinds,
+                        "draw the barcode, or the merge tree of H0 (repeatable)", plots);
   app::add_plot_look(
-      app, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
+      options, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
       "dimensions that plots show (default: all that there are)", plots,
       [&plots](const std::string& text) {
         for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
           plots.look.dims.push_back(static_cast<int>(dim));
       });
-}
-
-/// Leaves out of the help what ranks refuse.
-void hide_from_ranks(CLI::App& app) {
-  const auto hide = [&](std::string_view name) {
-    app.get_option(fmt::format("--{}", name))->group("");
-  };
-  for (const app::OptionScope& scope : option_scopes())
-    if ((scope.where & (kRanks | kCloudRanks)) == 0) hide(scope.option);
-  for (const std::string_view name : {"part", "join", "keep-cells", "report", "compare"})
-    hide(name);
 }
 
 /// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
@@ -270,24 +260,26 @@ bool Arguments::is_batch() const {
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
                                            Arguments& arguments) {
   const app::Manual& about = arguments.on_ranks ? manual_of_ranks() : manual();
-  CLI::App app("", std::string(about.program));
+  CLI::App cli("", std::string(about.program));
+  app::Options options(cli);
   app::PlotArguments plots;
+  plots.scope = kOfOneBarcode;
   bool list_formats = false;
-  add_input_options(app, arguments);
-  add_table_options(app, arguments);
-  app.add_flag("--formats", list_formats, "print the table of formats and exit");
-  add_raw_options(app, arguments);
-  add_complex_options(app, arguments);
-  add_cubical_options(app, arguments);
-  add_rips_options(app, arguments);
-  add_alpha_options(app, arguments);
-  add_homology_options(app, arguments);
-  add_part_options(app, arguments);
-  add_output_options(app, arguments);
-  add_picture_options(app, plots);
-  app::add_common_options(app, arguments.common);
-  if (arguments.on_ranks) hide_from_ranks(app);
-  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, about))
+  add_input_options(options, arguments);
+  add_table_options(options, arguments);
+  options.flag("--formats", "print the table of formats and exit", list_formats);
+  add_raw_options(options, arguments);
+  add_complex_options(options, arguments);
+  add_cubical_options(options, arguments);
+  add_rips_options(options, arguments);
+  add_alpha_options(options, arguments);
+  add_homology_options(options, arguments);
+  add_part_options(options, arguments);
+  add_output_options(options, arguments);
+  add_picture_options(options, plots);
+  app::add_common_options(options, arguments.common);
+  if (arguments.on_ranks) options.hide_outside(kRanks | kCloudRanks);
+  if (auto answer = app::parse_command_line(options, arguments.common, argc, argv, about))
     return answer;
   if (list_formats) return formats_table();
   const bool is_first_of_output = take_word(arguments, plots);
@@ -295,10 +287,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   if (is_first_of_output) arguments.plots.front().option = "--output";
   arguments.look = plots.look;
   for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
-  arguments.given = app::given_scopes(app, option_scopes());
+  arguments.given = options.given();
   check_together(arguments);
   constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
-  if (arguments.part) arguments.typed_options = app::given_options(app, kNotOfResults);
+  if (arguments.part) arguments.typed_options = app::given_options(options, kNotOfResults);
   if (arguments.compare.empty() && !arguments.is_batch() && !arguments.part && !arguments.joins &&
       app::is_folder(arguments.inputs[0]))
     throw Error(ErrorKind::no_input,

@@ -105,7 +105,7 @@ struct Arguments {
   std::vector<std::string> notes;    // on the command line itself, to be said once
   std::vector<std::string> command;  // as it was typed, for the report
   // The options that were given of those that do nothing for some inputs.
-  std::vector<const app::OptionScope*> given;
+  std::vector<app::GivenOption> given;
 
   /// Whether the merge tree is asked for by itself.
   bool draws_tree() const;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -18,8 +17,6 @@
 namespace ph::barcode {
 namespace {
 
-using app::add_choice;
-using app::add_value;
 using app::choose;
 using app::parse_integer;
 using app::parse_number;
@@ -68,8 +65,8 @@ void take_engine(Arguments& a, const std::string& text) {
 
 }  // namespace
 
-void add_complex_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("complexes");
+void add_complex_options(app::Options& options, Arguments& a) {
+  options.topic("complexes");
   std::string what =
       "what is built of the input (default auto: rips for points and distances, cubical for "
       "images, "
@@ -77,66 +74,77 @@ void add_complex_options(CLI::App& app, Arguments& a) {
       "points in "
       "one to three dimensions alpha is the fastest: it has the bars of growing balls";
   for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
-  add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
-            [&a](const std::string& text) { take_complex(a, text); });
-  add_value(
-      app, "--threshold,--max-scale", "T",
+  options.value({"--complex", kOfInputs.with(kSomeLayers | kSomeBlocks)},
+                fmt::format("{}", fmt::join(complex_names(), "|")), what,
+                [&a](const std::string& text) { take_complex(a, text); });
+  options.value(
+      {"--threshold,--max-scale", kOfInputs.with(kSomeLayers | kSomeBlocks)}, "T",
       "largest filtration value, in units of the input (default for rips: the enclosing "
       "radius, but none for sparse distances, --max-dim 0 and engine beta-skeleton; else none)",
       [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); });
-  add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
-            "distance of points (default euclidean)",
-            [&a](const std::string& text) { take_metric(a, text); });
+  options.value({"--metric", kOfPoints.with(kSomeBlocks)},
+                "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
+                "distance of points (default euclidean)",
+                [&a](const std::string& text) { take_metric(a, text); });
 }
 
-void add_homology_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("engines");
-  add_value(app, "--max-dim", "D", "highest dimension reported (default: 1 for rips, else all)",
-            [&a](const std::string& text) {
-              a.options.max_dim =
-                  static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
-            });
-  add_value(app, "--min-dim", "D",
-            "lowest dimension reported (default 0); of volumes 2 saves the work for loops",
-            [&a](const std::string& text) {
-              a.options.min_dim =
-                  static_cast<int>(parse_integer("--min-dim", text, 0, kMostDimensions));
-            });
-  add_value(app, "--field,--modulus", "P", "coefficients modulo the prime P (default 2)",
-            [&a](const std::string& text) {
-              a.options.field = parse_integer("--field", text, 2);
-              if (!is_field_characteristic(a.options.field))
-                throw Error(ErrorKind::usage, fmt::format("--field: found '{}', expected a prime "
-                                                          "below 2^31",
-                                                          text));
-            });
-  add_value(app, "--engine", fmt::format("{}", fmt::join(engine_names(), "|")),
-            "how it is computed (default auto; standard is the slow reference engine)",
-            [&a](const std::string& text) { take_engine(a, text); });
-  app.add_flag("--check", a.check,
+void add_homology_options(app::Options& options, Arguments& a) {
+  options.topic("engines");
+  options.value(
+      {"--max-dim", kOfInputs.with(kSomeLayers | kSomeBlocks)}, "D",
+      "highest dimension reported (default: 1 for rips, else all)", [&a](const std::string& text) {
+        a.options.max_dim = static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
+      });
+  options.value({"--min-dim", kOfInputs.with(kSomeLayers)}, "D",
+                "lowest dimension reported (default 0); of volumes 2 saves the work for loops",
+                [&a](const std::string& text) {
+                  a.options.min_dim =
+                      static_cast<int>(parse_integer("--min-dim", text, 0, kMostDimensions));
+                });
+  options.value({"--field,--modulus", kOfInputs.with(kRanks)}, "P",
+                "coefficients modulo the prime P (default 2)", [&a](const std::string& text) {
+                  a.options.field = parse_integer("--field", text, 2);
+                  if (!is_field_characteristic(a.options.field))
+                    throw Error(ErrorKind::usage,
+                                fmt::format("--field: found '{}', expected a prime "
+                                            "below 2^31",
+                                            text));
+                });
+  options.value({"--engine", kOfInputs}, fmt::format("{}", fmt::join(engine_names(), "|")),
+                "how it is computed (default auto; standard is the slow reference engine)",
+                [&a](const std::string& text) { take_engine(a, text); });
+  options.flag({"--check", kOfInputs},
                "also run the slow reference engine and compare; a difference is printed and "
-               "exits 1");
-  add_value(app, "--min-persistence", "X",
-            "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",
-            [&a](const std::string& text) {
-              a.options.min_persistence = parse_number("--min-persistence", text);
-            });
-  add_choice(app, "--representatives",
-             "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
-             "coefficients; of images also voxels: components and hollows as sets of voxels, all "
-             "else as cycles (default none)",
-             a.options.representatives);
-  add_choice(app, "--loops",
-             "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
-             "short as is cheap (tight, default) or as found (plain)",
-             a.loops);
-  app.add_flag("--significance", a.significance,
-               "with each bar of dimension 1 and above, in CSV and JSON: p, how likely noise is to "
-               "have a bar that stands out as much (times the number of bars, at most 1; Bobrowski "
-               "and Skraba 2023)");
-  app.add_flag("--dry-run", a.dry_run,
+               "exits 1",
+               a.check);
+  options.value(
+      {"--min-persistence", kOfInputs.with(kParts | kRanks | kCloudRanks)}, "X",
+      "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",
+      [&a](const std::string& text) {
+        a.options.min_persistence = parse_number("--min-persistence", text);
+      });
+  options.choice(
+      {"--representatives", kOfInputs},
+      "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
+      "coefficients; of images also voxels: components and hollows as sets of voxels, all "
+      "else as cycles (default none)",
+      a.options.representatives);
+  options.choice(
+      {"--loops", kOfInputs},
+      "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
+      "short as is cheap (tight, default) or as found (plain)",
+      a.loops);
+  options.flag(
+      {"--significance",
+       {kAllPairs | kSomePairs | kAlpha, "Rips and alpha complexes of points and distances"}},
+      "with each bar of dimension 1 and above, in CSV and JSON: p, how likely noise is to "
+      "have a bar that stands out as much (times the number of bars, at most 1; Bobrowski "
+      "and Skraba 2023)",
+      a.significance);
+  options.flag({"--dry-run", kOfInputs.with(kSomeLayers | kSomeBlocks)},
                "read the input, print the estimate of cells and memory and the engine; compute "
-               "nothing");
+               "nothing",
+               a.dry_run);
 }
 
 }  // namespace ph::barcode

@@ -2,7 +2,6 @@
 #include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>
@@ -14,8 +13,6 @@
 
 namespace ph::barcode {
 
-using app::add_choice;
-using app::add_value;
 using app::parse_integer;
 using app::parse_integers;
 using app::parse_number;
@@ -38,65 +35,65 @@ RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.empl
 
 }  // namespace
 
-void add_cubical_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("cubical");
-  add_choice(app, "--construction", "voxels are vertices (default) or top cells",
-             a.cubical.construction);
-  app.add_flag_callback(
-      "--superlevel", [&a] { a.cubical.superlevel = true; },
-      "superlevel sets, the largest values first; values are those of the negated image");
-  add_value(app, "--periodic", "AXES",
-            "axes that close up on themselves, such as 0,2, or all (default: none)",
-            [&a](const std::string& text) { take_periodic(a, text); });
-  add_value(app, "--slab-layers", "N",
-            "layers along the first axis that are looked at together; the bars are the same "
-            "(default: all if the memory limit allows it, else as many as it does)",
-            [&a](const std::string& text) {
-              constexpr Index most = Index{1} << 30;
-              a.common.slab_layers =
-                  static_cast<int>(parse_integer("--slab-layers", text, 1, most));
-            });
-  add_value(app, "--voxel", "X",
-            "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
-            [&a](const std::string& text) {
-              a.voxel = parse_number("--voxel", text);
-              if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
-                throw Error(
-                    ErrorKind::usage,
-                    fmt::format("--voxel: found '{}', expected a finite number above 0", text));
-            });
-  add_choice(
-      app, "--voxel-value",
+void add_cubical_options(app::Options& options, Arguments& a) {
+  options.topic("cubical");
+  options.choice({"--construction", kOfCubical}, "voxels are vertices (default) or top cells",
+                 a.cubical.construction);
+  options.flag({"--superlevel", kOfCubical},
+               "superlevel sets, the largest values first; values are those of the negated image",
+               [&a] { a.cubical.superlevel = true; });
+  options.value({"--periodic", kOfCubical}, "AXES",
+                "axes that close up on themselves, such as 0,2, or all (default: none)",
+                [&a](const std::string& text) { take_periodic(a, text); });
+  options.value({"--slab-layers", kOfCubical}, "N",
+                "layers along the first axis that are looked at together; the bars are the same "
+                "(default: all if the memory limit allows it, else as many as it does)",
+                [&a](const std::string& text) {
+                  constexpr Index most = Index{1} << 30;
+                  a.common.slab_layers =
+                      static_cast<int>(parse_integer("--slab-layers", text, 1, most));
+                });
+  options.value(
+      {"--voxel", kOfVoxels}, "X",
+      "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
+      [&a](const std::string& text) {
+        a.voxel = parse_number("--voxel", text);
+        if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
+          throw Error(ErrorKind::usage,
+                      fmt::format("--voxel: found '{}', expected a finite number above 0", text));
+      });
+  options.choice(
+      {"--voxel-value", kOfVoxels},
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
       a.voxel_value);
 }
 
-void add_raw_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("raw");
-  add_value(app, "--raw-shape", "N,M,…",
-            "sizes of the axes, the last one fastest; the input is numbers without a header that "
-            "says so (--format raw)",
-            [&a](const std::string& text) {
-              constexpr Index most = Index{1} << 32;
-              const auto extents = parse_integers("--raw-shape", text, 0, most);
-              raw(a).extents.assign(extents.begin(), extents.end());
-            });
-  add_choice(app, "--raw-type",
-             {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float16",
-              "float32", "float64"},
-             "what they are (default uint8)", [&a](std::size_t i) {
-               constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
-                                           "u8", "i8", "f2", "f4", "f8"};
-               raw(a).type = kTypes[i];
-             });
-  app.add_flag_callback(
-      "--raw-big-endian", [&a] { raw(a).big_endian = true; },
-      "the high byte comes first (default: last)");
-  add_value(app, "--raw-skip", "BYTES", "bytes before them: a header (default 0)",
-            [&a](const std::string& text) {
-              raw(a).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
-            });
+void add_raw_options(app::Options& options, Arguments& a) {
+  options.topic("raw");
+  options.value(
+      {"--raw-shape", kOfRaw}, "N,M,…",
+      "sizes of the axes, the last one fastest; the input is numbers without a header that "
+      "says so (--format raw)",
+      [&a](const std::string& text) {
+        constexpr Index most = Index{1} << 32;
+        const auto extents = parse_integers("--raw-shape", text, 0, most);
+        raw(a).extents.assign(extents.begin(), extents.end());
+      });
+  options.choice({"--raw-type", kOfRaw},
+                 {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64",
+                  "float16", "float32", "float64"},
+                 "what they are (default uint8)", [&a](std::size_t i) {
+                   constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
+                                               "u8", "i8", "f2", "f4", "f8"};
+                   raw(a).type = kTypes[i];
+                 });
+  options.flag({"--raw-big-endian", kOfRaw}, "the high byte comes first (default: last)",
+               [&a] { raw(a).big_endian = true; });
+  options.value({"--raw-skip", kOfRaw}, "BYTES", "bytes before them: a header (default 0)",
+                [&a](const std::string& text) {
+                  raw(a).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
+                });
 }
 
 void check_image_arguments(Arguments& a) {

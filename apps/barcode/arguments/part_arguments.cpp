@@ -2,7 +2,6 @@
 #include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <string_view>
 
@@ -40,24 +39,26 @@ void check_ranks(const Arguments& a) {
 
 }  // namespace
 
-void add_part_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("parts");
-  app::add_value(app, "--part", "I/P",
-                 "compute part I (from 1 on) of P, on any machine, and write it as a part file: of "
-                 "an image some of its layers, of points (--complex rips --max-dim 0) some "
-                 "blocks of them, of several inputs some of them",
-                 [&a](const std::string& text) { take_part(a, text); });
-  app.add_flag("--join", a.joins,
+void add_part_options(app::Options& options, Arguments& a) {
+  options.topic("parts");
+  options.value({"--part", kOffRanks}, "I/P",
+                "compute part I (from 1 on) of P, on any machine, and write it as a part file: of "
+                "an image some of its layers, of points (--complex rips --max-dim 0) some "
+                "blocks of them, of several inputs some of them",
+                [&a](const std::string& text) { take_part(a, text); });
+  options.flag({"--join", kOffRanks},
                "the inputs are part files, in any order: bars if all are there, else, with -o "
-               "FILE.ph, one part");
-  app.add_flag("--resume", a.resumes,
+               "FILE.ph, one part",
+               a.joins);
+  options.flag("--resume",
                a.on_ranks ? "keep the part of each rank beside the output until all is done, and "
                             "take the parts that are there: a run that died goes on. Loops of "
                             "volumes are computed anew"
                           : "with --part: nothing is done if the output is that part already, "
-                            "whole, and not older than the input");
-  app.add_flag("--keep-cells", a.keeps_cells,
-               "with --part of an image: keep the cells of bars, which JSON shows");
+                            "whole, and not older than the input",
+               a.resumes);
+  options.flag({"--keep-cells", kOffRanks},
+               "with --part of an image: keep the cells of bars, which JSON shows", a.keeps_cells);
 }
 
 void check_part_arguments(const Arguments& a) {

@@ -2,7 +2,6 @@
 #include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +12,14 @@
 
 namespace ph::barcode {
 
-using app::add_choice;
-using app::add_path;
-using app::add_value;
 using app::parse_integer;
 using app::parse_number;
 
-void add_rips_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("rips");
+void add_rips_options(app::Options& options, Arguments& a) {
+  options.topic("rips");
   const auto number = [&](const std::string& option, const std::string& placeholder,
                           const std::string& description, bool may_be_zero, auto take) {
-    add_value(app, option, placeholder, description, [=](const std::string& text) {
+    options.value({option, kOfAllPairs}, placeholder, description, [=](const std::string& text) {
       const double value = parse_number(option, text);
       if (!std::isfinite(value) || value < 0 || (value == 0 && !may_be_zero))
         throw Error(ErrorKind::usage,
@@ -32,20 +28,22 @@ void add_rips_options(CLI::App& app, Arguments& a) {
       take(value);
     });
   };
-  add_choice(app, "--collapse",
-             "collapse edges first, which leaves fewer of them and the same bars (default auto: "
-             "where it pays)",
-             a.options.collapse);
-  add_choice(app, "--device",
-             "what finds the components of points with Euclidean distances, --max-dim 0 (default "
-             "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
-             a.rips.device);
+  options.choice(
+      {"--collapse", kOfRips},
+      "collapse edges first, which leaves fewer of them and the same bars (default auto: "
+      "where it pays)",
+      a.options.collapse);
+  options.choice(
+      {"--device", kOfPoints},
+      "what finds the components of points with Euclidean distances, --max-dim 0 (default "
+      "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
+      a.rips.device);
   const auto limits = [&a]() -> GreedyLimits& {
     if (!a.rips.subsample) a.rips.subsample.emplace();
     return *a.rips.subsample;
   };
-  add_value(
-      app, "--subsample", "N",
+  options.value(
+      {"--subsample", kOfAllPairs}, "N",
       "keep N points, each the farthest from those before (default: all); with their "
       "covering radius E, bars longer than 2 E are real and come at most 2 E late",
       [=](const std::string& text) { limits().points = parse_integer("--subsample", text, 1); });
@@ -56,19 +54,21 @@ void add_rips_options(CLI::App& app, Arguments& a) {
          "sparse Rips: fewer edges, and bars that are born and die later by a factor of 1 + EPS at "
          "most",
          false, [&a](double epsilon) { a.rips.approximation = epsilon; });
-  add_path(app, "--vertex-weights", "FILE",
-           "when each point enters, one number a point, in units of the distance (default: all at "
-           "0)",
-           a.vertex_weights);
-  add_value(
-      app, "--dtm", "K",
+  options.path(
+      {"--vertex-weights", kOfRips}, "FILE",
+      "when each point enters, one number a point, in units of the distance (default: all at "
+      "0)",
+      a.vertex_weights);
+  options.value(
+      {"--dtm", kOfAllPairs}, "K",
       "DTM filtration: points enter at twice their distance to the measure of their K "
       "nearest points, themselves included",
       [&a](const std::string& text) { a.rips.dtm_neighbours = parse_integer("--dtm", text, 1); });
-  add_choice(app, "--weight-exponent",
-             "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
-             "with --dtm 1)",
-             a.rips.weight_exponent);
+  options.choice(
+      {"--weight-exponent", kOfRips},
+      "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
+      "with --dtm 1)",
+      a.rips.weight_exponent);
 }
 
 void check_rips_arguments(Arguments& a) {

@@ -2,21 +2,16 @@
 #include "barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
-#include "barcode/arguments/option_scopes.hpp"
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
 
 namespace ph::barcode {
-
-using app::add_choice;
-using app::add_value;
 
 namespace {
 
@@ -47,18 +42,20 @@ void take_delay(Arguments& a, const std::string& text) {
 
 }  // namespace
 
-void add_table_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("input");
-  add_value(app, "--columns", "LIST",
-            "columns of a table that are read, by the names in its header or by numbers from 1: "
-            "x,y or 2-4 or 1,3 (default: all but an index)",
-            [&a](const std::string& text) { take_columns(a, text); });
-  add_value(app, "--delay", "D,TAU",
-            "the input is a time series, a row for each time: points are its values at D times, "
-            "TAU rows apart (default TAU 1)",
-            [&a](const std::string& text) { take_delay(a, text); });
-  add_choice<Channel>(
-      app, "--channel",
+void add_table_options(app::Options& options, Arguments& a) {
+  options.topic("input");
+  options.value(
+      {"--columns", kOfInputs.with(kSomeBlocks)}, "LIST",
+      "columns of a table that are read, by the names in its header or by numbers from 1: "
+      "x,y or 2-4 or 1,3 (default: all but an index)",
+      [&a](const std::string& text) { take_columns(a, text); });
+  options.value(
+      {"--delay", {kPoints | kAlpha | kOwn, "Rips and alpha complexes of time series"}}, "D,TAU",
+      "the input is a time series, a row for each time: points are its values at D times, "
+      "TAU rows apart (default TAU 1)",
+      [&a](const std::string& text) { take_delay(a, text); });
+  options.choice<Channel>(
+      {"--channel", kOfInputs.with(kSomeLayers)},
       "what of a colour picture is read (default: its grey, if it has no colours); grey of "
       "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
       [&a](Channel channel) { a.read.channel = channel; }, std::span(names_of<Channel>).subspan(1));
@@ -76,8 +73,9 @@ void check_table_arguments(Arguments& a) {
   if (meaning != ArrayMeaning::automatic) return;
   // An option that does something for one kind of input only says what the input is.
   const auto is_only_for = [&](app::Situations kinds) {
-    return std::ranges::any_of(
-        a.given, [&](const app::OptionScope* scope) { return (scope->where & ~kinds) == 0; });
+    return std::ranges::any_of(a.given, [&](const app::GivenOption& option) {
+      return (option.scope.where & ~kinds) == 0;
+    });
   };
   const bool is_cubical = a.complex == ComplexKind::cubical;
   if (a.format == Format::points || a.complex == ComplexKind::own || is_triangulated(a.complex) ||

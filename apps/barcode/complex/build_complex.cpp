@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/complex/build_alpha.hpp"
 #include "barcode/complex/cubical_options.hpp"
 #include "common/arguments/numbers.hpp"

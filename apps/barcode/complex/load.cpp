@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/messages.hpp"
 #include "core/system/files.hpp"
@@ -39,8 +39,7 @@ std::size_t size_of(const ReadResult& read) {
 }
 
 bool is_given(const Arguments& arguments, std::string_view option) {
-  return std::ranges::any_of(arguments.given,
-                             [&](const auto* scope) { return scope->option == option; });
+  return std::ranges::count(arguments.given, option, &app::GivenOption::name) > 0;
 }
 
 /// Why the data cannot contain NaN; empty: they may contain some.

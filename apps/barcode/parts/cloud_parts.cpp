@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/memory/forecast_text.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/complex/cubical_options.hpp"
 #include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/part_files.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/batch_inputs.hpp"
 #include "barcode/parts/batch_parts.hpp"
 #include "barcode/parts/cloud_parts.hpp"

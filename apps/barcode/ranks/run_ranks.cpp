@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/scopes.hpp"
 #include "barcode/batch.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"

@@ -11,6 +11,7 @@
 
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/arguments/options.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/manual/help_text.hpp"
 #include "common/terminal/build_information.hpp"
@@ -81,63 +82,37 @@ bool is_common(const CLI::Option& option) {
 
 }  // namespace
 
-void add_common_options(CLI::App& app, CommonOptions& options) {
-  app.set_help_flag();  // our own check follows below: it must not depend on the order of the
-                        // options
-  app.option_defaults()->group(std::string(kLimitsTopic.name));
-  add_value(app, "--threads", "N", "threads to use (default: one for each core)",
-            [&options](const std::string& text) {
-              options.threads = static_cast<int>(parse_integer("--threads", text, 1, 4096));
-            });
-  add_value(app, "--memory-limit", "SIZE",
-            "bytes the computation may take, such as 4GiB, 500MB or 1e9 (default: 90 % of the "
-            "memory of the machine)",
-            [&options](const std::string& text) {
-              options.memory_limit = parse_size("--memory-limit", text);
-            });
-  app.option_defaults()->group(std::string(kMessagesTopic.name));
-  add_choice(app, "--progress",
-             "progress on stderr (default auto: a bar on a terminal, else silent)",
-             options.progress);
-  app.add_flag("--quiet", options.quiet, "no messages but errors");
-  app.add_flag("--verbose", options.verbose, "say what was chosen and why");
-  app.add_flag("--force", options.force, "write over an input, which is refused else");
-  app.add_flag("--version", options.version,
-               "print the version and exit; with --verbose also what was built in");
-  add_value(app, "-h,--help", "[TOPIC]",
-            "print the options of a topic, or those used most, and exit; all: all of them; man, "
-            "markdown, bash, zsh, fish: a manual page, a reference page, completions for a shell",
-            [&options](const std::string& topic) { options.help = topic; })
+void add_common_options(Options& options, CommonOptions& common) {
+  options.cli()
+      .set_help_flag();  // ours comes below: it must not depend on the order of the options
+  options.topic(kLimitsTopic.name);
+  options.value("--threads", "N", "threads to use (default: one for each core)",
+                [&common](const std::string& text) {
+                  common.threads = static_cast<int>(parse_integer("--threads", text, 1, 4096));
+                });
+  options.value("--memory-limit", "SIZE",
+                "bytes the computation may take, such as 4GiB, 500MB or 1e9 (default: 90 % of the "
+                "memory of the machine)",
+                [&common](const std::string& text) {
+                  common.memory_limit = parse_size("--memory-limit", text);
+                });
+  options.topic(kMessagesTopic.name);
+  options.choice("--progress",
+                 "progress on stderr (default auto: a bar on a terminal, else silent)",
+                 common.progress);
+  options.flag("--quiet", "no messages but errors", common.quiet);
+  options.flag("--verbose", "say what was chosen and why", common.verbose);
+  options.flag("--force", "write over an input, which is refused else", common.force);
+  options.flag("--version", "print the version and exit; with --verbose also what was built in",
+               common.version);
+  options
+      .value("-h,--help", "[TOPIC]",
+             "print the options of a topic, or those used most, and exit; all: all of them; man, "
+             "markdown, bash, zsh, fish: a manual page, a reference page, completions for a shell",
+             [&common](const std::string& topic) { common.help = topic; })
       ->expected(0, 1)
       ->default_str(std::string(kUsual))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-}
-
-CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
-                       const std::string& description,
-                       const std::function<void(const std::string& value)>& take) {
-  CLI::Option* option = app.add_option_function<std::string>(names, take, description);
-  return option->type_name(placeholder)->type_size(1);
-}
-
-CLI::Option* add_choice(CLI::App& app, const std::string& names,
-                        const std::vector<std::string_view>& choices,
-                        const std::string& description,
-                        const std::function<void(std::size_t)>& take) {
-  std::string placeholder;
-  for (const std::string_view choice : choices)
-    placeholder += (placeholder.empty() ? "" : "|") + std::string(choice);
-  return add_value(app, names, placeholder, description,
-                   [=](const std::string& word) { take(choose(names, word, choices)); });
-}
-
-CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
-                      const std::string& description, std::string& path) {
-  return add_value(app, names, placeholder, description, [&path, names](const std::string& text) {
-    if (text.empty())
-      throw Error(ErrorKind::usage, fmt::format("{}: found '', expected a path", names));
-    path = text;
-  });
 }
 
 std::vector<std::string> typed_command(std::string_view program, int argc,
@@ -147,10 +122,10 @@ std::vector<std::string> typed_command(std::string_view program, int argc,
   return words;
 }
 
-std::vector<std::string> given_options(const CLI::App& app,
+std::vector<std::string> given_options(const Options& options,
                                        std::span<const std::string_view> without) {
   std::vector<std::string> words;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : options.cli().get_options()) {
     if (option->count() == 0 || option->get_lnames().empty() || is_common(*option)) continue;
     const std::string& name = option->get_lnames().front();
     if (std::ranges::find(without, name) != without.end()) continue;
@@ -165,8 +140,10 @@ std::string program_and_version(const std::string& program) {
   return fmt::format("{} {}", program, PH_VERSION);
 }
 
-std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                              const char* const* argv, const Manual& manual) {
+std::optional<std::string> parse_command_line(Options& options, const CommonOptions& common,
+                                              int argc, const char* const* argv,
+                                              const Manual& manual) {
+  CLI::App& app = options.cli();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
@@ -180,12 +157,11 @@ std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions
   } catch (const CLI::Error& error) {
     throw Error(ErrorKind::usage, one_line(error.what()));
   }
-  if (options.help)
-    return help_text(described(app, manual, argc > 0 ? argv[0] : ""), *options.help);
-  if (options.quiet && options.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
-  if (options.version) {
+  if (common.help) return help_text(described(app, manual, argc > 0 ? argv[0] : ""), *common.help);
+  if (common.quiet && common.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
+  if (common.version) {
     return program_and_version(app.get_name()) + "\n" +
-           (options.verbose ? build_information() + manual.built_in() : "");
+           (common.verbose ? build_information() + manual.built_in() : "");
   }
   // For all options: nothing that takes a path accepts one of these.
   for (const CLI::Option* option : app.get_options())

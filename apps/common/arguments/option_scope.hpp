@@ -2,10 +2,8 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
-
-#include "common/arguments/cli_names.hpp"
 
 namespace ph::app {
 
@@ -13,21 +11,24 @@ namespace ph::app {
 /// each program names its own.
 using Situations = std::uint32_t;
 
-/// The situations in which an option has an effect. In any other situation the option is refused as
-/// a misunderstanding: ignoring it would answer a question that nobody asked.
-struct OptionScope {
-  std::string_view option;     ///< "metric": a long name, without dashes
-  Situations where;            ///< it has an effect in any of these
-  std::string_view meant_for;  ///< the word for them: "points"
+/// Where an option does something. Given anywhere else it is a misunderstanding, and refused: an
+/// option that is ignored gives an answer to a question that nobody asked.
+struct Scope {
+  Situations where = ~Situations{0};  ///< it does something in any of them
+  std::string_view meant_for = {};    ///< what they are: "points"
+
+  /// The same words for more situations.
+  constexpr Scope with(Situations more) const { return {where | more, meant_for}; }
 };
 
-/// The options of a program that were given, in the order of --help.
-std::vector<const OptionScope*> given_scopes(const CLI::App& app,
-                                             std::span<const OptionScope> scopes);
+/// An option that was given and that does nothing in some situations.
+struct GivenOption {
+  std::string name;  ///< "metric": the first long name, without dashes
+  Scope scope;
+};
 
 /// @param here the actual situation, one bit. @param found the word for it.
 /// @throws Error (usage): "--metric: makes sense for points only, found an image".
-void require_in_scope(std::span<const OptionScope* const> given, Situations here,
-                      std::string_view found);
+void require_in_scope(std::span<const GivenOption> given, Situations here, std::string_view found);
 
 }  // namespace ph::app

@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/arguments/choices.hpp"
-#include "common/arguments/command_line.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/arguments/options.hpp"
 #include "common/files/batch_names.hpp"
 #include "core/lower_case.hpp"
 #include "ph/error.hpp"
@@ -96,21 +95,13 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
   return plots;
 }
 
-void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
+void add_plot_options(Options& options, std::span<const std::string_view> kinds,
                       const std::string& description, PlotArguments& to) {
-  app.option_defaults()->group("pictures");
-  const auto add = [&](const std::string& name, const std::string& placeholder,
-                       const std::string& what, auto take) {
-    app.add_option_function<std::vector<std::string>>(name, take, what)
-        ->type_name(placeholder)
-        ->type_size(1)
-        ->expected(1)
-        ->allow_extra_args(false)  // what follows may be an input
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  };
-  add("--plot", "FILE.svg|.png", description,
-      [&to](const std::vector<std::string>& paths) { to.paths = paths; });
-  add("--plot-kind", fmt::format("{}", fmt::join(kinds, "|")),
+  options.topic("pictures");
+  options.repeated({"--plot", to.scope}, "FILE.svg|.png", description,
+                   [&to](const std::vector<std::string>& paths) { to.paths = paths; });
+  options.repeated(
+      {"--plot-kind", to.scope}, fmt::format("{}", fmt::join(kinds, "|")),
       fmt::format("kind of each --plot in turn; the last one counts for the rest (default: {})",
                   kinds.front()),
       [&to, kinds](const std::vector<std::string>& words) {
@@ -118,27 +109,27 @@ void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
           to.kinds.emplace_back(kinds[choose("--plot-kind", word, kinds)]);
       });
   const auto is_any = [](const Plot&) { return true; };
-  add_plot_look(app, {"--title", is_any, {}}, "TEXT", "title above each plot (default: none)", to,
-                [&to](const std::string& text) { to.look.title = text; });
+  add_plot_look(options, {"--title", is_any, {}}, "TEXT", "title above each plot (default: none)",
+                to, [&to](const std::string& text) { to.look.title = text; });
   add_plot_look(
-      app, {"--size", is_any, {}}, "WxH",
+      options, {"--size", is_any, {}}, "WxH",
       "size of each plot in pixels; the picture fits into it (default: 1040 across, in SVG 88 mm)",
       to, [&to](const std::string& text) { to.look.size = parse_size(text); });
   const auto has_axis = [](const Plot& plot) { return plot.shows_bars() || plot.kind == "tree"; };
   add_plot_look(
-      app, {"--axis", has_axis, "bars and merge trees"}, "LO,HI|log|LO,HI,log",
+      options, {"--axis", has_axis, "bars and merge trees"}, "LO,HI|log|LO,HI,log",
       "filtration values on the axis of plots; log: logarithmic (default: all that there are)", to,
       [&to](const std::string& text) { to.look.axis = parse_axis(text); });
 }
 
-void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
+void add_plot_look(Options& options, const PlotLook& look, const std::string& placeholder,
                    const std::string& what, PlotArguments& to,
                    std::function<void(const std::string&)> take) {
-  add_value(app, look.option, placeholder, what,
-            [&to, look, take = std::move(take)](const std::string& text) {
-              to.looks.push_back(look);
-              take(text);
-            });
+  options.value({look.option, to.scope}, placeholder, what,
+                [&to, look, take = std::move(take)](const std::string& text) {
+                  to.looks.push_back(look);
+                  take(text);
+                });
 }
 
 }  // namespace ph::app

@@ -6,10 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/cli_names.hpp"
+#include "common/arguments/option_scope.hpp"
 #include "ph/io/plot.hpp"
 
 namespace ph::app {
+
+class Options;
 
 /// A static picture to draw.
 struct Plot {
@@ -44,6 +46,7 @@ struct PlotLook {
 
 /// --plot, --plot-kind and the look of plots, as they were typed.
 struct PlotArguments {
+  Scope scope;  ///< where plots are drawn
   std::vector<std::string> paths, kinds;
   PlotOptions look;             ///< look of all plots: title, size, axis, dimensions
   std::vector<PlotLook> looks;  ///< the options that set the look
@@ -55,13 +58,13 @@ struct PlotArguments {
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers the options that all programs share, as the first ones of the topic `pictures`. @param
-/// kinds outlives `app`, as `to` does.
-void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
+/// Registers those that all programs have, as the first ones of the topic `pictures`. @param kinds
+/// outlives `options`, as `to` does.
+void add_plot_options(Options& options, std::span<const std::string_view> kinds,
                       const std::string& description, PlotArguments& to);
 
-/// Registers one more option for the look. @param take stores the text of the option in `to.look`.
-void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
+/// Registers one more look. @param take puts the text of the option into `to.look`.
+void add_plot_look(Options& options, const PlotLook& look, const std::string& placeholder,
                    const std::string& what, PlotArguments& to,
                    std::function<void(const std::string& text)> take);
 

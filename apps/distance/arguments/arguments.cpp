@@ -9,17 +9,15 @@
 #include <cmath>
 
 #include "common/arguments/numbers.hpp"
+#include "common/arguments/options.hpp"
 #include "distance/arguments/manual.hpp"
-#include "distance/arguments/option_scopes.hpp"
+#include "distance/arguments/scopes.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::distance_program {
 namespace {
 
-using app::add_choice;
-using app::add_path;
-using app::add_value;
 using app::DistanceKind;
 using app::parse_integer;
 using app::parse_number;
@@ -44,30 +42,32 @@ double parse_order(const std::string& text) {
   return parse_finite("--order", text, 1);
 }
 
-void add_input_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("input");
-  app.add_option("BARCODE", a.inputs,
-                 "barcodes, as ph-barcode writes them, or folders of them; - is standard input")
-      ->type_name("");
-  add_value(app, "--dims,--dim", "D,…",
-            "dimensions, each for itself (default: all that the barcodes have)",
-            [&a](const std::string& text) {
-              for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
-                a.dims.push_back(static_cast<int>(dim));
-            });
+void add_input_options(app::Options& options, Arguments& a) {
+  options.topic("input");
+  options.inputs("BARCODE",
+                 "barcodes, as ph-barcode writes them, or folders of them; - is standard input",
+                 a.inputs);
+  options.value("--dims,--dim", "D,…",
+                "dimensions, each for itself (default: all that the barcodes have)",
+                [&a](const std::string& text) {
+                  for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
+                    a.dims.push_back(static_cast<int>(dim));
+                });
 }
 
-void add_distance_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("distances");
-  add_choice(app, "--distance",
-             "bottleneck (default): the largest difference, which has no parameters and is what "
-             "noise of a known size cannot exceed; wasserstein: the sum of all; sliced: an "
-             "approximation by projections to lines",
-             a.distance.kind);
-  add_value(app, "--order", "P", "of the Wasserstein distance, at least 1 (default 1)",
-            [&a](const std::string& text) { a.distance.wasserstein_order = parse_order(text); });
-  add_value(
-      app, "--ground", "inf|2|Q",
+void add_distance_options(app::Options& options, Arguments& a) {
+  options.topic("distances");
+  options.choice(
+      "--distance",
+      "bottleneck (default): the largest difference, which has no parameters and is what "
+      "noise of a known size cannot exceed; wasserstein: the sum of all; sliced: an "
+      "approximation by projections to lines",
+      a.distance.kind);
+  options.value(
+      {"--order", kOfWasserstein}, "P", "of the Wasserstein distance, at least 1 (default 1)",
+      [&a](const std::string& text) { a.distance.wasserstein_order = parse_order(text); });
+  options.value(
+      {"--ground", kOfWasserstein}, "inf|2|Q",
       "the norm in which the bars of a pair are apart, at least 1, in the Wasserstein "
       "distance (default inf: the larger of the differences of births and deaths)",
       [&a](const std::string& text) {
@@ -76,61 +76,71 @@ void add_distance_options(CLI::App& app, Arguments& a) {
           reject(fmt::format("--ground: found '{}', expected inf or a number, at least 1", text));
         a.distance.wasserstein_ground = ground;
       });
-  add_value(app, "--directions", "N", "lines of the sliced distance (default 50)",
-            [&a](const std::string& text) {
-              a.distance.directions =
-                  static_cast<int>(parse_integer("--directions", text, 1, 1'000'000));
-            });
-  add_value(app, "--error", "E",
-            "how much too large a distance may be, as a part of it: 0.01 is 1 % (default 0: "
-            "exact); the lower bound is printed, too",
-            [&a](const std::string& text) {
-              a.distance.limits.relative_error = parse_finite("--error", text, 0);
-            });
-  add_value(app, "--at-most", "T",
-            "end early where a distance is above T: how much it is above does not matter",
-            [&a](const std::string& text) {
-              a.distance.limits.at_most = parse_finite("--at-most", text, 0);
-            });
+  options.value({"--directions", {kSliced | kAnyNumber | kAnyAim, "--distance sliced"}}, "N",
+                "lines of the sliced distance (default 50)", [&a](const std::string& text) {
+                  a.distance.directions =
+                      static_cast<int>(parse_integer("--directions", text, 1, 1'000'000));
+                });
+  options.value({"--error",
+                 {kBottleneck | kWasserstein | kAnyNumber | kAnyAim,
+                  "--distance bottleneck and wasserstein"}},
+                "E",
+                "how much too large a distance may be, as a part of it: 0.01 is 1 % (default 0: "
+                "exact); the lower bound is printed, too",
+                [&a](const std::string& text) {
+                  a.distance.limits.relative_error = parse_finite("--error", text, 0);
+                });
+  options.value({"--at-most",
+                 {kBottleneck | kWasserstein | kAnyNumber | kNoGroups,
+                  "bottleneck and Wasserstein distances without --groups and --matching"}},
+                "T", "end early where a distance is above T: how much it is above does not matter",
+                [&a](const std::string& text) {
+                  a.distance.limits.at_most = parse_finite("--at-most", text, 0);
+                });
 }
 
-void add_output_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("output");
-  add_value(app, "-o,--output", "FILE",
-            "where the distances go, or what --groups finds (default -: standard output; with "
-            "--matrix alone nowhere)",
-            [&a](const std::string& text) {
-              if (text.empty()) reject("--output: found '', expected a path");
-              a.output = text;
-            });
-  add_choice(app, "--output-format", "format of the distances (default: by extension, or text)",
-             a.output_format);
-  auto* matching =
-      add_path(app, "--matching", "FILE.csv|.json",
-               "write which bars of two barcodes are paired, and what each pair costs", a.matching);
-  add_path(app, "--matrix", "FILE.npy|.csv",
-           "write the distances of all pairs as a square matrix, of one dimension", a.matrix);
-  app.option_defaults()->group("groups");
-  add_path(app, "--groups", "FILE",
-           "test whether groups differ: a word on each line of the file is the group of a "
-           "barcode, in the order of the barcodes",
-           a.groups)
+void add_output_options(app::Options& options, Arguments& a) {
+  options.topic("output");
+  options.value("-o,--output", "FILE",
+                "where the distances go, or what --groups finds (default -: standard output; with "
+                "--matrix alone nowhere)",
+                [&a](const std::string& text) {
+                  if (text.empty()) reject("--output: found '', expected a path");
+                  a.output = text;
+                });
+  options.choice("--output-format", "format of the distances (default: by extension, or text)",
+                 a.output_format);
+  auto* matching = options.path(
+      {"--matching",
+       {kBottleneck | kWasserstein | kTwo | kNoGroups | kMatching,
+        "two barcodes with --distance bottleneck or wasserstein"}},
+      "FILE.csv|.json", "write which bars of two barcodes are paired, and what each pair costs",
+      a.matching);
+  options.path("--matrix", "FILE.npy|.csv",
+               "write the distances of all pairs as a square matrix, of one dimension", a.matrix);
+  options.topic("groups");
+  options
+      .path("--groups", "FILE",
+            "test whether groups differ: a word on each line of the file is the group of a "
+            "barcode, in the order of the barcodes",
+            a.groups)
       ->excludes(matching);
-  add_value(app, "--shuffles", "N", "shuffles of the labels (default 1000)",
-            [&a](const std::string& text) {
-              a.test.shuffles =
-                  static_cast<std::size_t>(parse_integer("--shuffles", text, 1, kMost));
-            });
-  add_value(app, "--power", "Q",
-            "power of the distances whose sum is compared, above 0 (default 1)",
-            [&a](const std::string& text) {
-              a.test.power = parse_number("--power", text);
-              if (!(a.test.power > 0) || std::isinf(a.test.power))
-                reject(fmt::format("--power: found '{}', expected a finite number > 0", text));
-            });
-  add_value(app, "--seed", "N", "of the shuffles (default 0)", [&a](const std::string& text) {
-    a.test.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
-  });
+  options.value({"--shuffles", kOfGroups}, "N", "shuffles of the labels (default 1000)",
+                [&a](const std::string& text) {
+                  a.test.shuffles =
+                      static_cast<std::size_t>(parse_integer("--shuffles", text, 1, kMost));
+                });
+  options.value({"--power", kOfGroups}, "Q",
+                "power of the distances whose sum is compared, above 0 (default 1)",
+                [&a](const std::string& text) {
+                  a.test.power = parse_number("--power", text);
+                  if (!(a.test.power > 0) || std::isinf(a.test.power))
+                    reject(fmt::format("--power: found '{}', expected a finite number > 0", text));
+                });
+  options.value({"--seed", kOfGroups}, "N", "of the shuffles (default 0)",
+                [&a](const std::string& text) {
+                  a.test.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
+                });
 }
 
 /// @throws Error (usage) on a name with another format. @param expected "FILE.npy or FILE.csv".
@@ -205,14 +215,15 @@ OutputFormat Arguments::table_format() const {
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
                                            Arguments& arguments) {
-  CLI::App app("", std::string(manual().program));
-  add_input_options(app, arguments);
-  add_distance_options(app, arguments);
-  add_output_options(app, arguments);
-  app::add_common_options(app, arguments.common);
-  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, manual()))
+  CLI::App cli("", std::string(manual().program));
+  app::Options options(cli);
+  add_input_options(options, arguments);
+  add_distance_options(options, arguments);
+  add_output_options(options, arguments);
+  app::add_common_options(options, arguments.common);
+  if (auto answer = app::parse_command_line(options, arguments.common, argc, argv, manual()))
     return answer;
-  arguments.given = app::given_scopes(app, option_scopes());
+  arguments.given = options.given();
   check_together(arguments);
   return std::nullopt;
 }

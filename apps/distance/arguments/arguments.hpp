@@ -27,8 +27,8 @@ struct Arguments {
 
   std::string groups;  // path; empty: none
   PermutationOptions test;
-  // The given options that have no effect in some situations.
-  std::vector<const app::OptionScope*> given;
+  // The options that were given of those that do nothing somewhere.
+  std::vector<app::GivenOption> given;
 
   std::string output_path() const { return output.value_or("-"); }
   /// True if distances or tests are written. A matrix replaces them, unless they are requested.

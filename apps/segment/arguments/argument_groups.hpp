@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/cli_names.hpp"
-#include "common/arguments/command_line.hpp"
+#include "common/arguments/options.hpp"
 #include "common/arguments/plot_arguments.hpp"
 #include "segment/arguments/arguments.hpp"
+#include "segment/arguments/scopes.hpp"
 
-// The options of ph-segment by topic. The objects that receive them must outlive `app`.
+// The options of ph-segment by topic. What they are put into must outlive `options`.
 namespace ph::segment {
 
 /// A number that must be above zero (or, with `zero`, at least zero) and finite.
@@ -23,17 +23,17 @@ struct Known {
               *plot_view = nullptr;
 };
 
-/// The options for the stages before the plane is removed.
-void add_scene_options(CLI::App& app, SegmentOptions& options);
-Known add_method_options(CLI::App& app, SegmentOptions& options);
-/// The options that also apply to a stored tree. Contradictions are refused.
-void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known);
-void add_output_options(CLI::App& app, Arguments& arguments, app::PlotArguments& plots,
+/// What comes before the plane is gone.
+void add_scene_options(app::Options& options, SegmentOptions& to);
+Known add_method_options(app::Options& options, SegmentOptions& to);
+/// What a stored tree follows, too. Contradictions are refused.
+void add_cut_options(app::Options& options, CutArguments& cut, const Known& known);
+void add_output_options(app::Options& options, Arguments& arguments, app::PlotArguments& plots,
                         Known& known);
 
 /// Stores the options for plots in the arguments. @throws Error (usage).
 void take_plots(Arguments& arguments, const app::PlotArguments& plots, const Known& known);
-/// The given options that affect the scene, for a command that makes another cut.
-std::vector<std::string> scene_options(const CLI::App& app);
+/// Those of the options that were given which make the scene, for a command that cuts it elsewhere.
+std::vector<std::string> scene_options(const app::Options& options);
 
 }  // namespace ph::segment

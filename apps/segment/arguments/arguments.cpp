@@ -15,12 +15,10 @@
 #include "report/page_template.hpp"
 #include "segment/arguments/argument_groups.hpp"
 #include "segment/arguments/manual.hpp"
-#include "segment/arguments/option_scopes.hpp"
+#include "segment/arguments/scopes.hpp"
 
 namespace ph::segment {
 namespace {
-
-using app::add_value;
 
 std::vector<std::string_view> names_of_presets() {
   std::vector<std::string_view> names;
@@ -39,44 +37,46 @@ double depth_scale(const std::string& text) {
   return scale;
 }
 
-void add_input_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("input");
-  app.add_option(
-      "INPUT", a.inputs,
+void add_input_options(app::Options& options, Arguments& a) {
+  options.topic("input");
+  options.inputs(
+      "INPUT",
       "point cloud: .pcd, .ply, .npy, or text: .xyz, .csv, .pts; a stored merge tree (see --tree); "
       "with --camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. "
       "Several, or a folder, are a stream of frames: its outputs are folders (FOLDER/) or have a * "
-      "for the frame's name, and --json gets one line a frame");
-  app::add_path(app, "--depth", "FILE.png|.pgm|.npy",
-                "depth image in place of INPUT; 0 and NaN are holes", a.image.depth);
-  app::add_path(app, "--color,--colour", "FILE.png", "colour image of the same size",
-                a.image.colour);
-  CLI::Option* intrinsics = add_value(
-      app, "--intrinsics", "FX,FY,CX,CY",
+      "for the frame's name, and --json gets one line a frame",
+      a.inputs);
+  options.path("--depth", "FILE.png|.pgm|.npy",
+               "depth image in place of INPUT; 0 and NaN are holes", a.image.depth);
+  options.path({"--color,--colour", kOfDepth}, "FILE.png", "colour image of the same size",
+               a.image.colour);
+  CLI::Option* intrinsics = options.value(
+      {"--intrinsics", kOfDepth}, "FX,FY,CX,CY",
       "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
         const auto k = app::parse_numbers("--intrinsics", v, 4);
         a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
       });
-  CLI::Option* camera = app::add_path(
-      app, "--camera", fmt::format("FILE|{}", fmt::join(names_of_presets(), "|")),
+  CLI::Option* camera = options.path(
+      {"--camera", kOfDepth}, fmt::format("FILE|{}", fmt::join(names_of_presets(), "|")),
       "the camera of the depth image: a camera_info YAML of ROS, with its lens, an intrinsic JSON "
       "of Open3D, or the nominal values of a model",
       a.image.calibration);
   camera->excludes(intrinsics);
-  add_value(app, "--depth-scale", "S",
-            "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
-            [&a](const std::string& v) { a.image.scale = depth_scale(v); });
-  app.add_flag("--allow-empty", a.allow_empty,
-               "a cloud without points is an empty result (default: an error)");
-  app.option_defaults()->group("streams");
-  app::add_path(app, "--frames-from", "FILE",
-                "a stream of the files that FILE names, one a line; -: standard input, each as "
-                "soon as it is named",
-                a.frames_from);
-  app.add_flag("--stable-labels", a.stable_labels,
+  options.value({"--depth-scale", kOfDepth}, "S",
+                "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
+                [&a](const std::string& v) { a.image.scale = depth_scale(v); });
+  options.flag({"--allow-empty", {kCloud | kAnyMethod | kAnyPlane, "clouds"}},
+               "a cloud without points is an empty result (default: an error)", a.allow_empty);
+  options.topic("streams");
+  options.path("--frames-from", "FILE",
+               "a stream of the files that FILE names, one a line; -: standard input, each as "
+               "soon as it is named",
+               a.frames_from);
+  options.flag("--stable-labels",
                "an object keeps its label from frame to frame, by overlap in the image; clouds "
                "without rows and columns are compared in cubes of 1 cm. Labels are then not in the "
-               "order of size");
+               "order of size",
+               a.stable_labels);
 }
 
 /// True if an input is a depth image by its name, where a camera is given.
@@ -138,15 +138,16 @@ void require_consistent(const Arguments& a) {
 }  // namespace
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& a) {
-  CLI::App app("", std::string(manual().program));
-  add_input_options(app, a);
-  add_scene_options(app, a.options);
-  Known known = add_method_options(app, a.options);
-  add_cut_options(app, a.cut, known);
+  CLI::App cli("", std::string(manual().program));
+  app::Options options(cli);
+  add_input_options(options, a);
+  add_scene_options(options, a.options);
+  Known known = add_method_options(options, a.options);
+  add_cut_options(options, a.cut, known);
   app::PlotArguments plots;
-  add_output_options(app, a, plots, known);
-  app::add_common_options(app, a.common);
-  if (auto answer = app::parse_command_line(app, a.common, argc, argv, manual())) return answer;
+  add_output_options(options, a, plots, known);
+  app::add_common_options(options, a.common);
+  if (auto answer = app::parse_command_line(options, a.common, argc, argv, manual())) return answer;
   if (known.supervoxels->count() > 0) {
     if (known.method->count() > 0 && a.options.method != Method::supervoxels) {
       throw Error(ErrorKind::usage,
@@ -155,13 +156,13 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     }
     a.options.method = Method::supervoxels;
   }
-  a.given = app::given_scopes(app, option_scopes());
+  a.given = options.given();
   require_plane(a.given, a.options.plane);
   take_plots(a, plots, known);
   if (!a.files.report.empty()) {
     report::require_built_in();
     a.command = app::typed_command("ph-segment", argc, argv);
-    a.scene_options = scene_options(app);
+    a.scene_options = scene_options(options);
   }
   a.options.min_part = a.cut.min_part;
   a.options.min_size = a.cut.min_size;

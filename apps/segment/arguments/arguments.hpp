@@ -54,8 +54,8 @@ struct Arguments {
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
   CutArguments cut;
-  /// The given options that have no effect for some inputs or methods.
-  std::vector<const app::OptionScope*> given;
+  /// The options that were given of those that do nothing for some inputs or methods.
+  std::vector<app::GivenOption> given;
   OutputPaths files;
   ViewTurn plot_view;       ///< view of a plot that shows the cloud
   bool signatures = false;  ///< write the homology of each segment into the JSON
@@ -79,9 +79,8 @@ app::InputFiles inputs_of(const Arguments& arguments);
 /// @throws Error (usage); Error (not_built_in) on planned features.
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
-/// Given options that have no effect beside others, one per line, because the requested results do
-/// not use them. Options without effect for an input or a method are refused, see
-/// option_scopes.hpp.
+/// The options that do nothing beside the others, a line each: what is asked for has no use for
+/// them. Those that do nothing for an input or a method are refused, see scopes.hpp.
 std::vector<std::string> idle_options(const Arguments& arguments);
 
 }  // namespace ph::segment

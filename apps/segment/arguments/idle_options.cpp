@@ -19,7 +19,7 @@ std::vector<std::string> idle_options(const Arguments& a) {
   if (a.stable_labels && !a.files.show(&OutputOption::shows_labels))
     texts.emplace_back("--stable-labels does nothing: no output shows labels");
   const bool has_noise = std::ranges::any_of(
-      a.given, [](const app::OptionScope* scope) { return scope->option == "plane-noise"; });
+      a.given, [](const app::GivenOption& option) { return option.name == "plane-noise"; });
   const SegmentOptions& o = a.options;
   if (has_noise && o.noise_floor() < o.plane_noise) {
     texts.push_back(

@@ -40,32 +40,34 @@ ViewTurn parse_turn(std::string_view option, const std::string& text) {
 
 }  // namespace
 
-void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, Known& known) {
+void add_output_options(app::Options& options, Arguments& a, app::PlotArguments& plots,
+                        Known& known) {
   for (const OutputOption& of : output_options()) {
     const bool is_picture = of.kind == OutputKind::picture || of.kind == OutputKind::plot;
-    app.option_defaults()->group(is_picture ? "pictures" : "output");
+    options.topic(is_picture ? "pictures" : "output");
     const std::string help(of.help);
     if (of.path)
-      app::add_path(app, std::string(of.names),
-                    fmt::format("FILE{}", fmt::join(of.extensions, "|")), help, a.files.*of.path);
+      options.path({std::string(of.names), of.scope},
+                   fmt::format("FILE{}", fmt::join(of.extensions, "|")), help, a.files.*of.path);
     else
-      app::add_plot_options(app, kPlotKinds, help, plots);
+      app::add_plot_options(options, kPlotKinds, help, plots);
   }
-  app.option_defaults()->group("output");
-  app.add_flag("--signatures", a.signatures,
+  options.topic("output");
+  options.flag("--signatures",
                "JSON: H0, H1 and H2 of the shape of each segment (a handle is a loop, a hollow a "
-               "bar in dimension 2), in metres");
-  app.option_defaults()->group("pictures");
-  known.plot_view = app::add_value(
-      app, "--plot-view", "RIGHT,UP",
+               "bar in dimension 2), in metres",
+               a.signatures);
+  options.topic("pictures");
+  known.plot_view = options.value(
+      "--plot-view", "RIGHT,UP",
       "where a plot of the cloud is seen from: by how much the eye goes around the segments "
       "from the viewpoint, degrees (default: 0,0)",
       [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
-  app.option_defaults()->group("cuts");
-  app::add_value(app, "--explain", "A,B",
-                 "print where, and at which value of the filtration, the segments A and B join, in "
-                 "place of the table",
-                 [&a](const std::string& v) { a.explain = parse_labels("--explain", v); });
+  options.topic("cuts");
+  options.value("--explain", "A,B",
+                "print where, and at which value of the filtration, the segments A and B join, in "
+                "place of the table",
+                [&a](const std::string& v) { a.explain = parse_labels("--explain", v); });
 }
 
 void take_plots(Arguments& a, const app::PlotArguments& plots, const Known& known) {
@@ -76,13 +78,13 @@ void take_plots(Arguments& a, const app::PlotArguments& plots, const Known& know
     throw Error(ErrorKind::usage, "--plot-view needs --plot FILE --plot-kind cloud");
 }
 
-std::vector<std::string> scene_options(const CLI::App& app) {
+std::vector<std::string> scene_options(const app::Options& options) {
   std::vector<std::string_view> other{
       "signatures",  "explain",      "plot-kind", "plot-view", "title",           "size",
       "axis",        "cut",          "objects",   "parts",     "min-persistence", "min-seam",
       "frames-from", "stable-labels"};
   for (const OutputOption& of : output_options()) other.push_back(of.option.substr(2));
-  return app::given_options(app, other);
+  return app::given_options(options, other);
 }
 
 }  // namespace ph::segment

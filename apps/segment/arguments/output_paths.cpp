@@ -5,6 +5,7 @@
 #include <array>
 
 #include "common/files/batch_names.hpp"
+#include "segment/arguments/scopes.hpp"
 
 namespace ph::segment {
 namespace {
@@ -23,6 +24,7 @@ constexpr std::array kOutputs{
                  .names = "-o,--output",
                  .help = "the same points in the same order with all their fields and `label` (an "
                          "existing `label` becomes `label_in`)",
+                 .scope = kOfScenes,
                  .extensions = kClouds,
                  .shows_labels = true,
                  .shows_colours = true},
@@ -74,6 +76,7 @@ constexpr std::array kOutputs{
                  .names = "--coloured,--colored",
                  .help = "the points with a colour a segment, safe for the colour-blind, and the "
                          "rest in grey",
+                 .scope = kOfScenes,
                  .extensions = kClouds,
                  .shows_labels = true,
                  .shows_colours = true},
@@ -82,6 +85,7 @@ constexpr std::array kOutputs{
                  .path = &OutputPaths::picture,
                  .names = "--picture",
                  .help = "the image with its segments coloured (organised clouds)",
+                 .scope = kOfScenes,
                  .extensions = kPictures,
                  .shows_labels = true,
                  .shows_colours = true},

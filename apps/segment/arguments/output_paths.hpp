@@ -31,10 +31,10 @@ struct OutputPaths;
 struct OutputOption {
   OutputKind kind;
   std::string_view option;         ///< "--output"
-  std::string OutputPaths::*path;  ///< null: --plot, which may request several
-  std::string_view names, help;    ///< as on the command line
-  /// The endings that its name may have; a file in a folder of results has the first one. Empty:
-  /// any ending.
+  std::string OutputPaths::*path;  ///< null: --plot, which may ask for several
+  std::string_view names, help;    ///< of the command line
+  app::Scope scope = {};           ///< where it does something
+  /// What its name may end in; a file in a folder of results ends in the first. Empty: in anything.
   std::span<const std::string_view> extensions;
   bool shows_labels = false, shows_colours = false;  ///< labels of segments, colours of points
 };

@@ -14,8 +14,6 @@
 namespace ph::segment {
 namespace {
 
-using app::add_value;
-
 Box parse_box(std::string_view option, const std::string& text) {
   const std::vector<double> v = app::parse_numbers(option, text, 6);
   const Box box{{v[0], v[2], v[4]}, {v[1], v[3], v[5]}};
@@ -78,110 +76,120 @@ double length(std::string_view option, const std::string& text, bool zero) {
   return value;
 }
 
-void add_scene_options(CLI::App& app, SegmentOptions& o) {
-  app.option_defaults()->group("scenes");
+void add_scene_options(app::Options& options, SegmentOptions& o) {
+  options.topic("scenes");
   const SegmentOptions d;
-  add_value(app, "--max-range", "M",
-            fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
-                        d.max_range),
-            [&o](const std::string& v) { o.max_range = at_least_zero("--max-range", v); });
-  add_value(app, "--crop", "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
-            "keep points inside this box, metres; inf and -inf: no limit (default: all)",
-            [&o](const std::string& v) { o.crop = parse_box("--crop", v); });
-  add_value(app, "--plane", "on|off",
-            "remove the supporting plane and what lies behind it (default: on)",
-            [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
-  add_value(app, "--plane-distance", "M",
-            fmt::format("half the thickness of the plane, metres (default: {})",
-                        defaults_of(&SegmentOptions::plane_margin)),
-            [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
-  add_value(app, "--plane-noise", "M",
-            fmt::format("surface, supervoxels: least half thickness of the plane at a range of one "
-                        "metre, metres; it grows with the square of the range. A --plane-distance "
-                        "below it replaces it; 0: --plane-distance alone counts (default: {})",
-                        d.plane_noise),
-            [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
-  add_value(app, "--viewpoint", "X,Y,Z",
-            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
-            "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
-            [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
+  options.value({"--max-range", kOfScenes}, "M",
+                fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
+                            d.max_range),
+                [&o](const std::string& v) { o.max_range = at_least_zero("--max-range", v); });
+  options.value({"--crop", kOfScenes}, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+                "keep points inside this box, metres; inf and -inf: no limit (default: all)",
+                [&o](const std::string& v) { o.crop = parse_box("--crop", v); });
+  options.value({"--plane", kOfScenes}, "on|off",
+                "remove the supporting plane and what lies behind it (default: on)",
+                [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
+  options.value({"--plane-distance", {kScene | kAnyMethod | kPlane, "scenes with --plane on"}}, "M",
+                fmt::format("half the thickness of the plane, metres (default: {})",
+                            defaults_of(&SegmentOptions::plane_margin)),
+                [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
+  options.value(
+      {"--plane-noise",
+       {kScene | kBySurface | kPlane,
+        "scenes with --plane on and --method surface or supervoxels"}},
+      "M",
+      fmt::format("surface, supervoxels: least half thickness of the plane at a range of one "
+                  "metre, metres; it grows with the square of the range. A --plane-distance "
+                  "below it replaces it; 0: --plane-distance alone counts (default: {})",
+                  d.plane_noise),
+      [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
+  options.value({"--viewpoint", kOfScenes}, "X,Y,Z",
+                "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
+                "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
+                [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
 }
 
-Known add_method_options(CLI::App& app, SegmentOptions& o) {
-  app.option_defaults()->group("methods");
+Known add_method_options(app::Options& options, SegmentOptions& o) {
+  options.topic("methods");
   const SegmentOptions d;
   Known known;
-  known.method = add_value(app, "--method", fmt::format("{}", fmt::join(kMethodNames, "|")),
-                           "what joins points (default surface: the shape of the visible surface; "
-                           "paper: distance alone, "
-                           "the pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels)",
-                           [&o](const std::string& v) { o.method = parse_method(v); });
-  known.supervoxels = add_value(
-      app, "--supervoxels", "M",
+  known.method =
+      options.value({"--method", kOfScenes}, fmt::format("{}", fmt::join(kMethodNames, "|")),
+                    "what joins points (default surface: the shape of the visible surface; "
+                    "paper: distance alone, "
+                    "the pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels)",
+                    [&o](const std::string& v) { o.method = parse_method(v); });
+  known.supervoxels = options.value(
+      {"--supervoxels", {kScene | kSupervoxels | kAnyPlane, kOfScenes.meant_for}}, "M",
       fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere more "
                   "than M metres from one; no less than a voxel (default: {})",
                   d.spacing),
       [&o](const std::string& v) { o.spacing = length("--supervoxels", v); });
-  add_value(app, "--voxel", "M",
-            fmt::format("edge of a voxel, metres (default: {})",
-                        defaults_of(&SegmentOptions::voxel_size)),
-            [&o](const std::string& v) { o.voxel = length("--voxel", v); });
-  app.option_defaults()->group("cuts");
-  known.min_persistence = add_value(
-      app, "--min-persistence", "X",
+  options.value({"--voxel", kOfScenes}, "M",
+                fmt::format("edge of a voxel, metres (default: {})",
+                            defaults_of(&SegmentOptions::voxel_size)),
+                [&o](const std::string& v) { o.voxel = length("--voxel", v); });
+  options.topic("cuts");
+  known.min_persistence = options.value(
+      {"--min-persistence", {kScene | kBySurface | kAnyPlane, kOfBoth.meant_for}}, "X",
       fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
                   "first. surface: in units of the noise, how hollow a flat table looks (default: "
                   "{}); supervoxels: metres (default: {})",
                   d.cut().value, SegmentOptions{.method = Method::supervoxels}.cut().value),
       [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
-  app.option_defaults()->group("methods");
-  add_value(
-      app, "--distance", "M",
+  options.topic("methods");
+  options.value(
+      {"--distance", kOfPaper}, "M",
       fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
                   d.distance),
       [&o](const std::string& v) { o.distance = length("--distance", v, true); });
-  add_value(app, "--steps", "N|exact",
-            fmt::format("paper: filtration steps up to the distance; exact: as many as there are "
-                        "distances (default: {})",
-                        d.steps),
-            [&o](const std::string& v) { o.steps = parse_steps(v); });
-  app.add_flag_callback(
-      "--no-check", [&o] { o.check = false; },
-      "skip the cross-check of union-find against boundary-matrix reduction "
-      "(on by default; a difference exits 1)");
+  options.value(
+      {"--steps", kOfPaper}, "N|exact",
+      fmt::format("paper: filtration steps up to the distance; exact: as many as there are "
+                  "distances (default: {})",
+                  d.steps),
+      [&o](const std::string& v) { o.steps = parse_steps(v); });
+  options.flag({"--no-check", kOfScenes},
+               "skip the cross-check of union-find against boundary-matrix reduction "
+               "(on by default; a difference exits 1)",
+               [&o] { o.check = false; });
   return known;
 }
 
-void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known) {
-  app.option_defaults()->group("cuts");
+void add_cut_options(app::Options& options, CutArguments& cut, const Known& known) {
+  options.topic("cuts");
   const CutOptions d, supervoxels = SegmentOptions{.method = Method::supervoxels}.cut();
-  add_value(app, "--cut", "X",
-            "cut the merge tree here: the same as --min-persistence; paper: segments are "
-            "the components at X metres, at most --distance (default: as the tree was cut)",
-            [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); })
+  options
+      .value("--cut", "X",
+             "cut the merge tree here: the same as --min-persistence; paper: segments are "
+             "the components at X metres, at most --distance (default: as the tree was cut)",
+             [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); })
       ->excludes(known.min_persistence);
-  add_value(
-      app, "--min-part", "N",
+  options.value(
+      {"--min-part", kOfBoth}, "N",
       fmt::format("fewest voxels of a part; a smaller one joins the neighbour that it meets first "
                   "(default: {}; supervoxels: {})",
                   d.min_part, supervoxels.min_part),
       [&cut](const std::string& v) { cut.min_part = app::parse_integer("--min-part", v, 1); });
-  add_value(
-      app, "--min-size", "N",
+  options.value(
+      "--min-size", "N",
       fmt::format("fewest voxels of a segment (default: {}; supervoxels: {})", d.min_size,
                   supervoxels.min_size),
       [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
-  add_value(app, "--min-seam", "TIMES",
-            fmt::format("surface: parts join over a seam whose lower quartile is less than so many "
-                        "times --min-persistence; 0: its lowest place alone counts (default: {})",
-                        d.min_seam),
-            [&cut](const std::string& v) { cut.min_seam = at_least_zero("--min-seam", v); });
-  CLI::Option* objects = app.add_flag_callback(
-      "--objects", [&cut] { cut.objects = true; },
+  options.value(
+      {"--min-seam", kOfSurface}, "TIMES",
+      fmt::format("surface: parts join over a seam whose lower quartile is less than so many "
+                  "times --min-persistence; 0: its lowest place alone counts (default: {})",
+                  d.min_seam),
+      [&cut](const std::string& v) { cut.min_seam = at_least_zero("--min-seam", v); });
+  CLI::Option* objects = options.flag(
+      {"--objects", kOfSurface},
       "surface: join the visible parts of an object, over a rim or behind what hides its middle "
-      "(default)");
-  app.add_flag_callback(
-         "--parts", [&cut] { cut.objects = false; }, "surface: leave each visible part a segment")
+      "(default)",
+      [&cut] { cut.objects = true; });
+  options
+      .flag({"--parts", kOfSurface}, "surface: leave each visible part a segment",
+            [&cut] { cut.objects = false; })
       ->excludes(objects);
 }
 

@@ -10,17 +10,15 @@
 
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/arguments/options.hpp"
 #include "core/lower_case.hpp"
 #include "ph/error.hpp"
 #include "vectorise/arguments/manual.hpp"
-#include "vectorise/arguments/option_scopes.hpp"
+#include "vectorise/arguments/scopes.hpp"
 
 namespace ph::vectorise {
 namespace {
 
-using app::add_choice;
-using app::add_path;
-using app::add_value;
 using app::parse_integer;
 using app::parse_integers;
 using app::parse_number;
@@ -80,84 +78,103 @@ void take_periodic(CubicalOptions& cubical, const std::string& text) {
   }
 }
 
-void add_input_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("input");
-  app.add_option("INPUT", a.inputs,
+void add_input_options(app::Options& options, Arguments& a) {
+  options.topic("input");
+  options.inputs("INPUT",
                  "barcodes, as ph-barcode writes them, or folders of them; - is standard input. "
-                 "With --kind euler also images")
-      ->type_name("");
-  add_choice(app, "--format", "what the inputs of an Euler curve are (default auto: by content)",
-             a.format);
-  add_choice(app, "--nan",
-             "what NaN in an image means: an error (default), or a voxel that is not there", a.nan);
-  add_choice(app, "--construction", "voxels of an image are vertices (default) or top cells",
-             a.cubical.construction);
-  app.add_flag_callback(
-      "--superlevel", [&a] { a.cubical.superlevel = true; },
-      "superlevel sets of an image; values are those of the negated image");
-  add_value(app, "--periodic", "AXES",
-            "axes of an image that close up on themselves, such as 0,2, or all (default: those "
-            "that the file says)",
-            [&a](const std::string& text) { take_periodic(a.cubical, text); });
+                 "With --kind euler also images",
+                 a.inputs);
+  options.choice(
+      {"--format",
+       {situation_of(Kind::euler) | kFitting | kFitted | kOfBarcode | kOfImage, "--kind euler"}},
+      "what the inputs of an Euler curve are (default auto: by content)", a.format);
+  options.choice({"--nan", kOfImages},
+                 "what NaN in an image means: an error (default), or a voxel that is not there",
+                 a.nan);
+  options.choice({"--construction", kOfNewImages},
+                 "voxels of an image are vertices (default) or top cells", a.cubical.construction);
+  options.flag({"--superlevel", kOfNewImages},
+               "superlevel sets of an image; values are those of the negated image",
+               [&a] { a.cubical.superlevel = true; });
+  options.value({"--periodic", kOfNewImages}, "AXES",
+                "axes of an image that close up on themselves, such as 0,2, or all (default: those "
+                "that the file says)",
+                [&a](const std::string& text) { take_periodic(a.cubical, text); });
 }
 
-void add_vector_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("vectors");
-  add_choice(app, "--kind", "what is made (default statistics)", a.kind);
-  add_value(app, "--dims,--dim", "D,…",
-            "dimensions, a block of columns each (default: all that the inputs have)",
-            [&a](const std::string& text) {
-              for (const std::int64_t dim : parse_integers("--dims", text, 0, 1'000'000))
-                a.dims.push_back(static_cast<int>(dim));
-            });
-  add_value(app, "--infinite", "drop|keep|error|T",
-            "bars that never die are left out (default), an error, or die at T; curves of Betti "
-            "numbers, landscapes and Euler curves can keep them, the last ones do so by default",
-            [&a](const std::string& text) { a.infinite = parse_infinite(text); });
+void add_vector_options(app::Options& options, Arguments& a) {
+  options.topic("vectors");
+  options.choice({"--kind", kNotFitted}, "what is made (default statistics)", a.kind);
+  options.value({"--dims,--dim",
+                 {(kAllKinds & ~situation_of(Kind::euler)) | kFitting | kOfBarcode,
+                  "vectors of single dimensions that are not fitted yet"}},
+                "D,…", "dimensions, a block of columns each (default: all that the inputs have)",
+                [&a](const std::string& text) {
+                  for (const std::int64_t dim : parse_integers("--dims", text, 0, 1'000'000))
+                    a.dims.push_back(static_cast<int>(dim));
+                });
+  options.value(
+      {"--infinite", {kAllKinds | kFitting | kOfBarcode, "barcodes that are not fitted yet"}},
+      "drop|keep|error|T",
+      "bars that never die are left out (default), an error, or die at T; curves of Betti "
+      "numbers, landscapes and Euler curves can keep them, the last ones do so by default",
+      [&a](const std::string& text) { a.infinite = parse_infinite(text); });
 }
 
-void add_parameter_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("parameters");
-  add_value(app, "--grid", "LO,HI,N|N",
-            "the values at which curves and landscapes are looked at, both ends among them; of "
-            "images the pixels along births (default: fitted, 100 values or 20 pixels)",
-            [&a](const std::string& text) { a.grid = parse_axis("--grid", text); });
-  add_value(app, "--length-grid", "LO,HI,N|N",
-            "the pixels of images along lengths (default: from 0 to the longest, as many as along "
-            "births)",
-            [&a](const std::string& text) { a.length_grid = parse_axis("--length-grid", text); });
-  add_value(app, "--layers", "K", "layers of landscapes (default 5)",
-            [&a](const std::string& text) { a.layers = parse_count("--layers", text); });
-  add_value(app, "--count", "K", "how many lengths (default 5), or centres of ATOL (default 10)",
-            [&a](const std::string& text) { a.count = parse_count("--count", text); });
-  add_value(app, "--sigma", "S",
-            "standard deviation of a bar in an image, in the unit of the values (default: a "
-            "twentieth of the longer range)",
-            [&a](const std::string& text) { a.sigma = parse_finite("--sigma", text, false); });
-  add_value(app, "--power", "P", "a bar weighs length^P in images and silhouettes (default 1)",
-            [&a](const std::string& text) { a.power = parse_finite("--power", text, true); });
-  app.add_flag("--normalised", a.normalised, "entropies divided by ln n for n bars");
-  add_choice(app, "--contrast",
-             "what a bar at distance d adds to a centre of ATOL of width w: exp(-d/w) (default), "
-             "or exp(-(d/w)^2)",
-             a.atol.contrast);
-  add_value(app, "--seed", "N", "of the first centres of ATOL (default 0)",
-            [&a](const std::string& text) {
-              a.atol.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
-            });
+void add_parameter_options(app::Options& options, Arguments& a) {
+  options.topic("parameters");
+  options.value({"--grid",
+                 {of({Kind::betti, Kind::landscape, Kind::silhouette, Kind::life_entropy,
+                      Kind::image, Kind::euler}),
+                  "curves, landscapes and images that are not fitted yet"}},
+                "LO,HI,N|N",
+                "the values at which curves and landscapes are looked at, both ends among them; of "
+                "images the pixels along births (default: fitted, 100 values or 20 pixels)",
+                [&a](const std::string& text) { a.grid = parse_axis("--grid", text); });
+  options.value(
+      {"--length-grid", kOfPersistenceImages}, "LO,HI,N|N",
+      "the pixels of images along lengths (default: from 0 to the longest, as many as along "
+      "births)",
+      [&a](const std::string& text) { a.length_grid = parse_axis("--length-grid", text); });
+  options.value({"--layers", {of({Kind::landscape}), "--kind landscape"}}, "K",
+                "layers of landscapes (default 5)",
+                [&a](const std::string& text) { a.layers = parse_count("--layers", text); });
+  options.value({"--count", {of({Kind::lengths, Kind::atol}), "--kind lengths and atol"}}, "K",
+                "how many lengths (default 5), or centres of ATOL (default 10)",
+                [&a](const std::string& text) { a.count = parse_count("--count", text); });
+  options.value({"--sigma", kOfPersistenceImages}, "S",
+                "standard deviation of a bar in an image, in the unit of the values (default: a "
+                "twentieth of the longer range)",
+                [&a](const std::string& text) { a.sigma = parse_finite("--sigma", text, false); });
+  options.value({"--power", {of({Kind::image, Kind::silhouette}), "--kind image and silhouette"}},
+                "P", "a bar weighs length^P in images and silhouettes (default 1)",
+                [&a](const std::string& text) { a.power = parse_finite("--power", text, true); });
+  options.flag({"--normalised", {of({Kind::entropy}), "--kind entropy"}},
+               "entropies divided by ln n for n bars", a.normalised);
+  options.choice(
+      {"--contrast", kOfAtol},
+      "what a bar at distance d adds to a centre of ATOL of width w: exp(-d/w) (default), "
+      "or exp(-(d/w)^2)",
+      a.atol.contrast);
+  options.value({"--seed", kOfAtol}, "N", "of the first centres of ATOL (default 0)",
+                [&a](const std::string& text) {
+                  a.atol.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
+                });
 }
 
-void add_output_options(CLI::App& app, Arguments& a) {
-  app.option_defaults()->group("output");
-  add_path(app, "-o,--output", "FILE", "where the table goes (default -: standard output)",
-           a.output);
-  add_choice(app, "--output-format", "format of the table (default: by extension, or csv)",
-             a.output_format);
-  auto* fit = add_path(app, "--fit", "FILE.json",
-                       "write what was fitted: kind, dimensions, grids, widths, centres", a.fit);
-  add_path(app, "--fitted", "FILE.json",
-           "make the vectors that --fit wrote down: nothing is fitted, no parameter is given",
-           a.fitted)
+void add_output_options(app::Options& options, Arguments& a) {
+  options.topic("output");
+  options.path("-o,--output", "FILE", "where the table goes (default -: standard output)",
+               a.output);
+  options.choice("--output-format", "format of the table (default: by extension, or csv)",
+                 a.output_format);
+  auto* fit =
+      options.path({"--fit", kNotFitted}, "FILE.json",
+                   "write what was fitted: kind, dimensions, grids, widths, centres", a.fit);
+  options
+      .path("--fitted", "FILE.json",
+            "make the vectors that --fit wrote down: nothing is fitted, no parameter is given",
+            a.fitted)
       ->excludes(fit);
 }
 
@@ -199,15 +216,16 @@ void require_kind(const Arguments& arguments, Kind kind) {
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
                                            Arguments& arguments) {
-  CLI::App app("", std::string(manual().program));
-  add_input_options(app, arguments);
-  add_vector_options(app, arguments);
-  add_parameter_options(app, arguments);
-  add_output_options(app, arguments);
-  app::add_common_options(app, arguments.common);
-  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, manual()))
+  CLI::App cli("", std::string(manual().program));
+  app::Options options(cli);
+  add_input_options(options, arguments);
+  add_vector_options(options, arguments);
+  add_parameter_options(options, arguments);
+  add_output_options(options, arguments);
+  app::add_common_options(options, arguments.common);
+  if (auto answer = app::parse_command_line(options, arguments.common, argc, argv, manual()))
     return answer;
-  arguments.given = app::given_scopes(app, option_scopes());
+  arguments.given = options.given();
   check_together(arguments);
   return std::nullopt;
 }

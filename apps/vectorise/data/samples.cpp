@@ -8,7 +8,7 @@
 
 #include "common/files/barcode_files.hpp"
 #include "ph/io/write.hpp"
-#include "vectorise/arguments/option_scopes.hpp"
+#include "vectorise/arguments/scopes.hpp"
 
 namespace ph::vectorise {
 namespace {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+
+#include "common/arguments/option_scope.hpp"
+#include "ph/detail/core/names.hpp"
+
+namespace ph::barcode {
+
+/// What was read, with what is made of it: options differ in where they do something.
+enum Situation : app::Situations {
+  kPoints = 1 << 0,       ///< their Rips complex
+  kMatrix = 1 << 1,       ///< of all distances, a full square
+  kTriangle = 1 << 2,     ///< the same, half of it
+  kSomePairs = 1 << 3,    ///< sparse distances
+  kImage = 1 << 4,        ///< with cubical complex
+  kVoxels = 1 << 5,       ///< points with --complex cubical
+  kSimplices = 1 << 6,    ///< with values of their own
+  kLowerStar = 1 << 7,    ///< simplices with values of the vertices
+  kBoundary = 1 << 8,     ///< a boundary matrix
+  kMesh = 1 << 9,         ///< with values of the vertices
+  kOwn = 1 << 10,         ///< points with a complex that the program added
+  kBarcode = 1 << 11,     ///< a stored one, computed earlier
+  kComparison = 1 << 12,  ///< of two stored ones
+  kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
+  kImagePart = 1 << 14,   ///< some layers of an image
+  kParts = 1 << 15,       ///< parts to join
+  kRanks = 1 << 16,       ///< an image on several ranks
+  kCloudPart = 1 << 17,   ///< some blocks of a point cloud
+  kCloudRanks = 1 << 18,  ///< a point cloud on several ranks
+};
+constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAllPairs | kSomePairs,
+                          kCubical = kImage | kVoxels,
+                          kListed = kSimplices | kLowerStar | kBoundary | kMesh,
+                          kComputed = kRips | kCubical | kListed | kOwn | kAlpha,
+                          kSomeLayers = kImagePart | kRanks, kSomeBlocks = kCloudPart | kCloudRanks;
+
+constexpr app::Scope kOfInputs{kComputed, "a computation"};
+constexpr app::Scope kOfPoints{kPoints, "Rips complexes of points"};
+constexpr app::Scope kOfRips{kRips, "Rips complexes of points and distances"};
+constexpr app::Scope kOfAllPairs{kAllPairs, "points and distance matrices"};
+constexpr app::Scope kOfMatrices{kMatrix, "full distance matrices (--format distance)"};
+constexpr app::Scope kOfDistances{kMatrix | kTriangle | kSomePairs,
+                                  "distances (--format distance)"};
+constexpr app::Scope kOfAlpha{kAlpha, "points with --complex alpha"};
+constexpr app::Scope kOfRaw{kImage | kSomeLayers, "images"};
+constexpr app::Scope kOfCubical{kCubical | kSomeLayers, "images"};
+constexpr app::Scope kOfVoxels{kVoxels, "points with --complex cubical"};
+constexpr app::Scope kOfOneBarcode{kComputed | kBarcode | kParts | kRanks | kCloudRanks,
+                                   "one barcode"};
+constexpr app::Scope kOffRanks{~(kRanks | kCloudRanks), "one process"};
+
+}  // namespace ph::barcode
+
+namespace ph {
+
+/// What a message calls a situation.
+template <>
+inline constexpr std::array names_of<barcode::Situation>{
+    Named{barcode::kPoints, "points"},
+    Named{barcode::kMatrix, "a full distance matrix"},
+    Named{barcode::kTriangle, "a triangle without its diagonal"},
+    Named{barcode::kSomePairs, "some distances only"},
+    Named{barcode::kImage, "an image"},
+    Named{barcode::kVoxels, "points with --complex cubical"},
+    Named{barcode::kSimplices, "simplices"},
+    Named{barcode::kLowerStar, "simplices with --complex lower-star"},
+    Named{barcode::kBoundary, "a boundary matrix"},
+    Named{barcode::kMesh, "a mesh with values"},
+    Named{barcode::kOwn, "points with another complex"},
+    Named{barcode::kBarcode, "a barcode"},
+    Named{barcode::kComparison, "two barcodes to compare"},
+    Named{barcode::kAlpha, "points with --complex alpha"},
+    Named{barcode::kImagePart, "a part of an image (--part)"},
+    Named{barcode::kParts, "parts to join (--join)"},
+    Named{barcode::kRanks, "an image on several processes"},
+    Named{barcode::kCloudPart, "a part of a cloud (--part)"},
+    Named{barcode::kCloudRanks, "points on several processes"},
+};
+
+}  // namespace ph
