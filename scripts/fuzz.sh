@@ -23,15 +23,22 @@ fi
 fuzz() {
   local target=$1 dictionary
   shift
-  for dictionary in "$target" "${target%%_*}" numbers; do
-    [ -f "tests/fuzz/dictionaries/$dictionary.dict" ] && break
+  for dictionary in "$target" "${target##*_}" "${target%%_*}" numbers; do
+    dictionary=tests/fuzz/dictionaries/$dictionary.dict
+    [ -f "$dictionary" ] && break
   done
+  if [[ $target == *_arguments ]]; then  # options and their choices are those of the help
+    "$build/tests/fuzz/fuzz" --help-of "$target" |
+      grep -oE -- '--?[a-z][a-z-]*|[[:alnum:]-]+(\|[[:alnum:]-]+)+' | tr '|' '\n' | sort -u |
+      sed 's/.*/"&"/' | cat "$dictionary" - >"$build/$target.dict"
+    dictionary=$build/$target.dict
+  fi
   local corpus=$build/corpus/$target findings=$build/findings/$target
   local seeds=("$build/tests/fuzz/samples")
   [ -d "tests/corpus/$target" ] && seeds+=("tests/corpus/$target")
   mkdir -p "$corpus" "$findings"
   local options=(-max_len=4096 -timeout=5 -rss_limit_mb=2048 "-artifact_prefix=$findings/"
-    "-dict=tests/fuzz/dictionaries/$dictionary.dict" -print_final_stats=1)
+    "-dict=$dictionary" -print_final_stats=1)
   local program
   for program in "$build" ${fast:+"$fast"}; do ln -sf fuzz "$program/tests/fuzz/fuzz_$target"; done
   [ -z "$fast" ] || "$fast/tests/fuzz/fuzz_$target" "$corpus" "${seeds[@]}" "${options[@]}" "$@"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any words give options, an answer, or an error that says what is wrong with them.
+#include <array>
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
@@ -43,7 +44,22 @@ void check(const std::vector<std::string>& words,
   }
 }
 
+template <class Arguments>
+std::string help_of(std::optional<std::string> (*parse)(int, const char* const*, Arguments&)) {
+  constexpr std::array words{"program", "--help", "all"};
+  Arguments arguments;
+  return parse(words.size(), words.data(), arguments).value_or("");
+}
+
 }  // namespace
+
+std::string help_of(std::string_view target) {
+  if (target == "barcode_arguments") return help_of(&barcode::parse_arguments);
+  if (target == "distance_arguments") return help_of(&distance_program::parse_arguments);
+  if (target == "segment_arguments") return help_of(&segment::parse_arguments);
+  if (target == "vectorise_arguments") return help_of(&vectorise::parse_arguments);
+  return "";
+}
 
 void run_barcode_arguments(std::string_view bytes) {
   check(words_of(bytes, "ph-barcode"), &barcode::parse_arguments);

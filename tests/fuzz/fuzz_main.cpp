@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer's end of the table of targets. The program's own name says which one: fuzz_points runs
-// `points`. `fuzz --targets` lists them.
+// `points`. `fuzz --targets` lists them, `fuzz --help-of TARGET` prints the help of a
+// program whose command lines are a target.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +20,10 @@ extern "C" const char* __asan_default_options() {
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   if (*argc == 2 && std::string_view((*argv)[1]) == "--targets") {
     for (const auto& known : ph::fuzz::targets()) std::puts(known.name.c_str());
+    std::exit(0);
+  }
+  if (*argc == 3 && std::string_view((*argv)[1]) == "--help-of") {
+    std::puts(ph::fuzz::help_of((*argv)[2]).c_str());
     std::exit(0);
   }
   const std::string_view path = **argv;

@@ -12,8 +12,9 @@ option turns the input into bad data without a message about the option, or if t
 obey it. For an option with choices (the help lists them as a|b|c), each choice is tried: it is
 refused by name, or its result differs from that of every other choice.
 
-The options are those that --help all lists; an option without a row here fails as well. The table
-is written to TABLE.csv. OPTION... restricts the test to these options."""
+The options are those that --help all lists. One without a row in option_inputs_PROGRAM.py is tried
+with its last choice, or with a sample of what its placeholder stands for; if there is none, the test
+fails. The table is written to TABLE.csv. OPTION...: only these."""
 import collections
 import concurrent.futures
 import csv
@@ -38,6 +39,9 @@ DOES_NOTHING = "does nothing|do nothing|nothing is done|not needed|is not used"
 TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU per frame"
 MEMORY = rb"(?m)^memory .*$"  # the output of a dry run depends on the heap of the process
 RUNS_AT_ONCE = 2
+# Values of options without a row, by placeholder.
+SAMPLES = {"": [], "[TOPIC]": [], "N": ["2"], "K": ["2"], "D": ["1"], "P": ["3"], "S": ["2"], "T": ["0.5"],
+           "R": ["0.5"], "X": ["0.5"], "M": ["0.5"], "EPS": ["0.5"]}
 
 
 class Row:
@@ -76,12 +80,12 @@ class Input:
 
 
 def options_of(program):
-    """All options of the help, each by its first long name, and the choices it lists."""
+    """All options of the help, each by its first long name: its placeholder, and the choices it lists."""
     found = {}
     for name, option in described.options_of(program).items():
         choices = option.value.replace("minkowski:P", "minkowski:3").split("|")
         is_list = len(choices) > 1 and all(re.fullmatch("[a-z0-9:_-]+", c) for c in choices)
-        found[name] = [c for c in choices if c != "auto"] if is_list else []
+        found[name] = option.value, [c for c in choices if c != "auto"] if is_list else []
     return found
 
 
@@ -243,14 +247,17 @@ def without(arguments, option):
 def pairs_of(runs, program, suite):
     rows = suite.rows(Row)
     listed = options_of(program)
-    missing = [option for option in listed if option not in rows]
-    if missing:
-        sys.exit(f"{program}: no row for {', '.join(missing)} in {suite.__name__}.py")
+    for option, (placeholder, choices) in listed.items():
+        value = choices[-1:] or SAMPLES.get(placeholder)
+        if option not in rows and value is None:
+            sys.exit(f"{program}: {option} {placeholder}: add a row with a value of it to rows() in "
+                     f"{suite.__name__}.py, or a sample of {placeholder} to SAMPLES")
+        rows.setdefault(option, Row(option, *(value or ()), beside=suite.BESIDE))
     if not has_page(program):
         print(f"skipped: {os.path.basename(program)} --report: this build has no page")
         del listed["--report"]
     for kind in suite.inputs(Input, program):
-        for option, choices in listed.items():
+        for option, (_, choices) in listed.items():
             yield Pair(runs, program, option, kind.rows.get(option, rows[option]), kind, choices)
 
 

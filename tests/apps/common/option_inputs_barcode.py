@@ -16,7 +16,6 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
         "DIPHA distances", "lower triangle", "upper triangle", "binary triangle", "sparse",
         "DIPHA sparse distances")
 
-
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
@@ -24,6 +23,8 @@ LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY
 POINTS, IMAGE = "not a set of points|found points", "an image has rows"
 H0 = ["--complex", "rips", "--max-dim", "0"]
 LOOPS = ["--representatives", "cycles", "--output-format", "json"]
+# With options without a row.
+BESIDE = []
 
 
 def rows(Row):
@@ -43,7 +44,6 @@ def rows(Row):
         "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),
         "--raw-shape": Row("--raw-shape", "5,4", unfit="for shape|found raw"),
         "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),
-        "--raw-big-endian": Row("--raw-big-endian"),
         "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw"),
         "--complex": Row("--complex", "cubical", unfit=IMAGE, alike=("alpha", "delaunay-cech")),
         "--threshold": Row("--threshold", "0.9"),
@@ -62,13 +62,11 @@ def rows(Row):
         "--vertex-weights": Row("--vertex-weights", "weights.txt", unfit="weights.txt|" + POINTS),
         "--dtm": Row("--dtm", "3", unfit=POINTS),
         "--weight-exponent": Row("--weight-exponent", "2"),
-        "--alpha-values": Row("--alpha-values", "squared"),
         "--weights": Row("--weights", "weights.txt", unfit="weights.txt|" + POINTS),
         "--period": Row("--period", "3"),
         "--alpha-shape": Row("--alpha-shape", "0.5=x.ply"),
         "--wrap": Row("--wrap", "0.5=x.off"),
         "--max-dim": Row("--max-dim", "0"),
-        "--min-dim": Row("--min-dim", "1"),
         "--field": Row("--field", "3", beside=["--output-format", "json"]),
         "--engine": Row("--engine", "standard", sign="engine {}: asked for"),
         "--check": Row("--check", sign="check: the reference engine agrees"),
@@ -76,11 +74,8 @@ def rows(Row):
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
         "--loops": Row("--loops", "none", beside=LOOPS),
         "--significance": Row("--significance", unfit=POINTS),
-        "--dry-run": Row("--dry-run"),
         "--part": Row("--part", "1/2", unfit=IMAGE),
         "--join": Row("--join", unfit='expected "ph part"'),
-        "--resume": Row("--resume"),
-        "--keep-cells": Row("--keep-cells"),
         "--output": Row("--output", "x.csv"),
         "--output-format": Row("--output-format", "json"),
         "--plot": Row("--plot", "x.svg"),
@@ -91,15 +86,12 @@ def rows(Row):
         "--axis": Row("--axis", "0.25,0.5", beside=plot),
         "--report": Row("--report", "x.html"),
         "--compare": Row("--compare", "bars.csv", "bars.csv"),
-        "--formats": Row("--formats"),
         "--threads": Row("--threads", "1", sign="threads 1"),
         "--memory-limit": Row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
         "--progress": Row("--progress", "json", sign="progress {}"),
         "--quiet": Row("--quiet", lost="ph-barcode: "),
         "--verbose": Row("--verbose", sign="memory limit"),
         "--force": Row("--force", beside=["-o", "@input", "--output-format", "csv"]),
-        "--version": Row("--version"),
-        "--help": Row("--help"),
     }
 
 

@@ -15,6 +15,7 @@ WIDTH, HEIGHT, FOCAL = 96, 72, 150
 CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
 RESULTS = ["--labels", "l-x.csv", "--barcode", "b-x.csv"]
 OF_FRAMES = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
+BESIDE = RESULTS  # with options without a row
 
 
 def rows(Row, name="x"):
@@ -75,8 +76,6 @@ def rows(Row, name="x"):
         "--quiet": row("--quiet", lost="segment"),
         "--verbose": row("--verbose", sign="memory limit"),
         "--force": row("--force", beside=["--json", "@input"]),
-        "--version": row("--version"),
-        "--help": row("--help"),
     }
 
 
