@@ -91,10 +91,9 @@ class Bars(_Object):
 class Recipe(_Object): ...
 
 class RipsRecipe(Recipe):
-    def __init__(self, space: MetricSpace, threshold: float | None, births: _Buffer | None,
-                 dtm_neighbours: int | None, weight_exponent: str, subsample: int | None,
-                 subsample_radius: float | None, approximation: float | None,
-                 merge_equal_points: bool | None, device: str, ids: _Buffer | None) -> None: ...
+    def __init__(self, space: MetricSpace, keywords: dict[str, Any], births: _Buffer | None,
+                 subsample: int | None, subsample_radius: float | None, ids: _Buffer | None
+                 ) -> None: ...
 
 class AlphaRecipe(Recipe):
     def __init__(self, space: MetricSpace, value: str, squared: bool, weights: _Buffer | None,

@@ -169,7 +169,6 @@ def rips_request(o: dict[str, Any]) -> Request:
     merge = o["merge_equal_points"]
     if merge is not None:
         merge = _options.flag("merge_equal_points", merge)
-    device = _options.choice("device", o["device"], ["cpu", "gpu"])
     for name, value in (("subsample", subsample), ("subsample_radius", radius),
                         ("approximation", approximation)):
         if value is None:
@@ -179,9 +178,10 @@ def rips_request(o: dict[str, Any]) -> Request:
         if not source.space.is_complete:
             raise UsageError(f"{name}: needs all distances, found some of them")
     task = _task_of(o, _loops_of(o, "tight"))
-    recipe = _core.RipsRecipe(
-        source.space, threshold, births, neighbours, exponent, subsample, radius, approximation,
-        merge, device, source.ids)
+    keywords = {**o, "threshold": threshold, "dtm_neighbours": neighbours,
+                "weight_exponent": exponent, "approximation": approximation,
+                "merge_equal_points": merge}
+    recipe = _core.RipsRecipe(source.space, keywords, births, subsample, radius, source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
     others = {name: o[name] for name in ("subsample", "subsample_radius")}
     for name in ("nan", "diagonal", "symmetrise"):

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "recipes.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "bindings.hpp"
@@ -177,38 +184,62 @@ std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offse
       threshold, cells);
 }
 
+/// What a keyword has to be: "'cpu' or 'gpu'".
+template <class Value>
+std::string expected_of(const Value*) {
+  if constexpr (std::is_enum_v<Value>)
+    return alternatives(fmt::format("{}", fmt::join(all_names<Value>, "|")), "'");
+  else if constexpr (std::is_same_v<Value, bool>)
+    return "True or False";
+  else
+    return std::is_integral_v<Value> ? "a whole number" : "a number";
+}
+template <class Value>
+std::string expected_of(const std::optional<Value>*) {
+  return expected_of(static_cast<const Value*>(nullptr));
+}
+
+/// Options with the members that keywords set; other keywords are passed over.
+template <class Options>
+Options taken(const py::dict& keywords) {
+  Options options;
+  const auto take = [&]<class Value>(const Member<Options, Value>& of) {
+    const py::str name{std::string(of.name)};
+    if (!keywords.contains(name)) return;
+    try {
+      options.*of.member = keywords[name].template cast<Value>();
+    } catch (const py::cast_error&) {
+      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected {}", of.name,
+                                                std::string(py::repr(keywords[name])),
+                                                expected_of(static_cast<const Value*>(nullptr))));
+    }
+  };
+  std::apply([&](const auto&... all) { (take(all), ...); }, members_of<Options>);
+  return options;
+}
+
 }  // namespace
 
 void bind_complexes(py::module_& m) {
   py::class_<Recipe>(m, "Recipe");
   py::class_<RipsRecipe, Recipe>(m, "RipsRecipe")
-      .def(py::init([](std::shared_ptr<MetricSpace> space, std::optional<double> threshold,
-                       const std::optional<py::buffer>& births, std::optional<Index> dtm_neighbours,
-                       WeightExponent weight_exponent, std::optional<Index> subsample,
-                       std::optional<double> subsample_radius, std::optional<double> approximation,
-                       std::optional<bool> merge_equal_points, Device device,
+      .def(py::init([](std::shared_ptr<MetricSpace> space, const py::dict& keywords,
+                       const std::optional<py::buffer>& births, std::optional<Index> subsample,
+                       std::optional<double> subsample_radius,
                        const std::optional<py::buffer>& ids) {
-             RipsOptions options;
-             options.threshold = threshold;
+             auto options = taken<RipsOptions>(keywords);
              if (births) options.births = vector_of<double>(*births);
-             options.dtm_neighbours = dtm_neighbours;
-             options.weight_exponent = weight_exponent;
              if (subsample || subsample_radius) {
                options.subsample.emplace();
                if (subsample) options.subsample->points = *subsample;
                if (subsample_radius) options.subsample->radius = *subsample_radius;
              }
-             options.approximation = approximation;
-             options.merge_equal_points = merge_equal_points;
-             options.device = device;
              return std::make_unique<RipsRecipe>(
                  std::move(space), std::move(options),
                  ids ? vector_of<Index>(*ids) : std::vector<Index>());
            }),
-           py::arg("space"), py::arg("threshold"), py::arg("births"), py::arg("dtm_neighbours"),
-           py::arg("weight_exponent"), py::arg("subsample"), py::arg("subsample_radius"),
-           py::arg("approximation"), py::arg("merge_equal_points"), py::arg("device"),
-           py::arg("ids"));
+           py::arg("space"), py::arg("keywords"), py::arg("births"), py::arg("subsample"),
+           py::arg("subsample_radius"), py::arg("ids"));
   py::class_<CubicalRecipe, Recipe>(m, "CubicalRecipe");
   using Construction = CubicalOptions::Construction;
   m.def(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ph/detail/core/engine.hpp"
+#include "ph/detail/core/members.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/distance_matrix.hpp"
@@ -61,7 +62,17 @@ struct RipsOptions {
   Device device = Device::cpu;
 };
 
-/// The view that an engine has of a Rips filtration before any form of it is made.
+template <>
+inline constexpr std::tuple members_of<RipsOptions>{
+    Member{"threshold", &RipsOptions::threshold},
+    Member{"dtm_neighbours", &RipsOptions::dtm_neighbours},
+    Member{"weight_exponent", &RipsOptions::weight_exponent},
+    Member{"approximation", &RipsOptions::approximation},
+    Member{"merge_equal_points", &RipsOptions::merge_equal_points},
+    Member{"device", &RipsOptions::device},
+};
+
+/// What an engine sees of a Rips filtration before any form of it is made.
 struct RipsInput {
   Index size;                        ///< the largest possible number of vertices
   std::optional<PointsView> points;  ///< empty for a filtration of distances

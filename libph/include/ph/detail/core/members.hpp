@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string_view>
+#include <tuple>
+
+namespace ph {
+
+/// A member of a struct of options with its name.
+template <class Options, class Value>
+struct Member {
+  std::string_view name;
+  Value Options::*member;
+};
+
+/// The members of a struct of options that a keyword of Python sets as they are. The struct
+/// specialises it beside its definition.
+template <class Options>
+inline constexpr std::tuple<> members_of{};
+
+}  // namespace ph
