@@ -122,7 +122,8 @@ class Comparison:
         return self._startups[command]
 
     def measure(self, row, path):
-        """What each program takes, with each number of threads; they take turns."""
+        """The time and memory of each program with each number of threads; the programs take
+        turns."""
         calls = calls_of(self.programs(row), self.arguments.threads)
         runs = self._meter.best_in_turns([program.command(self.options(program, row, path), threads)
                                           for program, threads in calls])

@@ -213,7 +213,7 @@ Metadata metadata_of(const ScenePage& page) {
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
   CloudMeta cloud{.unit = "m", .viewpoint = s.tree.viewpoint};
-  // A camera sees y downwards; what else there may be has z upwards.
+  // Cameras have y downwards; other clouds have z upwards.
   if (s.tree.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.tree.plane)

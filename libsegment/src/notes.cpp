@@ -31,7 +31,7 @@ std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& v
 /// For results without segments: a hint that the lengths may not be metres.
 std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
                         const Segmentation& s) {
-  constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
+  constexpr double room = 50, crumb = 0.02;  // metres: no table top is so far away, or so small
   const auto found = distances(cloud, s.tree.viewpoint);
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
@@ -60,7 +60,7 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
   };
-  // Where something was found its boxes tell, without another look at all points.
+  // If segments were found, their boxes tell without another pass over all points.
   for (const Segment& segment : s.cut.segments)
     for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
   if (s.cut.segments.empty()) std::ranges::for_each(cloud.xyz(), take);

@@ -232,7 +232,7 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -
                                 f"{type(distance).__name__}, expected a number") from None
             place += 1
     if n == 0:
-        distances = np.empty((0, 0))  # no numbers are the condensed form of one point
+        distances = np.empty((0, 0))  # an empty array is the condensed form of one point
     space = _core.MetricSpace.of_distances(distances, "none", nan or "error", True,
                                            nan is not None)
     return Source(space, n)

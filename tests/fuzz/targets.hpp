@@ -36,7 +36,7 @@ void run_segment_arguments(std::string_view bytes);
 void run_vectorise_arguments(std::string_view bytes);
 /// What the program of such a target answers to `--help all`; empty of all other targets.
 std::string help_of(std::string_view target);
-/// What ph-distance --groups takes, after a digit: how many barcodes there are.
+/// The input of ph-distance --groups, after a digit: the number of barcodes.
 void run_distance_groups(std::string_view bytes);
 /// The input of ph-vectorise --fitted; it is written and read again.
 void run_vectorise_fit(std::string_view bytes);

@@ -198,7 +198,7 @@ TEST(Pipeline, AnyStride) {
     CloudView cloud{std::span(wide).first(last), {}, TableScene::kWidth, TableScene::kHeight};
     cloud.stride = stride;
     EXPECT_EQ(segment(cloud).cut.labels, expected.cut.labels) << stride;
-    cloud.xyz = wide;  // what follows the last z is no part of it
+    cloud.xyz = wide;  // numbers after the last z do not belong to it
     ph::test::expect_error(ErrorKind::bad_data, "floats, expected", [&] { segment(cloud); });
   }
   CloudView cloud{xyz, {}};

@@ -35,9 +35,9 @@ void add_common_options(Options& options, CommonOptions& common);
 
 /// The command line as it was typed, under the program's own name.
 std::vector<std::string> typed_command(std::string_view program, int argc, const char* const* argv);
-/// The options that were given, each as a long name and its values, in the order of --help: for a
-/// command line that does the same again. Without common options, without INPUT.
-/// @param without long names that are left out, without dashes.
+/// The given options, each as a long name and its values, in the order of --help. A command line
+/// with them does the same again. Common options and INPUT are left out.
+/// @param without long names to leave out, without dashes.
 std::vector<std::string> given_options(const Options& options,
                                        std::span<const std::string_view> without);
 

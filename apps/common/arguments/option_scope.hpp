@@ -11,8 +11,8 @@ namespace ph::app {
 /// each program names its own.
 using Situations = std::uint32_t;
 
-/// Where an option does something. Given anywhere else it is a misunderstanding, and refused: an
-/// option that is ignored gives an answer to a question that nobody asked.
+/// The situations in which an option has an effect. In any other situation the option is refused as
+/// a misunderstanding: ignoring it would answer a question that nobody asked.
 struct Scope {
   Situations where = ~Situations{0};  ///< it does something in any of them
   std::string_view meant_for = {};    ///< what they are: "points"

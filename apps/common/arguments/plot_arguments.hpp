@@ -63,7 +63,7 @@ struct PlotArguments {
 void add_plot_options(Options& options, std::span<const std::string_view> kinds,
                       const std::string& description, PlotArguments& to);
 
-/// Registers one more look. @param take puts the text of the option into `to.look`.
+/// Registers one more option for the look. @param take stores the text of the option in `to.look`.
 void add_plot_look(Options& options, const PlotLook& look, const std::string& placeholder,
                    const std::string& what, PlotArguments& to,
                    std::function<void(const std::string& text)> take);

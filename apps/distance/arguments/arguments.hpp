@@ -27,7 +27,7 @@ struct Arguments {
 
   std::string groups;  // path; empty: none
   PermutationOptions test;
-  // The options that were given of those that do nothing somewhere.
+  // The given options that have no effect in some situations.
   std::vector<app::GivenOption> given;
 
   std::string output_path() const { return output.value_or("-"); }

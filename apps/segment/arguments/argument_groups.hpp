@@ -23,17 +23,17 @@ struct Known {
               *plot_view = nullptr;
 };
 
-/// What comes before the plane is gone.
+/// The options for the stages before the plane is removed.
 void add_scene_options(app::Options& options, SegmentOptions& to);
 Known add_method_options(app::Options& options, SegmentOptions& to);
-/// What a stored tree follows, too. Contradictions are refused.
+/// The options that also apply to a stored tree. Contradictions are refused.
 void add_cut_options(app::Options& options, CutArguments& cut, const Known& known);
 void add_output_options(app::Options& options, Arguments& arguments, app::PlotArguments& plots,
                         Known& known);
 
 /// Stores the options for plots in the arguments. @throws Error (usage).
 void take_plots(Arguments& arguments, const app::PlotArguments& plots, const Known& known);
-/// Those of the options that were given which make the scene, for a command that cuts it elsewhere.
+/// The given options that affect the scene, for a command that makes another cut.
 std::vector<std::string> scene_options(const app::Options& options);
 
 }  // namespace ph::segment

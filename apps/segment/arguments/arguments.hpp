@@ -54,7 +54,7 @@ struct Arguments {
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
   CutArguments cut;
-  /// The options that were given of those that do nothing for some inputs or methods.
+  /// The given options that have no effect for some inputs or methods.
   std::vector<app::GivenOption> given;
   OutputPaths files;
   ViewTurn plot_view;       ///< view of a plot that shows the cloud

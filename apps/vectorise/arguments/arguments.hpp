@@ -43,7 +43,7 @@ struct Arguments {
   std::optional<OutputFormat> output_format;
   std::string fit;     // path; empty: none
   std::string fitted;  // path; empty: none
-  // The options that were given of those that do nothing for some kinds of vectors.
+  // The given options that have no effect for some kinds of vectors.
   std::vector<app::GivenOption> given;
 
   bool names_format() const;  ///< set by an option or an extension; otherwise the format is csv

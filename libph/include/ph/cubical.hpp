@@ -36,7 +36,7 @@ inline constexpr std::array names_of<CubicalOptions::Construction>{
     Named{CubicalOptions::Construction::cells, "cells"},
 };
 
-/// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n
+/// The cubical filtration of an image of any dimension, in doubled grid coordinates. An axis of n
 /// voxels has 2n-1 coordinates in the V-construction (even: a voxel, odd: between two), 2n+1 in the
 /// T-construction (odd: a voxel), and 2n in both if it is periodic. A cell's dimension is the
 /// number of its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid

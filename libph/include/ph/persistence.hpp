@@ -33,7 +33,7 @@ inline constexpr std::array names_of<Collapse>{
     Named{Collapse::off, "off"},
 };
 
-/// What to compute, and how.
+/// The task, and the way to compute it.
 struct Options {
   /// Highest dimension of homology that is reported; default: 1 for Rips, otherwise all dimensions.
   std::optional<int> max_dim = std::nullopt;

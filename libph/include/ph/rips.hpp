@@ -72,7 +72,7 @@ inline constexpr std::tuple members_of<RipsOptions>{
     Member{"device", &RipsOptions::device},
 };
 
-/// What an engine sees of a Rips filtration before any form of it is made.
+/// The view that an engine has of a Rips filtration before any form of it is made.
 struct RipsInput {
   Index size;                        ///< the largest possible number of vertices
   std::optional<PointsView> points;  ///< empty for a filtration of distances

@@ -113,8 +113,8 @@ struct PlaneSight {
   double hidden = 0;  ///< behind points of the plane: no sensor at the viewpoint could see them
 };
 
-/// The result of the pipeline: the merge tree of the scene, one cut of it, and how it went. A
-/// value: it refers to nothing outside.
+/// The result of the pipeline: the merge tree of the scene, one cut of it, and a record of the run.
+/// A value: it refers to nothing outside itself.
 struct Segmentation {
   SceneTree tree;
   SceneCut cut;            ///< of the tree, as its `first_cut` says

@@ -32,7 +32,7 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
     for (const VoxelPair& p : surface.pairs)
       if (are_apart(p.u, p.v) && p.distance < adjacent_radius(scene.voxel))
         meet(p.u, p.v, std::max(scene.merge_tree.births[p.u], scene.merge_tree.births[p.v]));
-  } else if (options.value < scene.distance) {  // else all that have an edge are one
+  } else if (options.value < scene.distance) {  // else joined vertices are one component
     for_each_pair_within(
         scene.vertices, scene.distance,
         [&](Index i, Index j, double length) {
@@ -50,7 +50,7 @@ std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context) {
   // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
-  // complex every merge is done.
+  // complex, every merge is done.
   if (scene.method == Method::paper) return scene.merge_tree.components(options.value);
   std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return component_of;

@@ -289,7 +289,7 @@ def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool
     levels = None
     births, limit = flag.births, flag.limit
     if flag.matrix is not None:
-        # The transpose of the array: what is below its diagonal is read.
+        # The transpose of the array, because the part below its diagonal is read.
         space = _core.MetricSpace.of_distances(flag.matrix.T, "lower", "error", False)
     else:
         assert flag.pairs is not None

@@ -220,7 +220,7 @@ class Alpha(ProgramTest):
         at, _, triangles, marks = read_ply(self.read_bytes("wrap.ply"))
         self.assertTrue(0 < volume(at, [t for t, m in zip(triangles, marks) if not m]) < 4.19)
         self.assertEqual(read_ply(self.read_bytes("none.ply")), ([], [], [], []))
-        # A file that was written is a mesh, as any other.
+        # A written file is a mesh like any other.
         self.assertEqual(self.bars("hull.off", "--complex", "alpha", "--max-dim", "0")[-1][2], math.inf)
 
     def test_surfaces_of_a_batch(self):

@@ -120,14 +120,14 @@ class Overwrites(FolderTest):
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(self.path("x.svg")))
-        # In a folder that is not there yet.
+        # The folder does not exist yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
                           ["-o", "new/*.svg", "--output-format", "csv", "--plot",
                            "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
         self.assertFalse(os.path.exists(self.path("new")))
-        # What keeps nothing may be written twice.
+        # A device that keeps nothing may be written twice.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reports, plots and JSON of inputs whose names, titles and strings would like to be code: the page
-has the elements of any other page, and the pictures are XML."""
+"""Reports, plots and JSON of inputs whose names, titles and strings try to be code: the page has
+the same elements as any other page, and the pictures are XML."""
 import json
 import os
 import sys

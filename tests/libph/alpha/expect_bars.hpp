@@ -15,7 +15,7 @@ inline bool is_near(double found, const Rational& exact, double absolute) {
   return std::abs(found - expected) <= absolute + 1e-12 * std::abs(expected);
 }
 
-/// Takes out one of the bars by one; what is left of those found must have no length.
+/// Removes matching bars one by one; the remaining found bars must have no length.
 inline void expect_bars(const Barcode& found, const std::vector<OracleBar>& exact,
                         double absolute) {
   std::vector<Bar> left(found.begin(), found.end());

@@ -130,7 +130,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
     };
     if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) return;
     ++compared;
-    // Of four parts the first three, in both groupings.
+    // The first three of four parts, in both groupings.
     if (c.layers < 4) return;
     auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
     left[0].join(std::move(left[1]));

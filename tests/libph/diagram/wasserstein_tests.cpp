@@ -108,8 +108,8 @@ double by_hungarian_method(const Bars& a, const Bars& b, double p, double q) {
   return sum;
 }
 
-/// Whether bounds are those of a known distance, exact but for rounding.
-/// @param alone what all bars cost that go to the diagonal: prices are rounded in proportion to it.
+/// True if bounds fit a known distance, up to rounding.
+/// @param alone the cost of all bars on the diagonal: the rounding of prices is proportional to it.
 void expect_distance(const DistanceBounds& found, double expected, const std::string& where,
                      double p = 1, double alone = 0) {
   ASSERT_NEAR(found.value, expected, 1e-11 * expected) << where;

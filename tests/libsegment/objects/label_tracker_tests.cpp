@@ -136,7 +136,7 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame first(stack, kNoWall, {kOnTable, on_first});
   LabelTracker tracker;
   tracker.update(first.tree, first.cut);
-  // The labels change places. What is below is seen as standing on what is above, for a frame.
+  // The labels swap. For one frame, the lower object appears to stand on the upper one.
   const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
   EXPECT_EQ(tracker.update(wrong.tree, wrong.cut), (Labels{2, 1}));
   EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));

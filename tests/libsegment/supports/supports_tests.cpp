@@ -113,7 +113,7 @@ TEST(Surfaces, AWallIsNoObject) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // What is a wall in one cut is none of the segments of another.
+  // A wall in one cut is not a segment in another.
   const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(again.surfaces, s.tree.surfaces);
@@ -239,7 +239,7 @@ TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
   const Segmentation next = room.segmented({.plane_guess = guess});
   EXPECT_EQ(next.cut.labels, alone.cut.labels);
   EXPECT_NEAR(next.tree.plane->offset, alone.tree.plane->offset, 1e-4) << "it is fitted again";
-  // Somewhere else, it is looked for anew.
+  // In another place, the search starts again.
   guess.offset += 0.3;
   EXPECT_EQ(room.segmented({.plane_guess = guess}).tree.plane, alone.tree.plane);
   guess.normal = {1, 1, 0};

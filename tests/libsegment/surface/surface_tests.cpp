@@ -57,7 +57,7 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   EXPECT_GT(s.cut.segments[1].persistence, 10);
   EXPECT_LE(s.cut.segments[1].persistence, s.cut.segments[1].meets_at);
   EXPECT_EQ(s.difference, "");
-  // By distance alone they are one.
+  // By distance alone they are one segment.
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).cut.segments.size(), 1U);
 }
 
@@ -76,7 +76,7 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
   const Segmentation s = segment(cloud);
   const double persistence = s.cut.segments[1].persistence;
   EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).cut.segments.size(), 1U);
-  // No place of the seam is lower, so it is not weak for half of that.
+  // No place of the seam is lower; therefore it is not weak at half of that value.
   EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).cut.segments.size(), 2U);
   EXPECT_EQ(segment(cloud, {.min_part = s.cut.segments[1].voxels + 50}).cut.segments.size(), 1U);
   // The same from the tree that was stored.
@@ -147,7 +147,7 @@ TEST(Surface, CoarseSamplesGetLargerVoxels) {
   EXPECT_GT(s.tree.voxel, 0.005);
   EXPECT_LE(s.tree.voxel, 0.026);
   EXPECT_EQ(s.cut.segments.size(), 2U);
-  // Who asks for a size gets it.
+  // A requested size is used.
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).tree.voxel, 0.005);
 }
 
@@ -177,7 +177,7 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
     const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false});
     EXPECT_GT(s.tree.voxel, 0.005);
     EXPECT_EQ(s.cut.segments.size(), 1U);
-    // Each stage once, though the grid was made more often.
+    // Each stage is listed once, although the grid was made several times.
     EXPECT_EQ(std::ranges::count(s.stages, "voxel grid", &Stage::name), 1);
     EXPECT_EQ(std::ranges::count(s.stages, "neighbours", &Stage::name), 1);
     EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points,

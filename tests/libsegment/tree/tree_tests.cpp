@@ -271,7 +271,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
       &kTreeNoVertex, sizeof kTreeNoVertex);
   EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
-  // Far from the voxel: aside, high above it, behind the plane; or so few that a point is missing.
+  // Far from the voxel: to the side, high above it, behind the plane; or too few points.
   const Vec3 n = s.tree.plane->normal;
   for (const double away : {1.0, -1.0, 1e30})
     EXPECT_TRUE(says(damaged([&](SceneTree& t) {
@@ -342,7 +342,7 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
   EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
   for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
-  // Other methods do not look through openings, and without a plane nothing is below it.
+  // Other methods do not look through openings, and without a plane there is nothing below it.
   SceneTree tree = b.s.tree;
   tree.method = Method::supervoxels;
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);

@@ -11,7 +11,7 @@ class Program(random_runs.Program):
         return {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
 
     def __call__(self, options, stdin=None):
-        """@return the exit code. Files of earlier calls are left where they are."""
+        """@return the exit code. Files of earlier calls are kept."""
         self.before = self.files()
         return super().__call__(options, stdin)
 

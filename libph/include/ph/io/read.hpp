@@ -34,7 +34,7 @@ inline constexpr std::array names_of<Diagonal>{
     Named{Diagonal::births, "births"},
 };
 
-/// How an asymmetric square matrix becomes a distance matrix.
+/// The way to turn an asymmetric square matrix into a distance matrix.
 enum class Symmetrise {
   none,   ///< an error if entries differ by more than 1e-6 of the largest one
   max,    ///< d(i,j) = max of both entries
@@ -50,7 +50,7 @@ inline constexpr std::array names_of<Symmetrise>{
     Named{Symmetrise::lower, "lower"},
 };
 
-/// What a NaN in the input means.
+/// The meaning of a NaN in the input.
 enum class NanPolicy {
   error,  ///< bad data; only a hole of a point cloud is accepted
   drop,   ///< points: the row is left out; distances: the pair is never joined (+infinity); images:
@@ -63,7 +63,7 @@ inline constexpr std::array names_of<NanPolicy>{
     Named{NanPolicy::drop, "drop"},
 };
 
-/// What a two-dimensional array (NPY), or a text of numbers, holds.
+/// The content of a two-dimensional array (NPY), or of a text of numbers.
 enum class ArrayMeaning {
   automatic,  ///< decided by shape, type and diagonal, with a note; by default an image (NPY) or
               ///< points (text)
@@ -80,7 +80,7 @@ inline constexpr std::array names_of<ArrayMeaning>{
     Named{ArrayMeaning::distances, "distances"},
 };
 
-/// Which number of a pixel is its value.
+/// The number of a pixel that is its value.
 enum class Channel {
   automatic,  ///< the only channel, or the value that all channels share
   grey,       ///< for colours: their luma by ITU-R BT.601, 0.299 R + 0.587 G + 0.114 B, to the
@@ -97,7 +97,7 @@ inline constexpr std::array names_of<Channel>{
     Named{Channel::green, "green"},    Named{Channel::blue, "blue"}, Named{Channel::alpha, "alpha"},
 };
 
-/// How an image lies in a file that does not say so itself.
+/// The layout of an image in a file that does not describe it.
 struct RawLayout {
   std::vector<Index> extents = {};  ///< sizes of the axes, the last one fastest
   std::string type = "u1";          ///< as in NumPy: u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8

@@ -39,7 +39,7 @@ std::string json_cell(const std::optional<InputCell>& cell) {
   return fmt::format("{{{}}}", json_cell_member(*cell));
 }
 
-/// A chain can be as long as the input: written term by term.
+/// A chain can be as long as the input, and is therefore written term by term.
 void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("[");
   for (std::size_t i = 0; i < chain.size(); ++i)

@@ -290,15 +290,15 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Everything that the last call found: segments with boxes and neighbours, the tree, times.
   const segment::Segmentation& result() const { return result_; }
   const std::vector<segment::Segment>& getSegments() const { return result_.cut.segments; }
-  /// Supports and walls, which are no segments; Segment::on says on which of them one stands.
+  /// The supports and walls, which are not segments; Segment::on names the support of a segment.
   const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.tree.surfaces; }
-  /// The points on each of them.
+  /// The points on each of these surfaces.
   std::vector<::pcl::PointIndices> getSurfaceIndices() const {
     return surface_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
-  /// The merge tree with what other cuts need.
+  /// The merge tree, with the data that other cuts need.
   const segment::SceneTree& getTree() const { return result_.tree; }
-  /// The persistence of each segment; infinite for one that touches no other.
+  /// The persistence of each segment; infinite for a segment that touches no other.
   std::vector<double> getConfidences() const {
     std::vector<double> confidences;
     for (const segment::Segment& s : result_.cut.segments) confidences.push_back(s.persistence);

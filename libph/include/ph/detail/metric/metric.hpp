@@ -66,7 +66,7 @@ inline constexpr std::array names_of<PointDistance>{
     Named{PointDistance::cosine, "cosine"},       Named{PointDistance::hamming, "hamming"},
 };
 
-/// The name of a distance, as JSON of bars has it: "euclidean", "minkowski:3".
+/// The name of a distance as in the JSON of bars: "euclidean", "minkowski:3".
 /// @param p exponent of PointDistance::minkowski.
 std::string metric_name(PointDistance distance, double p = 2);
 
@@ -82,8 +82,8 @@ inline constexpr std::array names_of<Device>{
     Named{Device::gpu, "gpu"},
 };
 
-/// A set of points with one of the named distances. Keeps a view of the points.
-/// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
+/// A set of points with one of the named distances. It keeps a view of the points. Coordinates of
+/// any finite size are allowed: sums of squares are scaled before they overflow.
 class PointMetric {
  public:
   /// @param points one point per row, finite coordinates. @param p exponent of `minkowski`.

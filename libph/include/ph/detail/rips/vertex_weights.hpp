@@ -26,7 +26,7 @@ inline constexpr std::array names_of<WeightExponent>{
     Named{WeightExponent::infinity, "inf"},
 };
 
-/// When the vertices of a Rips filtration enter, and its edges because of them.
+/// The values at which the vertices of a Rips filtration enter, and their effect on its edges.
 class VertexWeights {
  public:
   /// All vertices enter at 0, and edges enter at their distance.
