@@ -8,11 +8,11 @@
 #include <cmath>
 #include <optional>
 
-#include "common/arguments/numbers.hpp"
-#include "common/files/barcode_files.hpp"
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
+#include "common/inputs/barcode_files.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/numbers.hpp"
 #include "distance/arguments/scopes.hpp"
 #include "distance/data/groups.hpp"
 #include "distance/data/pairs.hpp"

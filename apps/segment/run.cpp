@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/words.hpp"
 #include "core/system/files.hpp"

@@ -5,18 +5,18 @@
 
 #include <optional>
 
-#include "common/arguments/numbers.hpp"
-#include "common/files/barcode_files.hpp"
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
+#include "common/inputs/barcode_files.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/numbers.hpp"
 #include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "vectorise/arguments/scopes.hpp"
 #include "vectorise/data/samples.hpp"
 #include "vectorise/data/table.hpp"
 #include "vectorise/fit/fit_json.hpp"
-#include "vectorise/fit/make_fit.hpp"
+#include "vectorise/make_fit.hpp"
 
 namespace ph::vectorise {
 namespace {

@@ -13,7 +13,7 @@
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/tree_arrays.hpp"
 #include "report/arrays/voxel_arrays.hpp"
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 
 namespace ph::report {
 namespace {

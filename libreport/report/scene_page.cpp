@@ -12,7 +12,7 @@
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/touching_leaves.hpp"
 #include "report/arrays/tree_arrays.hpp"
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 #include "supports/bounds.hpp"
 
 namespace ph::report {

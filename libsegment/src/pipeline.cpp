@@ -5,17 +5,17 @@
 #include <iterator>
 #include <utility>
 
+#include "cut.hpp"
 #include "methods.hpp"
-#include "options.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
 #include "plane/hidden_points.hpp"
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/range_filter.hpp"
+#include "scene/options.hpp"
 #include "supports/bounds.hpp"
 #include "tree/cross_check.hpp"
-#include "tree/cut.hpp"
 #include "tree/tree_barcode.hpp"
 #include "vessels/openings.hpp"
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
+#include "calls/words.hpp"
 #include "core/format_size.hpp"
 #include "data/arrays.hpp"
 #include "facade/adjust.hpp"
@@ -15,8 +17,6 @@
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
 #include "recipes.hpp"
-#include "run.hpp"
-#include "words.hpp"
 
 namespace ph::python {
 namespace {

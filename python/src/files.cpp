@@ -10,15 +10,15 @@
 #include <variant>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
+#include "calls/words.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "results/bars.hpp"
 #include "results/origin.hpp"
-#include "run.hpp"
-#include "words.hpp"
 
 namespace ph::python {
 namespace {

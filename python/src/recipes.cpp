@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/report.hpp"
 #include "ph/scene_report.hpp"
 #include "recipes.hpp"
-#include "report/page_template.hpp"
+#include "report/page/page_template.hpp"
 #include "results/origin.hpp"
-#include "run.hpp"
 #include "scenes/scene.hpp"
 #include "tree/tree_barcode.hpp"
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

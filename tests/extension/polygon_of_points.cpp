@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What gives the complex to the program.
-#include "barcode/complex/own_complex.hpp"
+#include "barcode/job/own_complex.hpp"
 #include "polygon.hpp"
 
 namespace {

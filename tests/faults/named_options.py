@@ -12,7 +12,7 @@ from run_corpus import named_options, options_of
 # The sources with which ph-segment reads its inputs, beside the folders core/, metric/ and
 # complex/.
 READERS_OF_CLOUDS = re.compile(
-    r"io/(clouds/|bytes/(png|input|unpack|lzf|text_lines|binary_cursor|output_file))")
+    r"io/(clouds/|images/png|tables/text_lines|bytes/(input|unpack|lzf|binary_cursor|output_file))")
 # Sources for inputs that only ph-segment reads.
 DEPTH_AND_ARRAYS = re.compile(r"io/clouds/(depth|npy_cloud|camera)")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')

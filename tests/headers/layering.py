@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks which room may include which, how large a folder may be, where tests are, and that
-fmt::join has its header: layering.py ROOT.
+"""Which room may include which, that no folders include each other in a circle, how large a folder
+may be, where tests lie, and that fmt::join has its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-# The rooms that each room may include, beside itself.
+# The rooms that each may look into, beside itself.
 MAY_INCLUDE = {
     "core": "",
     "metric": "core components",
@@ -67,14 +67,13 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
            ("apps/", None), ("python/", "python"))
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MAY_SHOW = {"pcl": "libsegment/pcl/", "CGAL": "libph/src/alpha/cgal/"}
-MOST_FILES = 40  # in a larger folder, nobody finds a file by its name
-# Folders of public headers: headers that no user includes directly belong in ph/detail. No folder
-# may grow.
+MOST_FILES = 40  # in a larger folder nobody finds a file by its name
+# Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
 MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 4,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
-# Folders of tests, and the sources whose rooms they mirror.
+# Folders of tests, and whose rooms theirs are.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
             "tests/apps": ("apps", "libreport")}
 
@@ -101,7 +100,7 @@ def room_of(file):
 
 
 def target_of(root, file, include):
-    """The file below ROOT that is meant; None if it is a third-party file."""
+    """The file of ours that is meant, below ROOT; None if it is somebody else's."""
     for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
                  Path("libsegment/pcl/include"), Path("libsegment/src"),
                  Path("libreport/include"), Path("libreport"), Path("apps"), Path("python/src")):
@@ -144,7 +143,7 @@ def too_large(root):
     tops = ("libph", "libsegment", "libreport", "apps", "bench", "python", "tests")
     for folder in sorted(p for top in tops for p in (root / top, *(root / top).rglob("*"))
                          if p.is_dir()):
-        # The number of seeds is not limited, and Python's caches are not ours.
+        # Seeds are as many as were found, and what Python caches is not ours.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue
         count = sum(p.is_file() and p.name != "py.typed" for p in folder.iterdir())
@@ -165,7 +164,7 @@ def misplaced_tests(root):
 
 
 def room_cycles():
-    """Rooms that may include each other."""
+    """Rooms that may see one another."""
     seen = {room: set(rooms.split()) for room, rooms in MAY_INCLUDE.items()}
     for via in seen:
         for rooms in seen.values():
@@ -174,13 +173,54 @@ def room_cycles():
     return (f"{room}: found in a cycle of rooms" for room in seen if room in seen[room])
 
 
+def folder_of(file):
+    """The folder that a file is in. A public header lies where users look for it: it counts for its
+    room."""
+    if "/include/" in str(file):
+        return f"public headers of {room_of(file)}"
+    return str(file.parent)
+
+
+def reachable(start, edges):
+    found, left = set(), [start]
+    while left:
+        for other in edges[left.pop()] - found:
+            found.add(other)
+            left.append(other)
+    return found
+
+
+def circles(root, files):
+    """Folders that include each other, a folder and one inside it among them: whoever reads one of
+    them has to read all."""
+    edges, example = {folder_of(f): set() for f in files}, {}
+    for file in files:
+        for match in INCLUDE.finditer((root / file).read_text()):
+            target = target_of(root, file, match[1] or match[2])
+            here = folder_of(file)
+            if target and folder_of(target) in edges and folder_of(target) != here:
+                edges[here].add(folder_of(target))
+                example.setdefault((here, folder_of(target)), f"{file}: {target}")
+    reached = {folder: reachable(folder, edges) for folder in edges}
+    told = set()
+    for folder in sorted(edges):
+        circle = sorted(f for f in reached[folder] if folder in reached[f])
+        if circle and folder not in told:
+            told.update(circle)
+            yield f"{', '.join(circle)}: found in a circle:"
+            for (a, b), text in sorted(example.items()):
+                if a in circle and b in circle:
+                    yield f"  {text}"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
     files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "libreport", "apps", "python")
                    for p in (root / top).rglob("*") if p.suffix in (".hpp", ".ipp", ".cpp"))
     found = [v for file in files for v in violations_of(root, file)]
-    found += [*too_large(root), *misplaced_tests(root), *room_cycles()]
-    print(*found, f"{len(files)} files looked at, {len(found)} violations", sep="\n")
+    found += [*too_large(root), *misplaced_tests(root), *room_cycles(), *circles(root, files)]
+    count = sum(not text.startswith(" ") for text in found)
+    print(*found, f"{len(files)} files looked at, {count} violations", sep="\n")
     return 1 if found or not files else 0
 
 

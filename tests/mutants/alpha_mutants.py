@@ -10,7 +10,7 @@ MUTANTS = [
     ("alpha: doubtful signs are turned", ALPHA + "intervals/spheres.cpp",
      "if (values[k] < -bound || lies_inside(face, N, k))",
      "if (values[k] < -bound || (values[k] < 0 && !lies_inside(face, N, k)))", ["alpha_tests"]),
-    ("alpha: weights do not lift", ALPHA + "intervals/squared_radius.hpp",
+    ("alpha: weights do not lift", ALPHA + "sites/squared_radius.hpp",
      "return dot(to, to) - weights[i] + weight;", "return dot(to, to) - weights[i];",
      ["definition_tests"]),
     ("alpha: values of flat tetrahedra in double only", ALPHA + "intervals/spheres.cpp",

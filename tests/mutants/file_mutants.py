@@ -41,7 +41,7 @@ MUTANTS = [
      "d.size() > most && d.back() == 0",
      "d.size() > most",
      ["io_read_tests"], "io_read_tests"),
-    ("Euler curves: one change is none", "apps/vectorise/fit/make_fit.cpp",
+    ("Euler curves: one change is none", "apps/vectorise/make_fit.cpp",
      "changes.push_back({0, curve.at[k], kInfinity});",
      "changes.push_back({0, curve.at[k], curve.at[k]});",
      ["ph-vectorise"], "ph_vectorise_fits"),

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rips/sweep/edge_links.hpp"
+#include "rips/edge_links.hpp"
 #include "support/conformance.hpp"
 
 namespace ph::test {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -12,10 +12,10 @@
 
 #include "barcode/arguments/argument_groups.hpp"
 #include "barcode/arguments/manual.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/values/numbers.hpp"
 #include "core/lower_case.hpp"
-#include "report/page_template.hpp"
+#include "report/page/page_template.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "barcode/complex/own_complex.hpp"
+#include "barcode/job/job.hpp"
+#include "barcode/job/own_complex.hpp"
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/arguments/plot_arguments.hpp"
@@ -39,14 +40,6 @@ constexpr bool is_triangulated(ComplexKind kind) {
 
 /// Whether bars of H1 that come with cycles come with loops, too.
 enum class LoopChoice { tight, plain, none };
-
-/// The surface of an alpha complex at a value, as a file of triangles.
-struct Surface {
-  double value = 0;
-  std::string path;
-  bool is_wrap = false;  ///< of its wrap complex
-  std::string option() const { return is_wrap ? "--wrap" : "--alpha-shape"; }
-};
 
 /// Everything the command line says.
 struct Arguments {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/error.hpp"
 

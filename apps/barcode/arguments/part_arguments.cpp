@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 
 namespace ph::barcode {
 namespace {

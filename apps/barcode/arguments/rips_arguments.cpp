@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 
 namespace ph::barcode {
 

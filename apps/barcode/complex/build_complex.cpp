@@ -12,7 +12,7 @@
 #include "barcode/arguments/scopes.hpp"
 #include "barcode/complex/build_alpha.hpp"
 #include "barcode/complex/cubical_options.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 #include "complex/listed_cubes.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/report/shown_tree.hpp"

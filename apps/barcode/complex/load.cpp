@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "barcode/arguments/scopes.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/terminal/messages.hpp"
+#include "common/values/numbers.hpp"
 #include "core/system/files.hpp"
 
 namespace ph::barcode {

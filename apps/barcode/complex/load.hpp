@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "barcode/arguments/arguments.hpp"
 #include "barcode/complex/build_complex.hpp"
 #include "barcode/complex/read_input.hpp"
-#include "barcode/run.hpp"
+#include "barcode/job/job.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/system/files.hpp"
-#include "io/points/table.hpp"
+#include "io/tables/table.hpp"
 #include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {

@@ -9,8 +9,8 @@
 
 #include "barcode/complex/build_complex.hpp"
 #include "barcode/complex/read_input.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/terminal/words.hpp"
+#include "common/values/numbers.hpp"
 #include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "ph/estimate.hpp"

@@ -2,7 +2,9 @@
 #pragma once
 #include <string>
 
-#include "barcode/run.hpp"
+#include "barcode/arguments/arguments.hpp"
+#include "barcode/job/job.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "barcode/run.hpp"
+#include "barcode/job/job.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

@@ -10,14 +10,16 @@
 
 #include "barcode/output/stored.hpp"
 #include "common/distances/distance_choice.hpp"
-#include "common/files/barcode_files.hpp"
+#include "common/inputs/barcode_files.hpp"
+#include "common/system/process.hpp"
+#include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/words.hpp"
 #include "core/system/files.hpp"
 #include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/encoding/sha256.hpp"
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 
-#include "common/arguments/numbers.hpp"
 #include "common/distances/distance_choice.hpp"
+#include "common/system/process.hpp"
+#include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/numbers.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "ph/report.hpp"
 #include "report/encoding/sha256.hpp"

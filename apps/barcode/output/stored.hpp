@@ -5,10 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "barcode/arguments/arguments.hpp"
+#include "barcode/job/job.hpp"
 #include "barcode/output/outputs.hpp"
-#include "barcode/run.hpp"
+#include "common/run/session.hpp"
 #include "ph/detail/io/reader.hpp"
-#include "report/metadata.hpp"
+#include "report/page/metadata.hpp"
 
 namespace ph::barcode {
 

@@ -14,11 +14,12 @@
 #include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "barcode/parts/part_input.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
+#include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/numbers.hpp"
 #include "core/format_size.hpp"
 #include "ph/io/write.hpp"
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/numbers.hpp"
 #include "core/format_size.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"

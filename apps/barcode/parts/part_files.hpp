@@ -7,8 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "barcode/arguments/arguments.hpp"
+#include "barcode/job/job.hpp"
 #include "barcode/output/outputs.hpp"
-#include "barcode/run.hpp"
 #include "common/run/session.hpp"
 
 namespace ph::barcode {

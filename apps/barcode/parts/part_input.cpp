@@ -7,7 +7,7 @@
 
 #include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/read_input.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 #include "core/system/files.hpp"
 
 namespace ph::barcode {

@@ -6,7 +6,7 @@
 #include "barcode/parts/cloud_input.hpp"
 #include "barcode/parts/cloud_parts.hpp"
 #include "barcode/ranks/rank_result.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 #include "facade/parts/join_ranks.hpp"
 
 namespace ph::barcode {

@@ -12,7 +12,7 @@
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/part_input.hpp"
 #include "barcode/ranks/rank_result.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 #include "core/bytes/byte_reader.hpp"
 #include "core/bytes/byte_writer.hpp"
 #include "facade/parts/bar_bytes.hpp"

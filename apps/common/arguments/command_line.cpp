@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/arguments/options.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/manual/help_text.hpp"
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
@@ -134,10 +134,6 @@ std::vector<std::string> given_options(const Options& options,
       words.insert(words.end(), option->results().begin(), option->results().end());
   }
   return words;
-}
-
-std::string program_and_version(const std::string& program) {
-  return fmt::format("{} {}", program, PH_VERSION);
 }
 
 std::optional<std::string> parse_command_line(Options& options, const CommonOptions& common,

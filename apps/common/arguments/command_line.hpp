@@ -51,9 +51,6 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
 /// Prints the answer to --help and similar options. @return the exit code.
 int answer_command_line(const std::string& answer);
 
-/// "ph-barcode 0.1.0"
-std::string program_and_version(const std::string& program);
-
 }  // namespace ph::app
 
 namespace ph {

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include "common/arguments/choices.hpp"
+#include "common/values/choices.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/arguments/options.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "core/lower_case.hpp"
 #include "ph/error.hpp"
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "common/arguments/choices.hpp"
 #include "common/manual/lines.hpp"
 #include "common/manual/pages.hpp"
+#include "common/values/choices.hpp"
 
 namespace ph::app {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "common/arguments/command_line.hpp"
 #include "common/manual/lines.hpp"
 #include "common/manual/pages.hpp"
+#include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 
 namespace ph::app {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/cli_names.hpp"
 #include "common/manual/manual.hpp"
+#include "common/values/cli_names.hpp"
 
 namespace ph::app {
 

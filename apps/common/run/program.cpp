@@ -9,8 +9,8 @@
 #include <new>
 #include <system_error>
 
-#include "common/run/signals.hpp"
 #include "common/system/process.hpp"
+#include "common/system/signals.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
 #include "common/terminal/words.hpp"

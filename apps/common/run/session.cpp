@@ -9,7 +9,8 @@
 
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"
-#include "common/run/signals.hpp"
+#include "common/system/process.hpp"
+#include "common/system/signals.hpp"
 #include "common/terminal/messages.hpp"
 #include "common/terminal/words.hpp"
 #include "core/format_size.hpp"

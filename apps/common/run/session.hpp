@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "common/arguments/command_line.hpp"
-#include "common/run/memory_limit.hpp"
 #include "common/run/progress.hpp"
+#include "common/system/memory_limit.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 
@@ -81,8 +81,5 @@ class Output {
   OutputFile file_;
   int slot_ = -1;  // index in the table of names to remove
 };
-
-/// The largest resident memory of the process so far, bytes.
-std::uint64_t peak_memory();
 
 }  // namespace ph::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/memory_limit.hpp"
+#include "common/system/memory_limit.hpp"
 
 #include <malloc.h>
 #include <sys/resource.h>

@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "common/run/session.hpp"
 #include "core/system/machine_memory.hpp"
 
 namespace ph::app {

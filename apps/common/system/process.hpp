@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
+
 namespace ph::app {
 
 /// Sets up the process for the program: standard descriptors that are open and pass bytes
@@ -13,5 +15,8 @@ bool is_given(int descriptor);
 
 /// Makes the allocator return all freed blocks.
 void give_back_freed_memory();
+
+/// The largest resident memory of the process so far, bytes.
+std::uint64_t peak_memory();
 
 }  // namespace ph::app

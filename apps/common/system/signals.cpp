@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/signals.hpp"
+#include "common/system/signals.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "common/run/signals.hpp"
+#include "common/system/signals.hpp"
 
 namespace ph::app {
 namespace {

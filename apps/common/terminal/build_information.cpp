@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "ph/io/plot.hpp"
-#include "report/page_template.hpp"
+#include "report/page/page_template.hpp"
 
 namespace ph::app {
 namespace {
@@ -65,6 +65,10 @@ std::string build_information() {
   line("PCL", fmt::format("{} (ph::pcl; the programs do without)", yes_or_no(PH_WITH_PCL)));
   line("reports", yes_or_no(!report::page_template().empty()));
   return text;
+}
+
+std::string program_and_version(const std::string& program) {
+  return fmt::format("{} {}", program, PH_VERSION);
 }
 
 }  // namespace ph::app

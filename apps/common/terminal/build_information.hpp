@@ -8,4 +8,7 @@ namespace ph::app {
 /// line.
 std::string build_information();
 
+/// "ph-barcode 0.1.0"
+std::string program_and_version(const std::string& program);
+
 }  // namespace ph::app

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/arguments/numbers.hpp"
 #include "common/arguments/options.hpp"
+#include "common/values/numbers.hpp"
 #include "distance/arguments/manual.hpp"
 #include "distance/arguments/scopes.hpp"
 #include "ph/error.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 
 namespace ph::distance_program {
 

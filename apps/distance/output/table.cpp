@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/files/csv_cell.hpp"
+#include "common/terminal/build_information.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/io/write.hpp"

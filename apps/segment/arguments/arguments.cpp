@@ -9,10 +9,10 @@
 #include <array>
 #include <string_view>
 
-#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/values/numbers.hpp"
 #include "ph/error.hpp"
-#include "report/page_template.hpp"
+#include "report/page/page_template.hpp"
 #include "segment/arguments/argument_groups.hpp"
 #include "segment/arguments/manual.hpp"
 #include "segment/arguments/scopes.hpp"

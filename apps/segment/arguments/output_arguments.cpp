@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "common/arguments/numbers.hpp"
+#include "common/values/numbers.hpp"
 #include "ph/error.hpp"
 #include "segment/arguments/argument_groups.hpp"
 

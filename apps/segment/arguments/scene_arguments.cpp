@@ -6,8 +6,8 @@
 #include <array>
 #include <limits>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "ph/error.hpp"
 #include "segment/arguments/argument_groups.hpp"
 

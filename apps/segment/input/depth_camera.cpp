@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/choices.hpp"
+#include "common/values/choices.hpp"
 #include "core/system/files.hpp"
 #include "depth_scene.hpp"
 #include "ph/error.hpp"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "common/system/process.hpp"
 #include "core/lower_case.hpp"
 #include "files/cloud_files.hpp"
 #include "files/label_files.hpp"

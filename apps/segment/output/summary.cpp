@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "common/system/process.hpp"
 #include "ph/io/write.hpp"
 #include "tree/json_text.hpp"
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/arguments/options.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "core/lower_case.hpp"
 #include "ph/error.hpp"
 #include "vectorise/arguments/manual.hpp"

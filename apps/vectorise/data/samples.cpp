@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "common/files/barcode_files.hpp"
+#include "common/inputs/barcode_files.hpp"
 #include "ph/io/write.hpp"
 #include "vectorise/arguments/scopes.hpp"
 

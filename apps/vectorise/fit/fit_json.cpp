@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/arguments/command_line.hpp"
+#include "common/terminal/build_information.hpp"
 #include "io/bytes/json_cursor.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "ph/error.hpp"

@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <functional>
-#include <span>
-
+#include "cubical/sinks/bar_sink.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {
-
-/// Receives bars: from one thread at a time, not always the same thread.
-struct BarSink {
-  /// Adds one bar with its cells, in doubled grid coordinates of the input.
-  std::function<void(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
-      add;
-  /// Adds some bars without cells, which are not wanted.
-  std::function<void(std::span<const Bar> bars)> add_all;
-  /// Announces that about `count` bars may come next.
-  std::function<void(std::size_t count)> expect;
-};
-
-/// The bars that are wanted at least.
-struct BarRequest {
-  int min_dim = 0, max_dim = 0;
-  bool cells = true;  ///< if false, bars have no cells
-};
 
 /// True if `pair_voxels` can do it: there are some voxels, and their number is unlimited if all
 /// bars come from its two graphs, as with at most two axes of more than one voxel (T: or of axes

@@ -6,7 +6,7 @@
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"
 #include "rips/beta_skeleton/beta_skeleton.hpp"
-#include "rips/sweep/edge_links.hpp"
+#include "rips/edge_links.hpp"
 
 namespace ph::detail {
 

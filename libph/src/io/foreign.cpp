@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <utility>
 
-#include "io/points/array.hpp"
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/array.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph::detail {
 namespace {

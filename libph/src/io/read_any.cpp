@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

@@ -7,7 +7,7 @@
 
 #include "ph/persistence.hpp"
 #include "ph/run_context.hpp"
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 
 namespace ph::report {
 

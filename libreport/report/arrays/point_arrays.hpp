@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 
 namespace ph::report {
 

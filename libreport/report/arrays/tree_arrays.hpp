@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ph/detail/report/shown_tree.hpp"
-#include "report/report_file.hpp"
+#include "report/page/report_file.hpp"
 
 namespace ph::report {
 

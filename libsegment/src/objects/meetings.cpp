@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "options.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
+#include "scene/options.hpp"
 
 namespace ph::segment {
 

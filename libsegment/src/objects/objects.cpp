@@ -8,11 +8,11 @@
 #include <memory_resource>
 #include <utility>
 
-#include "objects/close_boxes.hpp"
-#include "objects/parts.hpp"
 #include "objects/view.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
+#include "scene/close_boxes.hpp"
+#include "scene/parts.hpp"
 #include "surface/concavity.hpp"
 #include "vessels/rims.hpp"
 

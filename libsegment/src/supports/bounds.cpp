@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "objects/parts.hpp"
 #include "ph/eigen.hpp"
 #include "plane/plane.hpp"
 #include "plane/squares.hpp"
+#include "scene/parts.hpp"
 #include "supports/planar.hpp"
 
 namespace ph::segment {

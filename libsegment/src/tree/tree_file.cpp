@@ -6,8 +6,8 @@
 #include <bit>
 #include <iterator>
 
-#include "options.hpp"
 #include "ph/scene_tree.hpp"
+#include "scene/options.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "options.hpp"
+#include "scene/options.hpp"
 #include "tree/json_text.hpp"
 #include "tree/tree_file.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "objects/parts.hpp"
 #include "ph/eigen.hpp"
+#include "scene/parts.hpp"
 #include "vessels/circle.hpp"
 #include "vessels/upper_end.hpp"
 

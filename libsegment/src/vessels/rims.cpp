@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "objects/close_boxes.hpp"
 #include "ph/eigen.hpp"
+#include "scene/close_boxes.hpp"
 #include "vessels/circle.hpp"
 #include "vessels/upper_end.hpp"
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 
-#include "objects/parts.hpp"
 #include "ph/segment.hpp"
+#include "scene/parts.hpp"
 
 namespace ph::segment {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "data/arrays.hpp"
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
 
 namespace ph::python {
 

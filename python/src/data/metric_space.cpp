@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
 #include "ph/voxel_image.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

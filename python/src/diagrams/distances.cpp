@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "data/diagrams.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "data/diagrams.hpp"
 #include "recipes.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "data/diagrams.hpp"
 #include "ph/distances.hpp"
 #include "ph/vectorise.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "data/diagrams.hpp"
 #include "ph/vectorise.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

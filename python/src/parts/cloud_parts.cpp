@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "parts/part_bytes.hpp"
 #include "results/bars.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

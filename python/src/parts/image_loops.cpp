@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
 #include "parts/part_bytes.hpp"
 #include "ph/error.hpp"
 

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "facade/parts/bar_bytes.hpp"
 #include "parts/image_loops.hpp"
 #include "parts/part_bytes.hpp"
 #include "ph/parts/image_part.hpp"
 #include "recipes.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

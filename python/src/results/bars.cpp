@@ -7,13 +7,13 @@
 #include <functional>
 #include <utility>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "ph/error.hpp"
 #include "ph/io/plot.hpp"
 #include "results/bars_state.hpp"
 #include "results/state.hpp"
-#include "run.hpp"
 
 namespace ph::python {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/error.hpp"
 

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "depth_scene.hpp"
 #include "ph/io/cloud.hpp"
-#include "run.hpp"
 #include "scenes/scene.hpp"
 
 namespace ph::python {

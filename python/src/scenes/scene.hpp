@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "calls/words.hpp"
 #include "depth_scene.hpp"
 #include "ph/segment.hpp"
-#include "words.hpp"
 
 namespace ph::python {
 

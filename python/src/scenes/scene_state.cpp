@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
 #include "data/arrays.hpp"
 #include "results/state.hpp"
 #include "tree/tree_barcode.hpp"

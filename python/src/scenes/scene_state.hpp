@@ -3,8 +3,8 @@
 // Segmentations as plain values and arrays: for pickle.
 #include <pybind11/pybind11.h>
 
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
-#include "run.hpp"
 #include "scenes/scene.hpp"
 
 namespace ph::python {

@@ -12,7 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "bindings.hpp"
+#include "calls/bindings.hpp"
+#include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "files/cloud_files.hpp"
 #include "files/label_files.hpp"
@@ -24,7 +25,6 @@
 #include "pictures/cloud_legend.hpp"
 #include "pictures/colouring.hpp"
 #include "results/bars.hpp"
-#include "run.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_state.hpp"
 

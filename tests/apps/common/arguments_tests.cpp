@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/choices.hpp"
-#include "common/arguments/numbers.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/manual/lines.hpp"
 #include "common/manual/option_text.hpp"
+#include "common/values/choices.hpp"
+#include "common/values/numbers.hpp"
 #include "core/format_size.hpp"
 #include "kind_of.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <thread>
 
-#include "common/run/memory_limit.hpp"
 #include "common/run/progress.hpp"
 #include "common/run/session.hpp"
+#include "common/system/memory_limit.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
 #include "kind_of.hpp"

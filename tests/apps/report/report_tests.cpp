@@ -11,9 +11,9 @@
 #include "ph/error.hpp"
 #include "report/encoding/array_block.hpp"
 #include "report/encoding/sha256.hpp"
-#include "report/metadata.hpp"
-#include "report/page_template.hpp"
-#include "report/report_file.hpp"
+#include "report/page/metadata.hpp"
+#include "report/page/page_template.hpp"
+#include "report/page/report_file.hpp"
 #include "support/report_arrays.hpp"
 
 namespace ph::report {

@@ -10,7 +10,7 @@
 #include "chosen_numbers.hpp"
 #include "io/bytes/json_cursor.hpp"
 #include "report/encoding/array_block.hpp"
-#include "report/metadata.hpp"
+#include "report/page/metadata.hpp"
 #include "support/report_arrays.hpp"
 #include "targets.hpp"
 #include "violation.hpp"

@@ -5,8 +5,7 @@
 #include <io.h>
 #include <malloc.h>
 
-#include "common/run/memory_limit.hpp"
-#include "common/run/session.hpp"
+#include "common/system/memory_limit.hpp"
 #include "core/system/machine_memory.hpp"
 
 namespace ph::app {

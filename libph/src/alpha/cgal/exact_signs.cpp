@@ -7,8 +7,8 @@
 #include <random>
 
 #include "alpha/cgal/kernel.hpp"
-#include "alpha/cgal/triangulations.hpp"
-#include "alpha/intervals/squared_radius.hpp"
+#include "alpha/sites/squared_radius.hpp"
+#include "alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

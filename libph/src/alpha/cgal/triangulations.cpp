@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/cgal/triangulations.hpp"
+#include "alpha/triangulation/triangulations.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>

@@ -13,7 +13,7 @@ void ph::alpha::check_lemmas(const AlphaCells&) {}
 #include <map>
 #include <vector>
 
-#include "alpha/cgal/triangulations.hpp"
+#include "alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "alpha/cgal/triangulations.hpp"
 #include "alpha/intervals/double_double.hpp"
-#include "alpha/intervals/squared_radius.hpp"
+#include "alpha/sites/squared_radius.hpp"
+#include "alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alpha/cgal/triangulations.hpp"
+#include "alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "cubical/any_axes/cell_components.hpp"
-#include "cubical/any_axes/cell_sink.hpp"
 #include "cubical/columns/boundary_reduction.hpp"
+#include "cubical/sinks/cell_sink.hpp"
 #include "cubical/stars/star_matcher.hpp"
 #include "image/voxels_in_use.hpp"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/pair_voxels.hpp"
+#include "cubical/sinks/bar_sink.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {
 

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/flat_map.hpp"
-#include "cubical/any_axes/cell_sink.hpp"
 #include "cubical/columns/boundary_column.hpp"
 #include "cubical/columns/parallel_reduction.hpp"
+#include "cubical/sinks/cell_sink.hpp"
 
 namespace ph::cubical {
 

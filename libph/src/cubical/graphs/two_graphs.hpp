@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/pair_sink.hpp"
-#include "cubical/pair_voxels.hpp"
+#include "cubical/sinks/bar_sink.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/star_grid.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "cubical/stars/grid_shape.hpp"
-#include "cubical/stars/star_tables.hpp"
+#include "cubical/grid/grid_shape.hpp"
+#include "cubical/grid/star_tables.hpp"
 
 namespace ph::cubical {
 

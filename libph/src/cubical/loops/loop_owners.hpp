@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cubical/columns/ordered_cell.hpp"
+#include "cubical/grid/grid_frame.hpp"
 #include "cubical/stars/free_edges.hpp"
-#include "cubical/stars/grid_frame.hpp"
 
 namespace ph::cubical {
 

@@ -10,7 +10,7 @@
 #include "cubical/columns/parallel_reduction.hpp"
 #include "cubical/loops/loop_column.hpp"
 #include "cubical/loops/loop_owners.hpp"
-#include "cubical/pair_sink.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/stars/critical_cells.hpp"
 
 namespace ph::cubical {

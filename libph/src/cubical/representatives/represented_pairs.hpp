@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cubical/columns/voxel_chain.hpp"
-#include "cubical/pair_sink.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 
 namespace ph::cubical {
 

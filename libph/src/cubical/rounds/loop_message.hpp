@@ -12,7 +12,7 @@
 #include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
 #include "cubical/columns/ordered_cell.hpp"
-#include "cubical/stars/star_tables.hpp"
+#include "cubical/grid/star_tables.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cubical/stars/grid_shape.hpp"
+#include "cubical/grid/grid_shape.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {

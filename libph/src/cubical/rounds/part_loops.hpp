@@ -12,9 +12,9 @@
 #include "cubical/columns/parallel_reduction.hpp"
 #include "cubical/loops/loop_column.hpp"
 #include "cubical/loops/loop_owners.hpp"
-#include "cubical/pair_sink.hpp"
 #include "cubical/rounds/loop_message.hpp"
 #include "cubical/rounds/part_stars.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/stars/free_edges.hpp"
 

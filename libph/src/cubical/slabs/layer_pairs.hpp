@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cubical/layers/layer_grid.hpp"
-#include "cubical/pair_sink.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/seam_forest.hpp"
 #include "cubical/stars/critical_cells.hpp"

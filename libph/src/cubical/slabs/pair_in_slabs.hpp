@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/pair_sink.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/slabs/slabs.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph::cubical {
 

@@ -8,7 +8,7 @@
 
 #include "cubical/loops/loop_reduction.hpp"
 #include "cubical/slabs/free_cells.hpp"
-#include "cubical/stars/stored_stars.hpp"
+#include "cubical/slabs/stored_stars.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/stars/slab_frame.hpp"
+#include "cubical/grid/slab_frame.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/any_axes/cell_grid.hpp"
+#include "cubical/grid/cell_grid.hpp"
 
 namespace ph::cubical {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cubical/graphs/two_graphs.hpp"
-#include "cubical/pair_sink.hpp"
 #include "cubical/rounds/part_layout.hpp"
 #include "cubical/rounds/part_stars.hpp"
+#include "cubical/sinks/pair_sink.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/layer_pairs.hpp"
 #include "image/voxels_in_use.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "core/lower_case.hpp"
 #include "io/barcodes/barcode_read.hpp"
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/floating.hpp"
 #include "io/bytes/json_cursor.hpp"
 #include "io/bytes/yaml_words.hpp"
-#include "io/points/table.hpp"
+#include "io/tables/table.hpp"
 #include "ph/detail/io/camera.hpp"
 #include "ph/error.hpp"
 

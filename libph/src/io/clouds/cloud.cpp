@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "io/clouds/field_access.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/field_access.hpp"
+#include "io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph::detail {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/lower_case.hpp"
+#include "io/bytes/readers.hpp"
 #include "io/clouds/cloud_rows.hpp"
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/tables/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -6,10 +6,10 @@
 #include <array>
 #include <charconv>
 
+#include "io/bytes/field_access.hpp"
 #include "io/bytes/lzf.hpp"
-#include "io/clouds/field_access.hpp"
+#include "io/bytes/readers.hpp"
 #include "io/clouds/pcd.hpp"
-#include "io/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "io/bytes/readers.hpp"
 #include "io/clouds/pcd.hpp"
-#include "io/readers.hpp"
 
 namespace ph::detail {
 namespace {

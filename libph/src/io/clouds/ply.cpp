@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/clouds/field_access.hpp"
+#include "io/bytes/field_access.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <concepts>
 
-#include "io/points/array.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/array.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "io/points/table.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph::detail {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "io/bytes/readers.hpp"
 #include "io/matrices/distance_rows.hpp"
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/tables/table.hpp"
 
 namespace ph {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/points/table.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/table.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::detail {

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "io/bytes/readers.hpp"
 #include "io/matrices/matrix_entry.hpp"
-#include "io/readers.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/points/table.hpp"
+#include "io/tables/table.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::detail {

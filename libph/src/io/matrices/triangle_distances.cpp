@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/bytes/readers.hpp"
 #include "io/matrices/distance_rows.hpp"
-#include "io/readers.hpp"
 
 namespace ph {
 namespace {

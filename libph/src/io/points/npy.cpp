@@ -7,8 +7,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "io/points/array.hpp"
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
+#include "io/tables/array.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

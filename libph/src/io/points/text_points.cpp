@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/readers.hpp"
+#include "io/bytes/readers.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/points/table.hpp"
+#include "io/tables/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/batch_parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "barcode/parts/inputs_part.hpp"
+#include "common/files/csv_cell.hpp"
+#include "common/files/file_identity.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "common/terminal/words.hpp"
+#include "common/values/numbers.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// Refuses options that require a single input. @throws Error (usage).
+void require_batch_options(const Arguments& arguments) {
+  constexpr std::array<std::string_view, 13> kOfOne{
+      "plot",    "plot-kind",    "dims",        "title", "size",
+      "axis",    "loops",        "alpha-shape", "wrap",  "representatives",
+      "dry-run", "significance", "keep-cells"};
+  for (const std::string& typed : arguments.typed_options) {
+    if (!typed.starts_with("--")) continue;
+    if (std::ranges::find(kOfOne, std::string_view(typed).substr(2)) != kOfOne.end())
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: found with --part of several inputs, whose result is one table", typed));
+  }
+}
+
+InputsPart::Result run_one(std::size_t number, const std::string& input, const Arguments& arguments,
+                           app::Session& session) {
+  InputsPart::Result result;
+  result.input = number;
+  const auto fail = [&](std::string_view what, int code) {
+    result.code = code;
+    result.failure = what;
+    result.bars = Barcode();
+  };
+  try {
+    Job job{input, "-", BarcodeFormat::none};
+    job.bars = &result.bars;
+    const Outcome outcome = run(job, arguments, session);
+    if (outcome.code != app::kOk) fail("the engine and the reference engine differ", outcome.code);
+    session.note(fmt::format("{}: {}", input, outcome.summary));
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
+    fail(error.in_words(app::kWords), app::report_current_exception(kProgram, input));
+  }
+  return result;
+}
+
+bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
+              std::span<const std::string> own, app::Session& session) {
+  const auto kept =
+      kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
+        if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
+          return "is another part, or belongs to other inputs or options";
+        const bool is_complete = std::ranges::all_of(
+            there.results(), [](const auto& result) { return result.failure.empty(); });
+        return is_complete ? "" : "has inputs that failed";
+      });
+  return kept.has_value();
+}
+
+/// If several fail, the code of the first failure counts.
+int code_of(std::span<const InputsPart::Result> results) {
+  const auto failed =
+      std::ranges::find_if(results, [](const auto& r) { return r.code != app::kOk; });
+  return failed == results.end() ? app::kOk : failed->code;
+}
+
+}  // namespace
+
+Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& arguments,
+                       app::Session& session) {
+  require_batch_options(arguments);
+  const auto [part, parts] = *arguments.part;
+  const std::string path = part_path(arguments.output, "part", part, parts);
+  app::InputFiles read;
+  for (const std::string& input : inputs) read.add(input);
+  app::require_separate(read, std::array{app::Written{"--output", path}}, arguments.common.force);
+  const InputsPart::Whole whole{inputs, arguments.typed_options, parts};
+  std::vector<std::string> own;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
+  if (arguments.resumes && is_there(path, whole, part, own, session))
+    return {app::kOk, fmt::format("{}: it is there already", path)};
+  app::Output output(path);  // a file that cannot be created is reported first
+  InputsPart done(whole, part);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (InputsPart::part_of(i, parts) == part) done.add(run_one(i, inputs[i], arguments, session));
+  write_part_file(output, done.bytes());
+  return {code_of(done.results()), fmt::format("part {} of {}: {}", part + 1, parts,
+                                               app::count_of(done.results().size(), "input"))};
+}
+
+Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
+                         app::Session& session) {
+  std::optional<InputsPart> all;
+  for (const PartFile& file : files) {
+    try {
+      InputsPart part = InputsPart::of_bytes(file.bytes);
+      if (all)
+        all->join(std::move(part));
+      else
+        all.emplace(std::move(part));
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("{}: {}", file.path, error.marked()));
+    }
+  }
+  const std::string parts =
+      fmt::format("{} of {} parts", all->numbers().size(), all->whole().parts);
+  if (is_part_path(job.output)) {
+    app::Output output(job.output);
+    write_part_file(output, all->bytes());
+    return {app::kOk, parts};
+  }
+  if (!all->is_whole()) {
+    std::vector<int> missing;
+    for (int i = 0; i < all->whole().parts; ++i)
+      if (!std::ranges::binary_search(all->numbers(), i)) missing.push_back(i + 1);
+    throw Error(ErrorKind::bad_data,
+                fmt::format("--join: found {}, expected all: missing are {}; -o FILE.ph joins some",
+                            parts, fmt::join(missing, ", ")));
+  }
+  if (job.format != BarcodeFormat::csv)
+    throw Error(ErrorKind::usage,
+                fmt::format("--output-format: found {}, expected csv for a table of several inputs",
+                            barcode_format_name(job.format)));
+  app::Output output(job.output);
+  std::size_t failures = 0;
+  output.write("input,dim,birth,death\n");
+  for (const InputsPart::Result& result : all->results()) {
+    const std::string& input = all->whole().inputs[result.input];
+    if (!result.failure.empty()) {
+      session.note(fmt::format("{}: not in the table: {}", input, result.failure));
+      ++failures;
+    }
+    const std::string cell = app::csv_cell(input);
+    for (const Bar& bar : result.bars)
+      output.write(
+          fmt::format("{},{},{},{}\n", cell, bar.dim, shortest(bar.birth), shortest(bar.death)));
+  }
+  output.commit();
+  return {code_of(all->results()),
+          fmt::format("{}{}", app::count_of(all->results().size(), "input"),
+                      failures > 0 ? fmt::format(", {} of them failed", failures) : "")};
+}
+
+}  // namespace ph::barcode

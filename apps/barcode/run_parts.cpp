@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/run_parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "barcode/arguments/scopes.hpp"
+#include "barcode/batch_inputs.hpp"
+#include "barcode/batch_parts.hpp"
+#include "barcode/parts/cloud_parts.hpp"
+#include "barcode/parts/image_parts.hpp"
+#include "barcode/parts/inputs_part.hpp"
+#include "barcode/parts/part_files.hpp"
+#include "common/files/batch_names.hpp"
+#include "common/files/file_identity.hpp"
+#include "core/bytes/sealed_part.hpp"
+#include "core/format_size.hpp"
+
+namespace ph::barcode {
+
+namespace {
+
+/// No output may replace an input or another output. @throws Error (usage).
+void require_separate(const Job& job, const Arguments& arguments) {
+  app::InputFiles inputs;
+  for (const std::string& input : arguments.inputs) inputs.add(input);
+  std::vector<app::Written> outputs{{"--output", job.output}};
+  for (const app::Plot& plot : job.plots) outputs.push_back({plot.option, plot.path});
+  app::require_separate(inputs, outputs, arguments.common.force);
+}
+
+}  // namespace
+
+int run_part(const Arguments& arguments, app::Session& session) {
+  const std::string& input = arguments.inputs.front();
+  const Outcome outcome =
+      arguments.wants_image_part() ? run_image_part(input, arguments, session)
+      : arguments.wants_part_of_one()
+          ? run_cloud_part(input, arguments, session)
+          : run_batch_part(with_files_of_folders(arguments), arguments, session);
+  session.note(outcome.summary);
+  if (barcode_format_of_path(arguments.output))
+    session.note(fmt::format("{}: a part, whatever its name says; --join makes bars from parts",
+                             printable(arguments.output)));
+  return outcome.code;
+}
+
+int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
+  app::require_in_scope(arguments.given, kParts, name_of(kParts));
+  std::vector<PartFile> files;
+  std::string kind;
+  for (const std::string& path : arguments.inputs) {
+    if (app::is_folder(path))
+      throw Error(ErrorKind::no_input,
+                  fmt::format("--join: {} is a directory, expected part files", path));
+    std::vector<std::byte> bytes = read_part_file(path, session);
+    try {
+      const std::string_view found = kind_of_part(bytes);
+      if (kind.empty()) kind = found;
+      if (found != kind)
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("part: found one of kind '{}', expected '{}' as in the others",
+                                found, kind));
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("{}: {}", path, error.marked()));
+    }
+    files.push_back({path, std::move(bytes)});
+  }
+  const Job job{fmt::format("{}", fmt::join(arguments.inputs, " ")), arguments.output, format,
+                arguments.plots};
+  require_separate(job, arguments);
+  const Outcome outcome = kind == kInputsKind ? join_batch_parts(files, job, session)
+                          : kind == "cloud"
+                              ? join_cloud_parts(files, job, arguments, session)
+                              : join_image_parts(std::move(files), job, arguments, session);
+  session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
+  session.note(outcome.summary);
+  return outcome.code;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "cubical/grid/grid_frame.hpp"
+#include "ph/detail/image/cubical_image.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::cubical {
+
+/// The state of a cell of a grid, in two bytes.
+class CellMark {
+ public:
+  /// The cell never enters.
+  CellMark() = default;
+  /// A cell in no known pair. @param upper the axes, as bits, along which the voxel that decides
+  /// the cell's value lies above it.
+  static CellMark critical(unsigned upper) { return CellMark(kCritical, upper); }
+  /// A cell that is killed by a cofacet. @param direction see CellGrid::beside.
+  static CellMark killed_by(int direction, unsigned upper) {
+    return CellMark(kKilled + static_cast<unsigned>(direction), upper);
+  }
+  /// A cell that kills a facet.
+  static CellMark killing(int direction, unsigned upper) {
+    return CellMark(kKiller + static_cast<unsigned>(direction), upper);
+  }
+  /// The same cell, marked as killing a cell far away.
+  CellMark that_kills() const { return CellMark(kKills, upper()); }
+
+  bool enters() const { return state() != kNever; }
+  bool is_killed() const { return state() >= kKilled && state() < kKiller; }
+  bool is_local_killer() const { return state() >= kKiller; }
+  bool kills() const { return state() == kKills || is_local_killer(); }
+  /// The direction of the other cell of its pair. Precondition: is_killed() or is_local_killer().
+  int direction() const {
+    return static_cast<int>(state() - (is_killed() ? unsigned{kKilled} : unsigned{kKiller}));
+  }
+  unsigned upper() const { return bits_ & 0xFFU; }
+
+ private:
+  enum State : unsigned { kNever, kCritical, kKills, kKilled = 4, kKiller = 20 };
+  CellMark(unsigned state, unsigned upper)
+      : bits_(static_cast<std::uint16_t>(state << 8U | upper)) {}
+  unsigned state() const { return unsigned{bits_} >> 8U; }
+
+  std::uint16_t bits_ = 0;
+};
+
+/// The cells of an image with any number of axes, as places in the doubled grid in C order. Each
+/// cell has only a mark; its age is the age of the voxel that decides its value. Axes with one
+/// voxel are left out where possible; `CellSink` adds again the bars of a periodic one.
+class CellGrid {
+ public:
+  static constexpr int kMostAxes = 8;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  /// Doubled coordinates, or the coordinates of a voxel.
+  using Coordinates = std::array<std::uint32_t, kMostAxes>;
+  /// A cell in the order of the filtration, among the cells of one dimension: the rank of the voxel
+  /// that decides its value in the high bits, its place in the low bits.
+  using Name = std::uint64_t;
+  static std::uint32_t cell(Name name) { return static_cast<std::uint32_t>(name); }
+
+  struct Axis {
+    std::uint32_t extent = 1;  ///< in voxels
+    std::uint32_t length = 1;  ///< in doubled coordinates
+    std::uint32_t stride = 1;  ///< stride in the doubled grid
+    bool periodic = false;
+    Divisor by_length;
+  };
+
+  /// Number of places in the doubled grid, without the axes that are left out.
+  static double count_cells(const CubicalImage& grid);
+  /// True if it has at most 8 axes and fewer than 2^32 cells, and is not empty.
+  static bool can_hold(const CubicalImage& grid);
+  /// Starts with all cells marked as never entering. Precondition: can_hold(grid). Time: O(voxels
+  /// log voxels). Memory: 8 bytes per voxel and 2 per cell.
+  CellGrid(const CubicalImage& grid, const RunContext& context);
+
+  int dim() const { return dim_; }
+  const Axis& axis(int k) const { return axes_[static_cast<std::size_t>(k)]; }
+  bool voxels_are_vertices() const { return grid_.voxels_are_vertices; }
+  std::size_t voxel_count() const { return ranks_.size(); }
+  bool all_enter() const { return order_.size() == ranks_.size(); }
+  /// The position of a voxel in the order of the voxels that enter, or kNone if it never enters.
+  std::uint32_t rank(std::uint32_t voxel) const { return ranks_[voxel]; }
+  double value(Name name) const { return grid_.value(order_[name >> 32U]); }
+
+  CellMark mark(std::uint32_t cell) const { return marks_[cell]; }
+  void set_mark(std::uint32_t cell, CellMark mark) { marks_[cell] = mark; }
+
+  Coordinates coordinates(std::uint32_t cell) const {
+    Coordinates x{};
+    for (std::size_t k = static_cast<std::size_t>(dim_); k-- > 0;) {
+      const std::uint32_t rest = axes_[k].by_length.divide(cell);
+      x[k] = cell - rest * axes_[k].length;
+      cell = rest;
+    }
+    return x;
+  }
+  /// The cell one step from a cell at doubled coordinate `x` of the axis: upwards if `direction` =
+  /// 2 * axis + 1, otherwise downwards; kNone if it is outside.
+  std::uint32_t beside(std::uint32_t cell, std::uint32_t x, int direction) const {
+    const Axis& a = axes_[static_cast<std::size_t>(direction) / 2];
+    if (direction % 2 != 0) {
+      if (x + 1 < a.length) return cell + a.stride;
+      return a.periodic ? cell - x * a.stride : kNone;
+    }
+    if (x > 0) return cell - a.stride;
+    return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
+  }
+  /// The coordinate of that cell. Precondition: that cell is not outside.
+  std::uint32_t next(std::uint32_t x, int direction) const {
+    const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;
+    if (direction % 2 != 0) return x == last ? 0 : x + 1;
+    return x == 0 ? last : x - 1;
+  }
+  /// Precondition: the cell enters. @param x the coordinates of the cell.
+  Name name(std::uint32_t cell, const Coordinates& x) const {
+    return Name{ranks_[deciding_voxel(cell, x)]} << 32U | cell;
+  }
+  Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
+
+  /// Calls `visit(facet, its coordinates, incidence)`, with incidences as in
+  /// ph/detail/complex/cubical_cells.hpp.
+  /// @param x the coordinates of the cell.
+  template <class Visit>
+  void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {
+    int sign = 1;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
+      const std::uint32_t own = x[k];
+      if (own % 2 == 0) continue;
+      const Axis& a = axes_[k];
+      x[k] = own + 1 < a.length ? own + 1 : 0;
+      visit(cell + (x[k] - own) * a.stride, x, sign);
+      x[k] = own - 1;
+      visit(cell - a.stride, x, -sign);
+      x[k] = own;
+      sign = -sign;
+    }
+  }
+  /// Calls `visit(cell, its coordinates)` for all cells of the grid whose coordinate is odd on
+  /// exactly the axes that `parity` names.
+  template <class Visit>
+  void for_each_of_parity(const Coordinates& parity, Visit&& visit) const;
+
+  /// Number of periodic axes with one voxel: each adds a copy of every cell, one dimension up.
+  std::size_t loop_count() const { return loops_.size(); }
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the axes of one
+  /// voxel that the copy goes around, as bits.
+  void append_numbers(std::uint32_t cell, unsigned loops, std::vector<Index>& numbers) const;
+
+ private:
+  void rank_voxels(const RunContext& context);
+  std::uint32_t deciding_voxel(std::uint32_t cell, const Coordinates& x) const {
+    const unsigned upper = marks_[cell].upper();
+    const std::uint32_t between = grid_.voxels_are_vertices ? 1 : 0;
+    std::uint32_t voxel = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
+      std::uint32_t i = x[k] / 2;
+      if (x[k] % 2 == between) i += (upper >> k & 1U) - 1 + between;
+      if (i >= axes_[k].extent) i = i == axes_[k].extent ? 0 : axes_[k].extent - 1;
+      voxel = voxel * axes_[k].extent + i;
+    }
+    return voxel;
+  }
+
+  CubicalImage grid_;
+  int dim_ = 0;
+  std::array<Axis, kMostAxes> axes_;                 // the last axis is the fastest
+  std::array<std::size_t, kMostAxes> input_axis_{};  // the axis of the input
+  std::vector<std::size_t> loops_;                   // periodic axes of the input with one voxel
+  std::pmr::vector<std::uint32_t> ranks_, order_;    // ranks by voxel, and voxels by rank
+  std::pmr::vector<CellMark> marks_;
+};
+
+template <class Visit>
+void CellGrid::for_each_of_parity(const Coordinates& parity, Visit&& visit) const {
+  Coordinates x{};
+  std::uint32_t cell = 0;
+  for (int k = 0; k < dim_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (parity[i] >= axes_[i].length) return;
+    x[i] = parity[i];
+    cell += x[i] * axes_[i].stride;
+  }
+  for (int k = dim_; k >= 0;) {
+    visit(cell, x);
+    for (k = dim_ - 1; k >= 0; --k) {
+      const auto i = static_cast<std::size_t>(k);
+      x[i] += 2;
+      cell += 2 * axes_[i].stride;
+      if (x[i] < axes_[i].length) break;
+      cell -= (x[i] - parity[i]) * axes_[i].stride;
+      x[i] = parity[i];
+    }
+  }
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#include "io/tables/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "core/lower_case.hpp"
+#include "io/bytes/readers.hpp"
+
+namespace ph::detail {
+namespace {
+
+bool begins_empty(std::string_view line) { return line.find_first_of(",;\t") == 0; }
+
+bool is_number(std::string_view cell) { return number_in(cell).has_value(); }
+
+bool is_whole(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Cells of a line whose first cell is empty, as in tables whose rows have names. Numbers are names
+// if they count the columns, or if the next line begins with a name, or with the first of these
+// numbers.
+std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
+  if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
+  std::vector<std::string> names = header_cells(line, false, true);
+  if (names.empty() || !names.front().empty()) return {};
+  bool is_named = false, has_numbers = false, counts = true, are_whole = true;
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    is_named = is_named || !names[k].empty();
+    has_numbers = has_numbers || number_in(names[k]);
+    are_whole = are_whole && (!number_in(names[k]) || is_whole(names[k]));
+    counts = counts && names[k] == std::to_string(names[1] == "0" ? k - 1 : k);
+  }
+  const bool has_name = !first_of_next.empty() && !number_in(first_of_next);
+  const bool are_names =
+      !has_numbers || counts || (are_whole && (has_name || first_of_next == names[1]));
+  if (!is_named || !are_names) names.clear();
+  return names;
+}
+
+bool is_name_of_index(std::string_view name) {
+  constexpr std::array<std::string_view, 10> kNames{
+      "", "index", "idx", "id", "no", "nr", "row", "rownames", "level_0", "unnamed: 0"};
+  return std::ranges::find(kNames, lower_case(name)) != kNames.end();
+}
+
+// Properties of the first column.
+struct FirstColumn {
+  std::size_t rows = 0;
+  bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
+  bool names_columns = true;  // row k has the name of column k
+};
+
+// Looks at the first rows, up to `most` of them.
+FirstColumn first_column(const Input& input, const TableLayout& layout,
+                         std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  FirstColumn column;
+  TextLines lines = layout.lines(input);
+  Cells cells(lines, {}, layout.separator);
+  if (!layout.start(lines)) return column;
+  double least = 0;
+  do {
+    cells.start();
+    if (!cells.more()) continue;
+    const std::string_view cell = without_quotes(cells.skip());
+    const double number = number_in(cell).value_or(-1);
+    if (column.rows == 0) least = number;
+    column.counts = column.counts && (least == 0 || least == 1) &&
+                    number == least + static_cast<double>(column.rows);
+    column.names_columns = column.names_columns && column.rows + 1 < layout.header.size() &&
+                           layout.header[column.rows + 1] == cell;
+    ++column.rows;
+    if (!column.counts && !column.names_columns) break;
+  } while (column.rows < most && lines.next());
+  return column;
+}
+
+std::vector<std::size_t> range(std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = begin; k < end; ++k) all.push_back(k);
+  return all;
+}
+
+// Recognises a line 0, 1, 2, … or 1, 2, 3, …, as in tables whose columns have numbers.
+std::vector<std::string> counting_header(const TextLines& line) {
+  std::vector<std::string> names;
+  Cells cells(line);
+  for (cells.start(); cells.more();) {
+    names.emplace_back(without_quotes(cells.skip()));
+    const std::size_t first = names.front() == "0" ? 0 : 1;
+    if (names.back() != std::to_string(first + names.size() - 1)) return {};
+  }
+  return names;
+}
+
+// Removes names and an index of a matrix that look like its numbers: the n rows are symmetric after
+// a line that counts the columns, or after a column that counts the rows.
+void leave_counts_out(const Input& input, const TextLines& first, const ReadOptions& options,
+                      TableLayout& layout) {
+  const auto is_matrix = [&](const TableLayout& rest) {
+    const TableShape shape = shape_of(input, rest);
+    return rest.columns.size() > 2 && shape.rows == rest.columns.size() &&
+           shape.square != SquareKind::nothing;
+  };
+  const std::size_t n = layout.width;
+  if (std::vector<std::string> names = counting_header(first); names.size() == n) {
+    TableLayout rest = layout;
+    rest.header = std::move(names);
+    rest.columns = range(0, n);
+    if (is_matrix(rest)) {
+      layout.header = std::move(rest.header);
+      layout.notes.push_back(fmt::format(
+          "line {} counts the columns of a symmetric matrix: a header, skipped", first.number()));
+      return;
+    }
+  }
+  if (!options.columns.empty()) return;
+  TableLayout rest = layout;
+  rest.columns = range(1, n);
+  rest.names_rows = true;
+  if (first_column(input, rest, n).counts && is_matrix(rest)) {
+    layout.names_rows = true;
+    layout.notes.emplace_back("the first column counts the rows of a symmetric matrix: left out");
+  }
+}
+
+// Number of cells in the first row. An empty last cell counts if the header has a name for it, or
+// if one of the next rows has a cell there: it is a missing value.
+std::size_t width_of(const TextLines& row, const TableLayout& layout) {
+  const std::size_t count = count_cells(row, layout.separator);
+  if (!ends_empty(row.line())) return count;
+  std::size_t cells = layout.header.size() == count + 1 ? count + 1 : count;
+  TextLines next(row);
+  for (std::size_t k = 0; k < kMostLookedAt && cells == count && next.next(); ++k)
+    cells = count_cells(next, layout.separator);
+  return count + (cells == count + 1 ? 1 : 0);
+}
+
+// Advice to read the first column as well; nothing for a square matrix, which would lose its shape.
+std::string way_to_take_it(const Input& input, const TableLayout& layout) {
+  TableLayout rest = layout;
+  rest.columns = range(1, layout.width);
+  rest.names_rows = true;
+  const bool is_square = shape_of(input, rest).rows == rest.columns.size();
+  return is_square ? ""
+                   : fmt::format("; {} also takes {}",
+                                 mark(Setting::columns, fmt::format("1-{}", layout.width)),
+                                 layout.unnamed() > 1 ? "them" : "it");
+}
+
+std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
+  Cells cells(line, {}, layout.separator);
+  cells.start();
+  return cells.more() ? cells.skip() : std::string_view();
+}
+
+// True if blanks separate numbers in a line: in the entire line, or between two tabs.
+bool has_blanks_between_numbers(std::string_view line) {
+  const bool has_tabs = separator_in(line) == '\t';
+  return std::ranges::any_of(
+      has_tabs ? header_cells(line, false, true) : std::vector<std::string>{std::string(line)},
+      [&](const std::string& cell) {
+        const std::vector<std::string> words = header_cells(cell, false);
+        return (words.size() > 1 || !has_tabs) && std::ranges::all_of(words, is_number);
+      });
+}
+
+// True if each tab separates two cells: not if blanks also do, unless a header has as many cells.
+bool has_tabs_between_cells(const Input& input) {
+  TextLines lines(input);
+  lines.keep_tabs();
+  std::vector<std::string_view> rows;  // a header and a row
+  while (rows.size() < 2 && lines.next())
+    if (lines.line().find_first_not_of(" \t") != std::string_view::npos)
+      rows.push_back(lines.line());
+  const auto has = [&](char separator) {
+    return std::ranges::count(rows, separator, separator_in);
+  };
+  if (has('\t') == 0 || has(',') + has(';') > 0) return false;
+  const auto width = [&](std::size_t k) { return header_cells(rows[k], false, true).size(); };
+  const bool fit = has('\t') == 2 && !header_cells(rows[0], true, true).empty() && width(0) > 1 &&
+                   width(0) == width(1);
+  return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
+}
+
+// True if --columns has a name in this line that is not the number of a column. A user who counts
+// columns from 0 asks for 0; it is a name only before fractions, in a line that itself counts from
+// 0.
+bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
+                    const std::vector<std::string>& next) {
+  bool may_be_0 = !std::ranges::all_of(next, is_whole);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    may_be_0 = may_be_0 && names[k] == std::to_string(k);
+  return std::ranges::any_of(options.columns, [&](const std::string& word) {
+    const double number = number_in(word).value_or(-1);
+    const bool is_place =
+        number >= (may_be_0 ? 1 : 0) && number <= static_cast<double>(names.size());
+    return !is_place && std::ranges::find(names, word) != names.end();
+  });
+}
+
+// True if the first line has a name in a column that is not read, and integers instead of fractions
+// in the columns that are read: years, for example.
+bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
+  const std::vector<bool> taken = layout.taken();
+  const auto looks = [&](const TextLines& line) {
+    bool has_names = false, are_whole = true;
+    Cells cells(line, {}, layout.separator);
+    cells.start();
+    for (std::size_t k = 0; k < taken.size() && cells.more(); ++k) {
+      const std::string_view cell = without_quotes(cells.skip());
+      has_names = has_names || (!taken[k] && !cell.empty() && !number_in(cell));
+      are_whole = are_whole && (!taken[k] || is_whole(cell));
+    }
+    return std::pair(has_names, are_whole);
+  };
+  return looks(first) == std::pair(true, true) && !looks(next).second;
+}
+
+// True if the first column has names or counts the rows; a note gives the reason.
+bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
+  if (layout.width < 2) return false;
+  const bool is_full = layout.header.size() == layout.width;
+  const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes a header
+  if (is_full && layout.header[0].empty()) {
+    const bool is_one = layout.unnamed() == 1;
+    layout.notes.push_back(
+        fmt::format("the first {} no name, as an index of the rows: left out{}",
+                    is_one ? "column has" : fmt::format("{} columns have", layout.unnamed()),
+                    number_in(first_cell) ? way_to_take_it(input, layout) : ""));
+    return true;
+  }
+  const bool is_index = is_full && is_name_of_index(layout.header[0]);
+  const bool is_quoted = is_one_short && first_cell.starts_with('"');
+  if (!number_in(first_cell) || is_quoted) {
+    if (!is_index && !is_one_short && !(is_full && first_column(input, layout).names_columns))
+      return false;
+    layout.notes.emplace_back("the first column has names of the rows: left out");
+    return true;
+  }
+  if (!is_index && !is_one_short) return false;
+  const std::string name = is_index ? fmt::format(", {},", printable(layout.header[0], 40)) : "";
+  if (first_column(input, layout).counts) {
+    layout.notes.push_back(fmt::format("the first column{} counts the rows: left out{}", name,
+                                       way_to_take_it(input, layout)));
+    return true;
+  }
+  if (is_index)
+    layout.notes.push_back(fmt::format("the first column{} is taken as numbers; {} leaves it out",
+                                       name,
+                                       mark(Setting::columns, fmt::format("2-{}", layout.width))));
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> TableLayout::taken() const {
+  std::vector<bool> taken(width, false);
+  for (const std::size_t column : columns) taken[column] = true;
+  return taken;
+}
+
+std::size_t TableLayout::unnamed() const {
+  const auto named = std::ranges::find_if(header, [](const auto& name) { return !name.empty(); });
+  return static_cast<std::size_t>(named - header.begin());
+}
+
+TextLines TableLayout::lines(const Input& input) const {
+  TextLines lines(input);
+  if (keeps_tabs) lines.keep_tabs();
+  return lines;
+}
+
+bool TableLayout::start(TextLines& lines) const {
+  if (!lines.next()) return false;
+  return header.empty() || lines.next();
+}
+
+void TableLayout::tell(const ReadOptions& options) const {
+  for (const Message& text : notes) note(options, text);
+}
+
+TableLayout table_layout(const Input& input, const ReadOptions& options) {
+  TableLayout layout;
+  layout.keeps_tabs = has_tabs_between_cells(input);
+  TextLines lines = layout.lines(input);
+  if (!lines.next()) return layout;
+  TextLines next(lines);
+  const bool has_next = next.next();
+  const auto separator = [&](const TextLines& row) {
+    const char found = separator_in(row.line());
+    return found == '\t' && !layout.keeps_tabs ? ' ' : found;
+  };
+  if (has_next) layout.separator = separator(next);
+  layout.header = header_cells(lines.line(), true, layout.keeps_tabs);
+  if (layout.header.empty() && has_next) {
+    layout.header = unnamed_header(lines.line(), without_quotes(first_cell(next, layout)));
+    if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
+      layout.header.clear();  // a row that begins with an empty cell
+  }
+  if (layout.header.empty() && has_next && !options.columns.empty()) {
+    std::vector<std::string> names = header_cells(lines.line(), false, layout.keeps_tabs);
+    if (asks_for_names(options, names, header_cells(next.line(), false, layout.keeps_tabs)))
+      layout.header = std::move(names);
+  }
+  const bool has_header = !layout.header.empty();
+  if (has_header)
+    layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));
+  if (has_header && !has_next) return layout;
+  const TextLines& row = has_header ? next : lines;
+  layout.separator = separator(row);
+  layout.width = width_of(row, layout);
+  // Points and pictures may happen to be symmetric after numbers that count.
+  if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
+    leave_counts_out(input, lines, options, layout);
+  if (!options.columns.empty()) {
+    std::vector<std::string> names = layout.header;
+    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes a header
+    if (names.size() != layout.width) names.clear();
+    layout.columns = chosen_columns(options.columns, names, layout.width, input);
+    if (!has_header && has_next && may_be_names(lines, next, layout))
+      layout.notes.push_back(
+          fmt::format("line {} is read as numbers; take it out if it is a header", lines.number()));
+    return layout;
+  }
+  if (has_header) layout.names_rows = leads_with_names(input, layout, first_cell(row, layout));
+  const std::size_t index = std::max<std::size_t>(layout.unnamed(), 1);
+  layout.columns = range(layout.names_rows ? index : 0, layout.width);
+  return layout;
+}
+
+}  // namespace ph::detail

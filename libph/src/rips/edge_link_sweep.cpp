@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#include "rips/edge_link_sweep.hpp"
+
+namespace ph {
+
+template class EdgeLinkSweep<Z2>;
+template class EdgeLinkSweep<Zp>;
+
+}  // namespace ph

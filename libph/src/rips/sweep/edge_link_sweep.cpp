@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "rips/sweep/edge_link_sweep.hpp"
-
-namespace ph {
-
-template class EdgeLinkSweep<Z2>;
-template class EdgeLinkSweep<Zp>;
-
-}  // namespace ph

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "calls/words.hpp"
+
+namespace ph::python {
+namespace {
+
+bool is_number(std::string_view text) {
+  return text.find_first_not_of("+-.0123456789e") == text.npos;
+}
+
+/// A placeholder, such as X: the reader of the message knows which value to give.
+bool is_placeholder(std::string_view value) { return value[0] >= 'A' && value[0] <= 'Z'; }
+
+std::string in_keywords(Setting setting, std::string_view value) {
+  const auto [name, given] = keyword_of(setting, value);
+  if (name.empty() || given.empty()) return name;
+  // A camera is named in messages about it.
+  if (setting == Setting::camera || is_placeholder(given)) return name + ' ' + given;
+  if (setting == Setting::columns) return name + "=['" + given + "']";
+  if (is_number(given)) return name + '=' + given;
+  if (given.find(',') == given.npos) return name + '=' + alternatives(given, "'");
+  std::string numbers;
+  for (const char c : given) (numbers += c) += c == ',' ? " " : "";
+  return name + "=(" + numbers + ')';
+}
+
+}  // namespace
+
+Keyword keyword_of(Setting setting, std::string_view value) {
+  const auto named = [&](std::string_view name) {
+    return Keyword{std::string(name), std::string(value)};
+  };
+  switch (setting) {
+    case Setting::allow_empty:  // this option is always on
+    case Setting::labels:       // for a file, which is not written
+    case Setting::plane_guess:
+    case Setting::report:
+      return {};
+    case Setting::complex:
+      return {"array", value == "cubical" ? "image" : std::string(value)};
+    case Setting::diagonal:
+      return {"diagonal", value == "zero" ? "any" : std::string(value)};
+    case Setting::cut:  // of Segmentation.cut
+      return named("value");
+    case Setting::infinite:
+      return named("infinity");
+    case Setting::raw_type:
+      return named("raw_dtype");
+    case Setting::spacing:
+      return named("supervoxels");
+    default:
+      return named(setting_name(setting));
+  }
+}
+
+const Words kWords{&in_keywords};
+
+}  // namespace ph::python
