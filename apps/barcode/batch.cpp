@@ -10,12 +10,10 @@
 #include <string_view>
 
 #include "barcode/arguments/scopes.hpp"
-#include "barcode/batch_inputs.hpp"
 #include "barcode/output/report.hpp"
 #include "barcode/output/significance.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "barcode/run.hpp"
-#include "barcode/run_parts.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/extensions.hpp"
 #include "common/files/file_identity.hpp"

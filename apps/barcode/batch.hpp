@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <string>
+#include <vector>
+
 #include "barcode/arguments/arguments.hpp"
+#include "barcode/parts/part_files.hpp"
+#include "barcode/run.hpp"
 #include "common/run/session.hpp"
 
 namespace ph::barcode {
@@ -12,5 +17,26 @@ BarcodeFormat output_format(const Arguments& arguments, app::Session& session);
 /// Runs all inputs. With an output folder, one failure does not stop the others: its line goes to
 /// stderr, and the code of the first failure is returned at the end.
 int run_all(const Arguments& arguments, app::Session& session);
+
+/// Computes the part that the arguments name. Precondition: arguments.part. @return the exit code.
+/// @throws Error.
+int run_part(const Arguments& arguments, app::Session& session);
+
+/// Joins the inputs, which are parts. @return the exit code. @throws Error.
+int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& session);
+
+/// Computes the barcodes of the inputs that belong to one part, and writes the part. One failure
+/// does not stop the others: the part records it. Precondition: arguments.part.
+Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& arguments,
+                       app::Session& session);
+
+/// Joins parts of a batch and writes one table, `input,dim,birth,death`, or one part.
+/// @return the code of the first input that failed, if any did: the table is written anyway.
+/// @throws Error (bad_data) naming the files, if parts do not belong together or some are missing.
+Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job, app::Session& session);
+
+/// The inputs, with each folder replaced by its files.
+/// @throws Error (no_input) if a folder has no file of a known format.
+std::vector<std::string> with_files_of_folders(const Arguments& arguments);
 
 }  // namespace ph::barcode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch_inputs.hpp"
+#include "barcode/batch.hpp"
 
 #include <array>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch_parts.hpp"
+#include "barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -14,7 +14,6 @@
 #include "barcode/arguments/scopes.hpp"
 #include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/load.hpp"
-#include "barcode/memory/alternatives.hpp"
 #include "barcode/memory/estimate_text.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/output/report.hpp"

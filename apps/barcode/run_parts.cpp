@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/run_parts.hpp"
+#include "barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "barcode/arguments/scopes.hpp"
-#include "barcode/batch_inputs.hpp"
-#include "barcode/batch_parts.hpp"
 #include "barcode/parts/cloud_parts.hpp"
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/inputs_part.hpp"

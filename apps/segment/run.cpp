@@ -21,7 +21,7 @@
 #include "report/encoding/sha256.hpp"
 #include "segment/arguments/arguments.hpp"
 #include "segment/arguments/scopes.hpp"
-#include "segment/input/depth_camera.hpp"
+#include "segment/input/frames.hpp"
 #include "segment/output/outputs.hpp"
 #include "segment/output/summary.hpp"
 #include "tree/tree_barcode.hpp"

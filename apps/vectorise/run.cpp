@@ -15,7 +15,7 @@
 #include "vectorise/arguments/scopes.hpp"
 #include "vectorise/data/samples.hpp"
 #include "vectorise/data/table.hpp"
-#include "vectorise/fit/fit_json.hpp"
+#include "vectorise/fit/fit.hpp"
 #include "vectorise/make_fit.hpp"
 
 namespace ph::vectorise {

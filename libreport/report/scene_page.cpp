@@ -10,7 +10,6 @@
 #include "pictures/colouring.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/arrays/point_arrays.hpp"
-#include "report/arrays/touching_leaves.hpp"
 #include "report/arrays/tree_arrays.hpp"
 #include "report/page/report_file.hpp"
 #include "supports/bounds.hpp"

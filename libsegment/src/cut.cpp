@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "cut.hpp"
+#include "methods.hpp"
 
 #include <algorithm>
 
-#include "methods.hpp"
 #include "metric/pairs_within.hpp"
-#include "objects/components.hpp"
-#include "objects/meetings.hpp"
+#include "objects/stages.hpp"
 #include "objects/weak_seams.hpp"
 #include "scene/options.hpp"
-#include "supports/standing.hpp"
+#include "supports/stages.hpp"
 #include "voxels/rips_graph.hpp"
 
 namespace ph::segment {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "plane/free_patches.hpp"
+#include "plane/stages.hpp"
 #include "surface/concavity.hpp"
 #include "surface/noise.hpp"
 #include "surface/seeds.hpp"

@@ -6,9 +6,10 @@
 
 #include "objects/objects.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
+#include "ph/scene_tree.hpp"
 #include "ph/segment.hpp"
 #include "plane/plane.hpp"
-#include "supports/lower_support.hpp"
+#include "supports/stages.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
@@ -61,5 +62,16 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
 /// The 1-skeleton of the Vietoris-Rips complex of the voxels.
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
                                 const RunContext& context, StageClock& clock);
+
+/// The components that a cut leaves, including small ones: for each vertex, one of the vertices of
+/// its component. Reads the method, the voxel and the tree from `scene`.
+/// @param grid its centroids are the vertices. @param surface empty in method paper.
+std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
+                                 const Surface& surface, const CutOptions& options,
+                                 const RunContext& context);
+
+/// The segments that components make.
+SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
+                  const Surface& surface, const CutOptions& options, const RunContext& context);
 
 }  // namespace ph::segment

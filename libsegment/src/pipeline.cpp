@@ -5,19 +5,17 @@
 #include <iterator>
 #include <utility>
 
-#include "cut.hpp"
 #include "methods.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
-#include "plane/hidden_points.hpp"
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
-#include "plane/range_filter.hpp"
+#include "plane/stages.hpp"
 #include "scene/options.hpp"
 #include "supports/bounds.hpp"
 #include "tree/cross_check.hpp"
 #include "tree/tree_barcode.hpp"
-#include "vessels/openings.hpp"
+#include "vessels/stages.hpp"
 
 namespace ph::segment {
 namespace {

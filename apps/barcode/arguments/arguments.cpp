@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "barcode/arguments/argument_groups.hpp"
-#include "barcode/arguments/manual.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/values/numbers.hpp"
 #include "core/lower_case.hpp"

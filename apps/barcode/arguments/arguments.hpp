@@ -9,6 +9,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/arguments/plot_arguments.hpp"
+#include "common/manual/manual.hpp"
 #include "ph/alpha.hpp"
 #include "ph/cubical.hpp"
 #include "ph/greedy_permutation.hpp"
@@ -114,6 +115,14 @@ struct Arguments {
 /// @return the answer to --help, --version or --formats, which is all that is left to do.
 /// @throws Error (usage) that names the option; Error (not_built_in).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+/// What the program says of itself beside its options.
+const app::Manual& manual();
+/// The same of ph-barcode-mpi.
+const app::Manual& manual_of_ranks();
+
+/// The answer to --formats: what is read and what is written, a format each, with an example.
+std::string formats_table();
 
 }  // namespace ph::barcode
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/manual.hpp"
+#include "barcode/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 

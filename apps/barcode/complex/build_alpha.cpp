@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/build_alpha.hpp"
+#include "barcode/complex/build_complex.hpp"
 
 #include <fmt/format.h>
 

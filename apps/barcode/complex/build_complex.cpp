@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "barcode/arguments/scopes.hpp"
-#include "barcode/complex/build_alpha.hpp"
 #include "barcode/complex/cubical_options.hpp"
 #include "common/values/numbers.hpp"
 #include "complex/listed_cubes.hpp"

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <fmt/format.h>
+#include <vector>
 
 #include <functional>
 #include <string>
 
 #include "barcode/arguments/arguments.hpp"
 #include "ph/merge_tree.hpp"
+#include "ph/points.hpp"
 
 namespace ph::barcode {
 
@@ -63,5 +65,13 @@ BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::siz
 /// Builds the complex from data that are needed again.
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context);
+
+/// The alpha complex of points, or another complex of their Delaunay triangulation.
+/// @param weights one per point, or none. @param ids of the points in the input; empty: their own
+///     numbers.
+/// @throws Error (usage) if an option does not fit the points; Error (bad_data).
+BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
+                         const std::vector<Index>& ids, const std::string& name,
+                         const Arguments& arguments, const RunContext& context);
 
 }  // namespace ph::barcode

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/memory/alternatives.hpp"
+#include "barcode/memory/estimate_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

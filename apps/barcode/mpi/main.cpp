@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "barcode/mpi/mpi_transport.hpp"
-#include "barcode/ranks/run_ranks.hpp"
+#include "barcode/ranks/rank_result.hpp"
 #include "common/run/program.hpp"
 #include "core/system/machine_memory.hpp"
 

@@ -17,7 +17,6 @@
 #include "core/bytes/byte_writer.hpp"
 #include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/join_ranks.hpp"
-#include "facade/parts/loops_of_ranks.hpp"
 
 namespace ph::barcode {
 namespace {

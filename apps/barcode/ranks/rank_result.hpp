@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "barcode/parts/part_files.hpp"
 #include "barcode/run.hpp"
 #include "facade/parts/post.hpp"
+#include "facade/parts/transport.hpp"
 
 namespace ph::barcode {
 
@@ -56,5 +58,12 @@ auto kept_or_computed(const std::string& kept, const Arguments& arguments, app::
 
 /// The message of --verbose for a rank that has finished.
 void explain_costs(const Post& post, app::Session& session);
+
+/// Computes an image, or the components of points, on all ranks; each rank calls it with the same
+/// arguments, and rank 0 writes.
+/// @param wait_for_all returns once all ranks have called it.
+/// @return the exit code of this rank. @throws Error.
+int run_ranks(const Arguments& arguments, Transport& transport,
+              const std::function<void()>& wait_for_all, app::Session& session);
 
 }  // namespace ph::barcode

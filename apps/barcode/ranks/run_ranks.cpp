@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/ranks/run_ranks.hpp"
+#include "barcode/ranks/rank_result.hpp"
 
 #include <array>
 #include <filesystem>
@@ -10,7 +10,6 @@
 #include "barcode/batch.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"
-#include "barcode/ranks/rank_result.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "common/arguments/options.hpp"
 #include "common/values/numbers.hpp"
-#include "distance/arguments/manual.hpp"
 #include "distance/arguments/scopes.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"

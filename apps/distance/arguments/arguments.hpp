@@ -7,6 +7,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/distances/distance_choice.hpp"
+#include "common/manual/manual.hpp"
 #include "ph/significance.hpp"
 
 namespace ph::distance_program {
@@ -39,6 +40,9 @@ struct Arguments {
 /// Parses the command line. @return the answer to --help or --version, if one was asked for.
 /// @throws Error (usage).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+/// The manual of ph-distance.
+const app::Manual& manual();
 
 }  // namespace ph::distance_program
 

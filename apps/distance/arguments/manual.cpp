@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distance/arguments/manual.hpp"
+#include "distance/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

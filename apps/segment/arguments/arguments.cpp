@@ -14,7 +14,6 @@
 #include "ph/error.hpp"
 #include "report/page/page_template.hpp"
 #include "segment/arguments/argument_groups.hpp"
-#include "segment/arguments/manual.hpp"
 #include "segment/arguments/scopes.hpp"
 
 namespace ph::segment {

@@ -9,6 +9,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/files/file_identity.hpp"
+#include "common/manual/manual.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
 #include "pictures/cloud_picture.hpp"
@@ -82,5 +83,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 /// The options that do nothing beside the others, a line each: what is asked for has no use for
 /// them. Those that do nothing for an input or a method are refused, see scopes.hpp.
 std::vector<std::string> idle_options(const Arguments& arguments);
+
+/// The manual of the program.
+const app::Manual& manual();
 
 }  // namespace ph::segment

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/input/depth_camera.hpp"
+#include "segment/input/frames.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

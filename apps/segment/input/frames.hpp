@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "common/run/session.hpp"
 #include "segment/arguments/arguments.hpp"
 #include "segment/input/frame_list.hpp"
 
@@ -51,5 +52,9 @@ class FrameSource {
   // different names, such as a-2 in `*.npy` and a in `*-2.npy`.
   std::unordered_set<std::string> taken_files_;
 };
+
+/// Reads the camera that --camera names, and reports anything not obvious: nominal values, a lens.
+/// @throws Error like ph::read_camera.
+void load_camera(DepthInput& image, app::Session& session);
 
 }  // namespace ph::segment

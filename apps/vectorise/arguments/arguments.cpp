@@ -13,7 +13,6 @@
 #include "common/values/numbers.hpp"
 #include "core/lower_case.hpp"
 #include "ph/error.hpp"
-#include "vectorise/arguments/manual.hpp"
 #include "vectorise/arguments/scopes.hpp"
 
 namespace ph::vectorise {

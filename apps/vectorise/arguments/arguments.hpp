@@ -6,6 +6,7 @@
 
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
+#include "common/manual/manual.hpp"
 #include "ph/io/read.hpp"
 #include "vectorise/fit/fit.hpp"
 
@@ -56,6 +57,9 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 
 /// @throws Error (usage) on an option that has no effect for this kind.
 void require_kind(const Arguments& arguments, Kind kind);
+
+/// The manual of ph-vectorise.
+const app::Manual& manual();
 
 }  // namespace ph::vectorise
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/arguments/manual.hpp"
+#include "vectorise/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/cubical.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/vectorise.hpp"
 
 namespace ph::vectorise {
@@ -77,6 +78,12 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
 /// The vector of a block. Not for an Euler curve.
 void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
                  std::span<double> out, const RunContext& context);
+
+/// The content that `--fit` writes. @param dropped number of bars that were left out of the fit.
+std::string fit_json(const Fit& fit, std::size_t dropped);
+
+/// Parses a file for `--fitted`. @throws Error (bad_data) on anything else.
+Fit read_fit(const Input& input);
 
 }  // namespace ph::vectorise
 

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "alpha/pairs/pair_simplices.hpp"
 #include "ph/alpha.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/engine.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::alpha {
+
+/// The bars of an alpha complex that have a positive length.
+template <Field K>
+void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& bars,
+                    const RunContext& context);
+
+extern template void pair_simplices(const Alpha&, const Z2&, BarcodeBuilder<Alpha>&,
+                                    const RunContext&);
+extern template void pair_simplices(const Alpha&, const Zp&, BarcodeBuilder<Alpha>&,
+                                    const RunContext&);
+
+}  // namespace ph::alpha
 
 namespace ph {
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "alpha/intervals/intervals.hpp"
+#include "ph/alpha.hpp"
 #include "ph/explicit.hpp"
 
 namespace ph::alpha {
@@ -25,5 +26,12 @@ int top_dim(const AlphaCells& cells, const Enters& enters);
 
 /// Number of all simplices by dimension, including edges to copies.
 std::vector<std::size_t> simplex_counts(const AlphaCells& cells);
+
+/// The simplices of a triangulation with values other than alpha, which are not equal within an
+/// interval: the square of the radius of the smallest ball around a simplex, or of half its longest
+/// edge.
+/// @param value any value except alpha. Precondition: no weights.
+ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Value value,
+                                       const Enters& enters, const RunContext& context);
 
 }  // namespace ph::alpha

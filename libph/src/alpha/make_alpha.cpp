@@ -11,8 +11,7 @@
 #include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/intervals.hpp"
 #include "alpha/listed_simplices.hpp"
-#include "alpha/other_values.hpp"
-#include "alpha/periodic/triangulate_periodic.hpp"
+#include "alpha/periodic/quotient.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/other_values.hpp"
+#include "alpha/listed_simplices.hpp"
 
 #include <algorithm>
 

@@ -11,6 +11,7 @@
 #include "ph/barcode.hpp"
 #include "ph/detail/io/png.hpp"
 #include "ph/io/plot.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::plot {
 
@@ -226,5 +227,11 @@ Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options
 Drawing draw(const Barcode& barcode, const PlotOptions& options);
 
 std::string to_svg(const Drawing& drawing);
+
+/// Bytes that to_raster needs, including writing its result as a PNG.
+std::size_t raster_bytes(const Drawing& drawing);
+
+/// Converts the drawing to RGB. @throws std::bad_alloc.
+Raster to_raster(const Drawing& drawing);
 
 }  // namespace ph::plot

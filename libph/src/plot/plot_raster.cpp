@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_raster.hpp"
+#include "plot/plot_canvas.hpp"
 
 #include <algorithm>
 #include <array>

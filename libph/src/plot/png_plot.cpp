@@ -8,7 +8,6 @@
 #include "plot/plot_canvas.hpp"
 #if PH_WITH_FREETYPE
 #include "plot/plot_font.hpp"
-#include "plot/plot_raster.hpp"
 #endif
 
 namespace ph {

@@ -41,4 +41,7 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
 RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm form,
                      const ChosenVertices& chosen, const RunContext& context);
 
+/// The same as Rips::sample.
+RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);
+
 }  // namespace ph

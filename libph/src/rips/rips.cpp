@@ -13,7 +13,6 @@
 #include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
 #include "rips/make_graph.hpp"
-#include "rips/sample.hpp"
 
 namespace ph {
 namespace {

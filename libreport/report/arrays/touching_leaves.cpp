@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "report/arrays/touching_leaves.hpp"
+#include "report/arrays/tree_arrays.hpp"
 
 #include <algorithm>
 #include <set>
 #include <utility>
-
-#include "report/arrays/tree_arrays.hpp"
 
 namespace ph::report {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "files/cloud_terms.hpp"
+#include "files/cloud_files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/meetings.hpp"
+#include "objects/stages.hpp"
 
 #include <fmt/format.h>
 

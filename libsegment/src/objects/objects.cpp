@@ -14,7 +14,7 @@
 #include "scene/close_boxes.hpp"
 #include "scene/parts.hpp"
 #include "surface/concavity.hpp"
-#include "vessels/rims.hpp"
+#include "vessels/stages.hpp"
 
 namespace ph::segment {
 namespace {

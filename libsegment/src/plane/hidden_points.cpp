@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/hidden_points.hpp"
+#include "plane/stages.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

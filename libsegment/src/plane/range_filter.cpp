@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/range_filter.hpp"
+#include "plane/stages.hpp"
 
 #include <cmath>
 

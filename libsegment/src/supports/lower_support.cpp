@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "supports/lower_support.hpp"
+#include "supports/stages.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "supports/standing.hpp"
+#include "supports/stages.hpp"
 
 #include <algorithm>
 #include <cmath>

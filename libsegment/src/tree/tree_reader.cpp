@@ -11,7 +11,7 @@
 #include "ph/error.hpp"
 #include "ph/scene_tree.hpp"
 #include "tree/tree_file.hpp"
-#include "vessels/openings.hpp"
+#include "vessels/stages.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/rims.hpp"
+#include "vessels/stages.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

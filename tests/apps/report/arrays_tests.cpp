@@ -10,7 +10,6 @@
 #include <string>
 
 #include "report/arrays/point_arrays.hpp"
-#include "report/arrays/touching_leaves.hpp"
 #include "report/arrays/tree_arrays.hpp"
 #include "report/arrays/voxel_arrays.hpp"
 

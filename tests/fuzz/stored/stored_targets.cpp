@@ -11,7 +11,7 @@
 #include "ph/error.hpp"
 #include "targets.hpp"
 #include "tree/tree_file.hpp"
-#include "vectorise/fit/fit_json.hpp"
+#include "vectorise/fit/fit.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {

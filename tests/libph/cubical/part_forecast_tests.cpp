@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "facade/parts/join_ranks.hpp"
-#include "facade/parts/loops_of_ranks.hpp"
 #include "ph/parts/image_loops.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/image_cases.hpp"

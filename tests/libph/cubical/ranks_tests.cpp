@@ -7,7 +7,6 @@
 
 #include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/join_ranks.hpp"
-#include "facade/parts/loops_of_ranks.hpp"
 #include "ph/parts/cloud_part.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

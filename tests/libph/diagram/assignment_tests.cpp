@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "diagram/wasserstein/auction.hpp"
-#include "diagram/wasserstein/shortest_paths.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::diagram {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/components.hpp"
+#include "objects/stages.hpp"
 
 #include <gtest/gtest.h>
 

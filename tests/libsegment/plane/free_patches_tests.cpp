@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/free_patches.hpp"
+#include "plane/stages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "libsegment/scenery.hpp"
-#include "plane/range_filter.hpp"
+#include "plane/stages.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/openings.hpp"
+#include "vessels/stages.hpp"
 
 #include <gtest/gtest.h>
 

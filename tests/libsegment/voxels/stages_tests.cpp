@@ -12,7 +12,7 @@
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
-#include "plane/range_filter.hpp"
+#include "plane/stages.hpp"
 #include "support/expect_error.hpp"
 #include "tree/cross_check.hpp"
 #include "tree/tree_barcode.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/pairs/pair_simplices.hpp"
+#include "alpha/alpha_engine.hpp"
 
 #include "alpha/pairs/components.hpp"
 #include "alpha/pairs/hollows.hpp"

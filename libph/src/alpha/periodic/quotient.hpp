@@ -24,4 +24,17 @@ namespace ph::alpha {
 bool take_quotient(Triangulation& triangulation, Images& images, const Box& box,
                    const RunContext& context);
 
+/// A triangulation of a periodic space, of any number of sites.
+struct PeriodicTriangulation {
+  Triangulation triangulation;  ///< vertices are sites; a cell may have a site several times
+  Images images;                ///< with the frames of cells
+};
+
+/// O(n log n) for evenly spread sites. Precondition: there is at least one site and one closed
+/// axis.
+/// @param box in the units of the sites.
+/// @throws Error (resource, cancelled).
+PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,
+                                           const RunContext& context);
+
 }  // namespace ph::alpha

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/periodic/triangulate_periodic.hpp"
+#include "alpha/periodic/quotient.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "alpha/periodic/quotient.hpp"
 #include "ph/error.hpp"
 
 namespace ph::alpha {

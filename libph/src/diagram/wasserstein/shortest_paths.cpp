@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/wasserstein/shortest_paths.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 
 #include <algorithm>
 #include <functional>

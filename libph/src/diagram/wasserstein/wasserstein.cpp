@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "diagram/diagram_parts.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 #include "diagram/wasserstein/auction.hpp"
-#include "diagram/wasserstein/shortest_paths.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 

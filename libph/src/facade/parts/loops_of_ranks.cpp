@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/parts/loops_of_ranks.hpp"
+#include "facade/parts/join_ranks.hpp"
 
 #include <utility>
 #include <vector>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <functional>
 #include <vector>
 
+#include "ph/segment.hpp"
 #include "plane/plane.hpp"
+#include "scene/parts.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
@@ -24,5 +27,14 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid);
+
+/// Finds the inside and the outside of round vessels (bowls, cups, pots) whose rims are too thin to
+/// show a surface that both share: the upper ends of both parts are at the same height and lie on
+/// one circle, each on its own arc, and together the arcs cover nearly the whole circle.
+/// @param up unit normal of the support. @param join is called with the numbers of two parts.
+/// @throws Error (cancelled) as `context` asks.
+void join_around_rims(const Points& centroids, double voxel, const Vec3& up, const Parts& parts,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& join,
+                      const RunContext& context = default_context());
 
 }  // namespace ph::segment
