@@ -6,10 +6,10 @@
 #include <optional>
 #include <string_view>
 
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/io/read.hpp"
 #include "ph/ph.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 6) {

@@ -13,7 +13,7 @@ if(PAGE)
   endforeach()
 endif()
 file(WRITE "${CODE}" "// Made of ${PAGE}; do not change.
-#include \"report/page/page_template.hpp\"
+#include \"ph/detail/report/page_template.hpp\"
 
 namespace ph::report {
 

@@ -11,8 +11,8 @@
 #include "barcode/parts/part_files.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
-#include "core/bytes/sealed_part.hpp"
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 
 namespace ph::barcode {
 

@@ -8,7 +8,7 @@
 
 #include "common/run/program.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"
 #include "segment/input/frames.hpp"
 #include "segment/run.hpp"

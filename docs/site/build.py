@@ -33,10 +33,11 @@ ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "develop
 PROGRAMS = 4  # all of them, or none
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",
-           "libreport/include/ph", "libreport/include/ph/detail/report"]
+           "libreport/include/ph"]
 # Declarations outside the public headers that readers need.
 DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
           "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
+DETAIL_OF_REPORTS = ["provenance", "shown_tree"]
 
 
 def require_tools():
@@ -64,7 +65,8 @@ def link(place, file):
 
 def run_doxygen(folder):
     folder.mkdir(parents=True)
-    inputs = HEADERS + [f"libph/include/ph/detail/{name}.hpp" for name in DETAIL]
+    inputs = HEADERS + [f"libph/include/ph/detail/{name}.hpp" for name in DETAIL] + [
+        f"libreport/include/ph/detail/report/{name}.hpp" for name in DETAIL_OF_REPORTS]
     settings = (HERE / "Doxyfile").read_text() + (
         f"INPUT = {' '.join(inputs)}\n"
         f"INPUT_FILTER = \"{sys.executable} -B {HERE / 'group.py'}\"\nOUTPUT_DIRECTORY = {folder}\n")

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "ph/detail/core/file_pages.hpp"
-#include "report/arrays/bar_arrays.hpp"
+#include "ph/detail/report/bar_arrays.hpp"
+#include "ph/detail/report/report_file.hpp"
 #include "report/arrays/complex_arrays.hpp"
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/tree_arrays.hpp"
 #include "report/arrays/voxel_arrays.hpp"
-#include "report/page/report_file.hpp"
 
 namespace ph::report {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "pictures/colouring.hpp"
-#include "report/arrays/bar_arrays.hpp"
+#include "ph/detail/report/bar_arrays.hpp"
+#include "ph/detail/report/report_file.hpp"
+#include "ph/detail/segment/bounds.hpp"
+#include "ph/detail/segment/colouring.hpp"
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/tree_arrays.hpp"
-#include "report/page/report_file.hpp"
-#include "supports/bounds.hpp"
 
 namespace ph::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/floating.hpp"
+#include "ph/detail/core/floating.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "report/arrays/tree_arrays.hpp"
 

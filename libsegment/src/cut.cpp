@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "metric/pairs_within.hpp"
 #include "objects/stages.hpp"
 #include "objects/weak_seams.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 #include "scene/options.hpp"
 #include "supports/stages.hpp"
 #include "voxels/rips_graph.hpp"

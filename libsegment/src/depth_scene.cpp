@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "depth_scene.hpp"
+#include "ph/detail/segment/depth_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "notes.hpp"
+#include "ph/detail/segment/notes.hpp"
 
 #include <fmt/format.h>
 

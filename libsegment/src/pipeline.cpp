@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "methods.hpp"
+#include "ph/detail/segment/bounds.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/stages.hpp"
 #include "scene/options.hpp"
-#include "supports/bounds.hpp"
 #include "tree/cross_check.hpp"
-#include "tree/tree_barcode.hpp"
 #include "vessels/stages.hpp"
 
 namespace ph::segment {

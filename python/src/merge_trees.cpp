@@ -9,7 +9,7 @@
 #include "calls/bindings.hpp"
 #include "calls/run.hpp"
 #include "data/arrays.hpp"
-#include "facade/adjust.hpp"
+#include "ph/detail/facade/adjust.hpp"
 #include "recipes.hpp"
 
 namespace ph::python {

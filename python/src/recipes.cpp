@@ -13,10 +13,10 @@
 
 #include "calls/bindings.hpp"
 #include "data/arrays.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph::python {
 namespace {

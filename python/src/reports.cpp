@@ -13,13 +13,13 @@
 #include "calls/run.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
+#include "ph/detail/report/page_template.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/report.hpp"
 #include "ph/scene_report.hpp"
 #include "recipes.hpp"
-#include "report/page/page_template.hpp"
 #include "results/origin.hpp"
 #include "scenes/scene.hpp"
-#include "tree/tree_barcode.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which room may include which, that no folders include each other in a circle, how large a folder
-may be, where tests lie, and that fmt::join has its header: layering.py ROOT.
+"""Which room may include which, that no folders include each other in a circle, that nobody
+looks inside a library of another folder, how large a folder may be, where tests lie, and that
+fmt::join has its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -68,6 +69,8 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MAY_SHOW = {"pcl": "libsegment/pcl/", "CGAL": "libph/src/alpha/cgal/"}
 MOST_FILES = 40  # in a larger folder nobody finds a file by its name
+# What only a library itself includes. Tests and benchmarks may look at anything.
+PRIVATE = ("libph/src/", "libsegment/src/", "libreport/report/")
 # Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
 MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 4,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
@@ -135,8 +138,10 @@ def violations_of(root, file):
         if other != room and other not in MAY_INCLUDE[room].split():
             yield f"{file}: {include}: {room} may include {MAY_INCLUDE[room] or 'nothing else'}, " \
                   f"found {other}"
-        if str(target).startswith("libph/src") and "/include/" in str(file):
-            yield f"{file}: {include}: a header that is installed includes one that is not"
+        inside = next((start for start in PRIVATE if str(target).startswith(start)), None)
+        if inside and not str(file).startswith(inside):
+            yield f"{file}: {include}: {inside} is private to its library, and no installed header may " \
+                  "include it: expected a header of ph/detail"
 
 
 def too_large(root):

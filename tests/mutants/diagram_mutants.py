@@ -34,7 +34,7 @@ MUTANTS = [
      "other_.prices.set(node.y, node.price - rise);", "other_.prices.set(node.y, node.price);",
      ["assignment_tests"]),
     ("Wasserstein: the diagonal is as far in every norm",
-     "libph/src/diagram/wasserstein/ground_cost.hpp",
+     "libph/include/ph/detail/diagram/ground_cost.hpp",
      "return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);", "return ground > 0 ? 1 : 2;",
      ["wasserstein_tests"]),
     ("sliced Wasserstein: both ends of the half circle", "libph/src/diagram/sliced_wasserstein.cpp",

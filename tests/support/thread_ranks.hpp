@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "facade/parts/transport.hpp"
+#include "ph/detail/facade/transport.hpp"
 #include "ph/error.hpp"
 
 namespace ph::test {

@@ -13,8 +13,8 @@
 #include "barcode/arguments/argument_groups.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/values/numbers.hpp"
-#include "core/lower_case.hpp"
-#include "report/page/page_template.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/report/page_template.hpp"
 
 namespace ph::barcode {
 namespace {

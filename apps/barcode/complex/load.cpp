@@ -10,7 +10,7 @@
 #include "barcode/arguments/scopes.hpp"
 #include "common/terminal/messages.hpp"
 #include "common/values/numbers.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/system/files.hpp"
-#include "io/tables/table.hpp"
-#include "report/encoding/sha256.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/io/table.hpp"
+#include "ph/detail/report/sha256.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -11,8 +11,8 @@
 #include "barcode/complex/read_input.hpp"
 #include "common/terminal/words.hpp"
 #include "common/values/numbers.hpp"
-#include "core/format_size.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/format_size.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph::barcode {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 
 namespace ph::barcode {
 

@@ -10,7 +10,7 @@
 #include "barcode/mpi/mpi_transport.hpp"
 #include "barcode/ranks/rank_result.hpp"
 #include "common/run/program.hpp"
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "facade/parts/transport.hpp"
+#include "ph/detail/facade/transport.hpp"
 
 namespace ph::barcode {
 

@@ -15,11 +15,11 @@
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/words.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/report/bar_arrays.hpp"
+#include "ph/detail/report/report_file.hpp"
+#include "ph/detail/report/sha256.hpp"
 #include "ph/report.hpp"
-#include "report/arrays/bar_arrays.hpp"
-#include "report/encoding/sha256.hpp"
-#include "report/page/report_file.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -13,9 +13,9 @@
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/values/numbers.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
+#include "ph/detail/report/sha256.hpp"
 #include "ph/report.hpp"
-#include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {
 namespace {

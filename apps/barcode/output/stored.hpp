@@ -10,7 +10,7 @@
 #include "barcode/output/outputs.hpp"
 #include "common/run/session.hpp"
 #include "ph/detail/io/reader.hpp"
-#include "report/page/metadata.hpp"
+#include "ph/detail/report/metadata.hpp"
 
 namespace ph::barcode {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "barcode/parts/part_files.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {
 

@@ -20,7 +20,7 @@
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/values/numbers.hpp"
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {

@@ -9,9 +9,9 @@
 #include <iterator>
 #include <utility>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "ph/error.hpp"
 
 namespace ph::barcode {

@@ -57,7 +57,7 @@ class InputsPart {
   std::vector<Result> results_;
 };
 
-/// The kind of such a part; see core/bytes/sealed_part.hpp.
+/// The kind of such a part; see ph/detail/core/sealed_part.hpp.
 inline constexpr std::string_view kInputsKind = "inputs";
 
 }  // namespace ph::barcode

@@ -9,8 +9,8 @@
 #include "common/files/batch_names.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/values/numbers.hpp"
-#include "core/format_size.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/format_size.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph::barcode {

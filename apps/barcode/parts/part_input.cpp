@@ -8,7 +8,7 @@
 #include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/read_input.hpp"
 #include "common/values/numbers.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {
 

@@ -7,7 +7,7 @@
 #include "barcode/parts/cloud_parts.hpp"
 #include "barcode/ranks/rank_result.hpp"
 #include "common/values/numbers.hpp"
-#include "facade/parts/join_ranks.hpp"
+#include "ph/detail/facade/join_ranks.hpp"
 
 namespace ph::barcode {
 RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,

@@ -13,10 +13,10 @@
 #include "barcode/parts/part_input.hpp"
 #include "barcode/ranks/rank_result.hpp"
 #include "common/values/numbers.hpp"
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
-#include "facade/parts/bar_bytes.hpp"
-#include "facade/parts/join_ranks.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
+#include "ph/detail/facade/join_ranks.hpp"
 
 namespace ph::barcode {
 namespace {

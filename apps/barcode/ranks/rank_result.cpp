@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 
 namespace ph::barcode {
 

@@ -7,8 +7,8 @@
 
 #include "barcode/parts/part_files.hpp"
 #include "barcode/run.hpp"
-#include "facade/parts/post.hpp"
-#include "facade/parts/transport.hpp"
+#include "ph/detail/facade/post.hpp"
+#include "ph/detail/facade/transport.hpp"
 
 namespace ph::barcode {
 

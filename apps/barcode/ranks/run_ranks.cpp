@@ -11,7 +11,7 @@
 #include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "common/files/file_identity.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {
 

@@ -11,7 +11,7 @@
 #include "common/files/batch_names.hpp"
 #include "common/values/choices.hpp"
 #include "common/values/numbers.hpp"
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

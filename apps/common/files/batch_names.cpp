@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "common/files/file_identity.hpp"
-#include "core/lower_case.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "common/system/process.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 

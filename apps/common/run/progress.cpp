@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "common/terminal/messages.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 
 namespace ph::app {
 namespace {

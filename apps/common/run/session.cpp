@@ -13,8 +13,8 @@
 #include "common/system/signals.hpp"
 #include "common/terminal/messages.hpp"
 #include "common/terminal/words.hpp"
-#include "core/format_size.hpp"
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/format_size.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::app {
 Session::Session(std::string_view program, const CommonOptions& options, std::stop_token stop)

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::app {
 namespace {

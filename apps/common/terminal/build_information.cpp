@@ -9,8 +9,8 @@
 #include <CLI/Version.hpp>
 #include <string_view>
 
+#include "ph/detail/report/page_template.hpp"
 #include "ph/io/plot.hpp"
-#include "report/page/page_template.hpp"
 
 namespace ph::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph::app {

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/floating.hpp"
-#include "core/lower_case.hpp"
+#include "ph/detail/core/floating.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

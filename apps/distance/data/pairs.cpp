@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/diagram/thread_context.hpp"
 
 namespace ph::distance_program {
 namespace {

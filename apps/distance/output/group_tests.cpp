@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "distance/output/table.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagram/wasserstein/ground_cost.hpp"
 #include "distance/output/table.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/diagram/ground_cost.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::distance_program {

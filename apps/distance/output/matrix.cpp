@@ -4,7 +4,7 @@
 
 #include "common/files/csv_cell.hpp"
 #include "distance/output/table.hpp"
-#include "io/points/npy_write.hpp"
+#include "ph/detail/io/npy_write.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::distance_program {

@@ -7,7 +7,7 @@
 
 #include "common/files/csv_cell.hpp"
 #include "common/terminal/build_information.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/io/write.hpp"
 

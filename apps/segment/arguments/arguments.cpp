@@ -11,8 +11,8 @@
 
 #include "common/files/batch_names.hpp"
 #include "common/values/numbers.hpp"
+#include "ph/detail/report/page_template.hpp"
 #include "ph/error.hpp"
-#include "report/page/page_template.hpp"
 #include "segment/arguments/argument_groups.hpp"
 #include "segment/arguments/scopes.hpp"
 

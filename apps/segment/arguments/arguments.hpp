@@ -10,9 +10,9 @@
 #include "common/arguments/option_scope.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/manual/manual.hpp"
+#include "ph/detail/segment/cloud_picture.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
-#include "pictures/cloud_picture.hpp"
 #include "segment/arguments/output_paths.hpp"
 
 namespace ph::segment {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/values/choices.hpp"
-#include "core/system/files.hpp"
-#include "depth_scene.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/segment/depth_scene.hpp"
 #include "ph/error.hpp"
 
 namespace ph::segment {

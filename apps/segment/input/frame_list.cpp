@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 

@@ -8,16 +8,16 @@
 #include <sstream>
 
 #include "common/system/process.hpp"
-#include "core/lower_case.hpp"
-#include "files/cloud_files.hpp"
-#include "files/label_files.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/segment/cloud_files.hpp"
+#include "ph/detail/segment/cloud_legend.hpp"
+#include "ph/detail/segment/colouring.hpp"
+#include "ph/detail/segment/label_files.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "ph/scene_report.hpp"
-#include "pictures/cloud_legend.hpp"
-#include "pictures/colouring.hpp"
 #include "segment/output/summary.hpp"
-#include "tree/tree_barcode.hpp"
 
 namespace ph::segment {
 namespace {

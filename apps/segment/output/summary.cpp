@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "common/system/process.hpp"
+#include "ph/detail/segment/json_text.hpp"
 #include "ph/io/write.hpp"
-#include "tree/json_text.hpp"
 
 namespace ph::segment {
 namespace {

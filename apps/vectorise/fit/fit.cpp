@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/checked_bars.hpp"
 
 namespace ph::vectorise {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "common/arguments/command_line.hpp"
 #include "common/terminal/build_information.hpp"
-#include "io/bytes/json_cursor.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_cursor.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"
 #include "ph/euler_curve.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "complex/listed_cubes.hpp"
+#include "ph/detail/complex/listed_cubes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/floating.hpp"
+#include "ph/detail/core/floating.hpp"
 
 #include <locale.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 
 #include <fmt/format.h>
 

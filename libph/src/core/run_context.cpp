@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/format_size.hpp"
 #include "core/system/pages.hpp"
+#include "ph/detail/core/format_size.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/pair_voxels.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/engine.hpp"
+#include "ph/detail/cubical/pair_voxels.hpp"
 
 namespace ph {
 

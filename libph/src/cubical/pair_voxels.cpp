@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/pair_voxels.hpp"
+#include "ph/detail/cubical/pair_voxels.hpp"
 
 #include <algorithm>
 #include <bit>

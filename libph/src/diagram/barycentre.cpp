@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "diagram/diagram_parts.hpp"
-#include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/diagram/thread_context.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"

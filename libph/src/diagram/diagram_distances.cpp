@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/diagram/thread_context.hpp"
 #include "ph/distances.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "diagram/point_tree.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/diagram/point_tree.hpp"
 #include "ph/distances.hpp"
 
 namespace ph::diagram {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/point_tree.hpp"
+#include "ph/detail/diagram/point_tree.hpp"
 
 #include <numeric>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/adjust.hpp"
+#include "ph/detail/facade/adjust.hpp"
 
 #include <fmt/format.h>
 

@@ -5,13 +5,13 @@
 #include <new>
 #include <optional>
 
-#include "core/system/machine_memory.hpp"
-#include "cubical/pair_voxels.hpp"
 #include "facade/memory_forecast.hpp"
 #include "facade/rips_plan.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
+#include "ph/detail/core/machine_memory.hpp"
+#include "ph/detail/cubical/pair_voxels.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "rips/clique_count.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph {
 namespace {

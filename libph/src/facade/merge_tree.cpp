@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "facade/adjust.hpp"
 #include "facade/rips_plan.hpp"
 #include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
@@ -18,6 +17,7 @@
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/components/one_skeleton.hpp"
 #include "ph/detail/core/radix_sort.hpp"
+#include "ph/detail/facade/adjust.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
 #include "ph/rips.hpp"

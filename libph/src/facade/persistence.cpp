@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "facade/adjust.hpp"
 #include "facade/rips_plan.hpp"
+#include "ph/detail/facade/adjust.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 

@@ -4,9 +4,9 @@
 #include "facade/rips_plan.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/persistence.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 namespace ph::detail {
 namespace {

@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "core/floating.hpp"
+#include "ph/detail/core/floating.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

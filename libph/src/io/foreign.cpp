@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {

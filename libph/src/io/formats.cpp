@@ -8,7 +8,7 @@
 #include <array>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -11,7 +11,7 @@
 
 #include "io/bytes/readers.hpp"
 #include "io/tables/array.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {

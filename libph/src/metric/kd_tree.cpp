@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/kd_tree.hpp"
+#include "ph/detail/metric/kd_tree.hpp"
 
 #include <algorithm>
 

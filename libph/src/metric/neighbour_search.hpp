@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "metric/kd_tree.hpp"
+#include "ph/detail/metric/kd_tree.hpp"
 #include "ph/detail/metric/metric.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/pairs_within.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "metric/pairs_within.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

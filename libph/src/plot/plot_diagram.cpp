@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "plot/plot_intervals.hpp"
 
 namespace ph::plot {

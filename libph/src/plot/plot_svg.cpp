@@ -5,7 +5,7 @@
 #include <span>
 #include <sstream>
 
-#include "io/bytes/base64.hpp"
+#include "ph/detail/io/base64.hpp"
 #include "plot/plot_canvas.hpp"
 
 namespace ph::plot {

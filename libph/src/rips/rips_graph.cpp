@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "gpu/gpu_forest.hpp"
-#include "metric/pairs_within.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -7,9 +7,9 @@
 
 #include "core/random.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
-#include "vectors/checked_bars.hpp"
 
 namespace ph {
 namespace vectors {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectors/checked_bars.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 
 #include <fmt/format.h>
 

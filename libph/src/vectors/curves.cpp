@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vectors/checked_bars.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 #include "vectors/long_sum.hpp"
 

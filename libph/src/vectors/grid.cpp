@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 
 namespace ph {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <numbers>
 
-#include "diagram/thread_context.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/diagram/thread_context.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/vectorise.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/long_sum.hpp"
 
 namespace ph {

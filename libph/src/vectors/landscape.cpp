@@ -6,8 +6,8 @@
 #include <functional>
 #include <memory_resource>
 
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/for_each_target.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 
 namespace ph {

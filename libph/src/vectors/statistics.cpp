@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/vectorise.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/long_sum.hpp"
 
 namespace ph {

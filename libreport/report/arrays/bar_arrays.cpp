@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/arrays/bar_arrays.hpp"
+#include "ph/detail/report/bar_arrays.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/report/report_file.hpp"
 #include "ph/persistence.hpp"
 #include "ph/run_context.hpp"
-#include "report/page/report_file.hpp"
 
 namespace ph::report {
 

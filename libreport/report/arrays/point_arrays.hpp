@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "report/page/report_file.hpp"
+#include "ph/detail/report/report_file.hpp"
 
 namespace ph::report {
 

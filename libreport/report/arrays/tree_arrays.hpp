@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/report/report_file.hpp"
 #include "ph/detail/report/shown_tree.hpp"
-#include "report/page/report_file.hpp"
 
 namespace ph::report {
 

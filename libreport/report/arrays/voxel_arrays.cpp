@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "image/voxel_runs.hpp"
+#include "ph/detail/image/voxel_runs.hpp"
 
 namespace ph::report {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "report/page/report_file.hpp"
+#include "ph/detail/report/report_file.hpp"
 
 namespace ph::report {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/encoding/array_block.hpp"
+#include "ph/detail/report/array_block.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 #include <cstring>
 #include <new>
 
-#include "io/bytes/base64.hpp"
 #include "ph/detail/core/file_pages.hpp"
+#include "ph/detail/io/base64.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 

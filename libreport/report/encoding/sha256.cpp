@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/encoding/sha256.hpp"
+#include "ph/detail/report/sha256.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "report/page/metadata.hpp"
+#include "ph/detail/report/metadata.hpp"
 
 #include <fmt/format.h>
 
-#include "io/barcodes/barcode_formats.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
+#include "ph/detail/io/json_writer.hpp"
 
 namespace ph::report {
 namespace {

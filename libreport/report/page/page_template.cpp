@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/page/page_template.hpp"
+#include "ph/detail/report/page_template.hpp"
 
 #include <fmt/format.h>
 

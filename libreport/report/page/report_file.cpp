@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "report/page/report_file.hpp"
+#include "ph/detail/report/report_file.hpp"
 
 #include <limits>
 
-#include "report/page/page_template.hpp"
+#include "ph/detail/report/page_template.hpp"
 
 namespace ph::report {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "files/cloud_files.hpp"
+#include "ph/detail/segment/cloud_files.hpp"
 
 #include <fmt/format.h>
 
 #include <sstream>
 #include <utility>
 
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
 #include "ph/io/cloud.hpp"

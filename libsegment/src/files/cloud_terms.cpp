@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "files/cloud_files.hpp"
+#include "ph/detail/segment/cloud_files.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "files/label_files.hpp"
+#include "ph/detail/segment/label_files.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 
 #include "objects/oriented_box.hpp"
 #include "ph/detail/core/raw_vector.hpp"
-#include "supports/bounds.hpp"
+#include "ph/detail/segment/bounds.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/cloud_legend.hpp"
+#include "ph/detail/segment/cloud_legend.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/cloud_picture.hpp"
+#include "ph/detail/segment/cloud_picture.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "ph/detail/segment/colouring.hpp"
 #include "ph/eigen.hpp"
-#include "pictures/colouring.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/colouring.hpp"
+#include "ph/detail/segment/colouring.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "supports/bounds.hpp"
+#include "ph/detail/segment/bounds.hpp"
 
 #include <algorithm>
 #include <array>

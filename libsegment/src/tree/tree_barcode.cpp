@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tree/tree_barcode.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 
 #include <fmt/format.h>
 

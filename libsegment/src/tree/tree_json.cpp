@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "ph/detail/segment/json_text.hpp"
 #include "scene/options.hpp"
-#include "tree/json_text.hpp"
 #include "tree/tree_file.hpp"
 
 namespace ph::segment {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "core/flat_map.hpp"
+#include "ph/detail/core/flat_map.hpp"
 
 namespace ph::segment {
 namespace {

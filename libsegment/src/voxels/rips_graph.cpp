@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "metric/pairs_within.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 
 namespace ph::segment {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "calls/bindings.hpp"
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::python {
 namespace {

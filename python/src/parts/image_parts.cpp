@@ -10,9 +10,9 @@
 
 #include "calls/bindings.hpp"
 #include "calls/run.hpp"
-#include "facade/parts/bar_bytes.hpp"
 #include "parts/image_loops.hpp"
 #include "parts/part_bytes.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/parts/image_part.hpp"
 #include "recipes.hpp"
 

@@ -14,7 +14,7 @@
 #include "calls/bindings.hpp"
 #include "calls/run.hpp"
 #include "data/arrays.hpp"
-#include "depth_scene.hpp"
+#include "ph/detail/segment/depth_scene.hpp"
 #include "ph/io/cloud.hpp"
 #include "scenes/scene.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calls/words.hpp"
-#include "depth_scene.hpp"
+#include "ph/detail/segment/depth_scene.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::python {

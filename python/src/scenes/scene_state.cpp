@@ -14,8 +14,8 @@
 
 #include "calls/bindings.hpp"
 #include "data/arrays.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "results/state.hpp"
-#include "tree/tree_barcode.hpp"
 
 namespace ph::python {
 namespace {

@@ -18,8 +18,8 @@
 #include "common/manual/option_text.hpp"
 #include "common/values/choices.hpp"
 #include "common/values/numbers.hpp"
-#include "core/format_size.hpp"
 #include "kind_of.hpp"
+#include "ph/detail/core/format_size.hpp"
 
 namespace ph::app {
 namespace {

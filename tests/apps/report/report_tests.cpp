@@ -7,13 +7,13 @@
 #include <random>
 #include <string>
 
-#include "io/bytes/base64.hpp"
+#include "ph/detail/io/base64.hpp"
+#include "ph/detail/report/array_block.hpp"
+#include "ph/detail/report/metadata.hpp"
+#include "ph/detail/report/page_template.hpp"
+#include "ph/detail/report/report_file.hpp"
+#include "ph/detail/report/sha256.hpp"
 #include "ph/error.hpp"
-#include "report/encoding/array_block.hpp"
-#include "report/encoding/sha256.hpp"
-#include "report/page/metadata.hpp"
-#include "report/page/page_template.hpp"
-#include "report/page/report_file.hpp"
 #include "support/report_arrays.hpp"
 
 namespace ph::report {

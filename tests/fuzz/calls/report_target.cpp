@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "chosen_numbers.hpp"
-#include "io/bytes/json_cursor.hpp"
-#include "report/encoding/array_block.hpp"
-#include "report/page/metadata.hpp"
+#include "ph/detail/io/json_cursor.hpp"
+#include "ph/detail/report/array_block.hpp"
+#include "ph/detail/report/metadata.hpp"
 #include "support/report_arrays.hpp"
 #include "targets.hpp"
 #include "violation.hpp"

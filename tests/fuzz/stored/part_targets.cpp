@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "barcode/parts/inputs_part.hpp"
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "ph/error.hpp"
 #include "ph/parts/cloud_part.hpp"
 #include "ph/parts/image_part.hpp"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <map>
 
-#include "core/flat_map.hpp"
+#include "ph/detail/core/flat_map.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {

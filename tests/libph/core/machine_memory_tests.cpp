@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/byte_writer.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cubical/pair_voxels.hpp"
+#include "ph/detail/cubical/pair_voxels.hpp"
 #include "ph/estimate.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

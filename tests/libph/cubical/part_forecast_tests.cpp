@@ -10,7 +10,7 @@
 #include <numeric>
 #include <optional>
 
-#include "facade/parts/join_ranks.hpp"
+#include "ph/detail/facade/join_ranks.hpp"
 #include "ph/parts/image_loops.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/image_cases.hpp"

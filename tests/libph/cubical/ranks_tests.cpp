@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "facade/parts/bar_bytes.hpp"
-#include "facade/parts/join_ranks.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
+#include "ph/detail/facade/join_ranks.hpp"
 #include "ph/parts/cloud_part.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "ph/merge_tree.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

@@ -2,7 +2,7 @@
 // The facade: options, engines, estimates, a filtration of the user's own.
 #include "ph/estimate.hpp"
 
-#include "rips/collapse/edge_collapse.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "metric/neighbour_search.hpp"
-#include "metric/pairs_within.hpp"
 #include "ph/detail/metric/metric.hpp"
+#include "ph/detail/metric/pairs_within.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/eigen.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Edge collapse: fewer edges, the same bars, cells and cycles that mean what they say.
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 
 #include <fstream>
 #include <sstream>

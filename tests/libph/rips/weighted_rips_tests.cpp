@@ -3,9 +3,9 @@
 #include <limits>
 #include <numeric>
 
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
-#include "rips/collapse/edge_collapse.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "ph/detail/segment/cloud_picture.hpp"
 #include "ph/eigen.hpp"
-#include "pictures/cloud_picture.hpp"
 
 #include <gtest/gtest.h>
 

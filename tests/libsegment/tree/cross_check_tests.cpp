@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tree/tree_barcode.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "voxels/rips_graph.hpp"
 
 namespace ph::segment {

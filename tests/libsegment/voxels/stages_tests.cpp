@@ -9,13 +9,13 @@
 
 #include "libsegment/scenery.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
+#include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "plane/stages.hpp"
 #include "support/expect_error.hpp"
 #include "tree/cross_check.hpp"
-#include "tree/tree_barcode.hpp"
 #include "voxels/rips_graph.hpp"
 #include "voxels/voxel_grid.hpp"
 

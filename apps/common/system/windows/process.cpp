@@ -6,7 +6,7 @@
 #include <malloc.h>
 
 #include "common/system/memory_limit.hpp"
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/bytes/sealed_part.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

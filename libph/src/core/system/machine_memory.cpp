@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/sinks/bar_sink.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/cubical/bar_sink.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {

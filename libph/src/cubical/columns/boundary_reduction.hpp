@@ -4,10 +4,10 @@
 #include <optional>
 #include <span>
 
-#include "core/flat_map.hpp"
 #include "cubical/columns/boundary_column.hpp"
 #include "cubical/columns/parallel_reduction.hpp"
 #include "cubical/sinks/cell_sink.hpp"
+#include "ph/detail/core/flat_map.hpp"
 
 namespace ph::cubical {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/sinks/bar_sink.hpp"
 #include "cubical/sinks/pair_sink.hpp"
 #include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/star_grid.hpp"
+#include "ph/detail/cubical/bar_sink.hpp"
 
 namespace ph::cubical {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
 #include "cubical/columns/ordered_cell.hpp"
 #include "cubical/grid/star_tables.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cubical/sinks/bar_sink.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/cubical/bar_sink.hpp"
 
 namespace ph::cubical {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagram/point_tree.hpp"
+#include "ph/detail/diagram/point_tree.hpp"
 
 namespace ph::diagram {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "diagram/wasserstein/ground_cost.hpp"
 #include "diagram/wasserstein/weighted_tree.hpp"
+#include "ph/detail/diagram/ground_cost.hpp"
 
 namespace ph::diagram {
 

@@ -3,8 +3,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "diagram/point_tree.hpp"
-#include "diagram/wasserstein/ground_cost.hpp"
+#include "ph/detail/diagram/ground_cost.hpp"
+#include "ph/detail/diagram/point_tree.hpp"
 
 namespace ph::diagram {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/parts/bar_bytes.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
 
 #include <cstdint>
 #include <span>

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
-#include "core/bytes/sealed_part.hpp"
 #include "facade/parts/cloud_state.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
+#include "ph/detail/core/sealed_part.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 
 namespace ph {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <variant>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
 #include "cubical/rounds/part_loops.hpp"
 #include "facade/parts/part_state.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/error.hpp"
 

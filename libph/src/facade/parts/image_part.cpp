@@ -10,8 +10,8 @@
 
 #include "cubical/rounds/part_layout.hpp"
 #include "cubical/slabs/slabs.hpp"
-#include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/part_state.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

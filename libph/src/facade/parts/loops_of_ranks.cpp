@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "facade/parts/join_ranks.hpp"
+#include "ph/detail/facade/join_ranks.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "facade/parts/bar_bytes.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
 
 namespace ph {
 namespace {

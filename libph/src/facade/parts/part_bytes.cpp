@@ -6,12 +6,12 @@
 #include <string_view>
 #include <utility>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
-#include "core/bytes/sealed_part.hpp"
-#include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/part_state.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
+#include "ph/detail/core/sealed_part.hpp"
+#include "ph/detail/facade/bar_bytes.hpp"
 
 namespace ph {
 namespace {

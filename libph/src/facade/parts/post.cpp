@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "facade/parts/post.hpp"
+#include "ph/detail/facade/post.hpp"
 
 #include <fmt/format.h>
 
-#include "core/bytes/byte_reader.hpp"
-#include "core/bytes/byte_writer.hpp"
 #include "core/bytes/crc32.hpp"
+#include "ph/detail/core/byte_reader.hpp"
+#include "ph/detail/core/byte_writer.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/barcodes/barcode_formats.hpp"
-#include "io/points/npy_write.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
+#include "ph/detail/io/npy_write.hpp"
 
 namespace ph {
 namespace {

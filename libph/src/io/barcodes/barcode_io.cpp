@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "core/lower_case.hpp"
-#include "io/barcodes/barcode_formats.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
 
 namespace ph {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "image/voxel_runs.hpp"
-#include "io/barcodes/barcode_formats.hpp"
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/image/voxel_runs.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
+#include "ph/detail/io/json_writer.hpp"
 
 namespace ph {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "io/barcodes/barcode_formats.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {

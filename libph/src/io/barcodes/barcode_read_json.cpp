@@ -4,7 +4,7 @@
 #include <set>
 
 #include "io/barcodes/barcode_read.hpp"
-#include "io/bytes/json_cursor.hpp"
+#include "ph/detail/io/json_cursor.hpp"
 
 namespace ph {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "core/lower_case.hpp"
 #include "io/barcodes/barcode_read.hpp"
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {

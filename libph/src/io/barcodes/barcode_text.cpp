@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/barcodes/barcode_formats.hpp"
+#include "ph/detail/io/barcode_formats.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/base64.hpp"
+#include "ph/detail/io/base64.hpp"
 
 #include <string_view>
 

@@ -8,12 +8,12 @@
 #include <tuple>
 #include <utility>
 
-#include "core/format_size.hpp"
-#include "core/lower_case.hpp"
-#include "core/system/files.hpp"
-#include "core/system/machine_memory.hpp"
 #include "io/bytes/unpack.hpp"
 #include "io/bytes/utf8.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/format_size.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/json_cursor.hpp"
+#include "ph/detail/io/json_cursor.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/floating.hpp"
+#include "ph/detail/core/floating.hpp"
 
 namespace ph::detail {
 namespace {

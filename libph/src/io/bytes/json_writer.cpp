@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/lower_case.hpp"
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {

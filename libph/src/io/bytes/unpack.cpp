@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <new>
 
-#include "core/format_size.hpp"
+#include "ph/detail/core/format_size.hpp"
 
 namespace ph::detail {
 namespace {

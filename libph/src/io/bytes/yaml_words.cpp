@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/bytes/yaml_words.hpp"
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 
 #include <fmt/format.h>
 

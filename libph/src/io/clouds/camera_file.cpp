@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/floating.hpp"
-#include "io/bytes/json_cursor.hpp"
 #include "io/bytes/yaml_words.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/core/floating.hpp"
 #include "ph/detail/io/camera.hpp"
+#include "ph/detail/io/json_cursor.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "core/lower_case.hpp"
 #include "io/bytes/readers.hpp"
 #include "io/clouds/cloud_rows.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lower_case.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 

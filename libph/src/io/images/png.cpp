@@ -10,7 +10,7 @@
 #include <ostream>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {

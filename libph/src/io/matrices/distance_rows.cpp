@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 

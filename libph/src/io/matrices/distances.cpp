@@ -7,7 +7,7 @@
 
 #include "io/bytes/readers.hpp"
 #include "io/matrices/distance_rows.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/tables/table.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {

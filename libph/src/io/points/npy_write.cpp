@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/points/npy_write.hpp"
+#include "ph/detail/io/npy_write.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/tables/table.hpp"
+#include "ph/detail/io/table.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/lower_case.hpp"
 #include "io/bytes/readers.hpp"
+#include "ph/detail/core/lower_case.hpp"
 
 namespace ph::detail {
 namespace {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "core/floating.hpp"
-#include "core/lower_case.hpp"
 #include "io/bytes/readers.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/core/floating.hpp"
+#include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {

@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/floating.hpp"
-#include "core/lower_case.hpp"
-#include "io/tables/table.hpp"
+#include "ph/detail/core/floating.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/reader.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {

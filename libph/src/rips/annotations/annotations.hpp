@@ -9,9 +9,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/flat_map.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/core/flat_map.hpp"
 #include "ph/error.hpp"
 #include "rips/annotations/dead_generators.hpp"
 #include "rips/annotations/number_set.hpp"

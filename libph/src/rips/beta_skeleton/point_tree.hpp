@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "metric/kd_tree.hpp"
+#include "ph/detail/metric/kd_tree.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 

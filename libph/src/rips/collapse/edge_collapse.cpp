@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/collapse/edge_collapse.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 
 #include <algorithm>

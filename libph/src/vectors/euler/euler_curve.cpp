@@ -6,7 +6,7 @@
 
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/core/parallel.hpp"
-#include "vectors/checked_bars.hpp"
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "vectors/euler/change_counts.hpp"
 #include "vectors/euler/decided_cells.hpp"
 #include "vectors/euler/layers.hpp"

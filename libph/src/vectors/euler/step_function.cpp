@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
 #include "ph/euler_curve.hpp"
-#include "vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <memory>
 
-#include "complex/listed_cubes.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
+#include "ph/detail/complex/listed_cubes.hpp"
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/explicit.hpp"
 #include "ph/merge_tree.hpp"

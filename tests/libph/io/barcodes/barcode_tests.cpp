@@ -8,8 +8,8 @@
 #include <limits>
 #include <sstream>
 
-#include "io/bytes/json_writer.hpp"
 #include "libph/io/read_support.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/system/machine_memory.hpp"
 #include "libph/io/read_support.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 #include "support/patience.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/files.hpp"
+#include "ph/detail/core/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/machine_memory.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 
 #include <windows.h>
 // Must follow windows.h, whose types it uses.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagram/point_tree.hpp"
+#include "ph/detail/diagram/point_tree.hpp"
 
 namespace ph::diagram {
 

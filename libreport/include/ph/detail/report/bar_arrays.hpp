@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "ph/barcode.hpp"
-#include "report/page/report_file.hpp"
+#include "ph/detail/report/report_file.hpp"
 
 namespace ph::report {
 

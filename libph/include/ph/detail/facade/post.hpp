@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "facade/parts/transport.hpp"
+#include "ph/detail/facade/transport.hpp"
 
 namespace ph {
 

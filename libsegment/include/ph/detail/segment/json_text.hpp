@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/bytes/json_writer.hpp"
+#include "ph/detail/io/json_writer.hpp"
 #include "ph/scene_tree.hpp"
 
 namespace ph::segment {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "metric/kd_tree.hpp"
+#include "ph/detail/metric/kd_tree.hpp"
 
 namespace ph::diagram {
 

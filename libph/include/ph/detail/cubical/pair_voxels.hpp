@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/sinks/bar_sink.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/cubical/bar_sink.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 #include "ph/run_context.hpp"
 

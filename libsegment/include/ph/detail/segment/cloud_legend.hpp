@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "ph/detail/segment/cloud_picture.hpp"
 #include "ph/io/plot.hpp"
-#include "pictures/cloud_picture.hpp"
 
 namespace ph::segment {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "facade/parts/post.hpp"
+#include "ph/detail/facade/post.hpp"
 #include "ph/parts/image_loops.hpp"
 #include "ph/run_context.hpp"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "ph/detail/image/cubical_image.hpp"
+#include "ph/detail/report/array_block.hpp"
+#include "ph/detail/report/metadata.hpp"
 #include "ph/run_context.hpp"
-#include "report/encoding/array_block.hpp"
-#include "report/page/metadata.hpp"
 
 namespace ph::report {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/bytes/byte_writer.hpp"
+#include "ph/detail/core/byte_writer.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
