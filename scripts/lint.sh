@@ -27,8 +27,8 @@ cppcheck() {
   mkdir -p build/cppcheck
   xargs cppcheck --std=c++20 --enable=warning,portability --quiet --error-exitcode=1 \
     --suppressions-list=tests/analysis/cppcheck.txt --cppcheck-build-dir=build/cppcheck -j "$jobs" \
-    --template='{file}:{line}: {severity}: {message} [{id}]' -I libph/include -I libph/src \
-    -I libsegment/include -I libsegment/src -I libreport -I apps <<<"$files"
+    --template='{file}:{line}: {severity}: {message} [{id}]' -I . -I libph/include \
+    -I libsegment/include -I libreport/include <<<"$files"
 }
 
 analyzer() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch.hpp"
+#include "apps/barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,16 +9,16 @@
 #include <map>
 #include <string_view>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/output/report.hpp"
-#include "barcode/output/significance.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "barcode/run.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/files/extensions.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/run/program.hpp"
-#include "common/terminal/exit_code.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/output/report.hpp"
+#include "apps/barcode/output/significance.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/barcode/run.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/files/extensions.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/terminal/exit_code.hpp"
 
 namespace ph::barcode {
 namespace {

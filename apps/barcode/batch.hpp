@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "barcode/run.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/barcode/run.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::barcode {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch.hpp"
+#include "apps/barcode/batch.hpp"
 
 #include <array>
 #include <string_view>
 
-#include "common/files/batch_names.hpp"
+#include "apps/common/files/batch_names.hpp"
 
 namespace ph::barcode {
 namespace {

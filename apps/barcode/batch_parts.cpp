@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch.hpp"
+#include "apps/barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,12 +10,12 @@
 #include <string_view>
 #include <utility>
 
-#include "barcode/parts/inputs_part.hpp"
-#include "common/files/csv_cell.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/words.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/parts/inputs_part.hpp"
+#include "apps/common/files/csv_cell.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/words.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/batch.hpp"
-#include "barcode/run.hpp"
-#include "common/run/run_main.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/batch.hpp"
+#include "apps/barcode/run.hpp"
+#include "apps/common/run/run_main.hpp"
 
 int main(int argc, char** argv) {
   using namespace ph::barcode;

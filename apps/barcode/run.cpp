@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/run.hpp"
+#include "apps/barcode/run.hpp"
 
 #include <fmt/format.h>
 
@@ -11,19 +11,19 @@
 #include <new>
 #include <optional>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/complex/cubical_options.hpp"
-#include "barcode/complex/load.hpp"
-#include "barcode/memory/estimate_text.hpp"
-#include "barcode/output/outputs.hpp"
-#include "barcode/output/report.hpp"
-#include "barcode/output/significance.hpp"
-#include "barcode/output/stored.hpp"
-#include "common/system/process.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/messages.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/complex/cubical_options.hpp"
+#include "apps/barcode/complex/load.hpp"
+#include "apps/barcode/memory/estimate_text.hpp"
+#include "apps/barcode/output/outputs.hpp"
+#include "apps/barcode/output/report.hpp"
+#include "apps/barcode/output/significance.hpp"
+#include "apps/barcode/output/stored.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/messages.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/core/sealed_part.hpp"

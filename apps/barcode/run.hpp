@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/job/job.hpp"
-#include "common/run/program.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::barcode {
 

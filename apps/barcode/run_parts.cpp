@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/batch.hpp"
+#include "apps/barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/parts/cloud_parts.hpp"
-#include "barcode/parts/image_parts.hpp"
-#include "barcode/parts/inputs_part.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/files/file_identity.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/parts/cloud_parts.hpp"
+#include "apps/barcode/parts/image_parts.hpp"
+#include "apps/barcode/parts/inputs_part.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/files/file_identity.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/core/sealed_part.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/run_main.hpp"
-#include "distance/arguments/arguments.hpp"
-#include "distance/run.hpp"
+#include "apps/common/run/run_main.hpp"
+#include "apps/distance/arguments/arguments.hpp"
+#include "apps/distance/run.hpp"
 
 int main(int argc, char** argv) {
   using namespace ph::distance_program;

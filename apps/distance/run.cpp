@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distance/run.hpp"
+#include "apps/distance/run.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,17 +8,17 @@
 #include <cmath>
 #include <optional>
 
-#include "common/files/extensions.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/inputs/barcode_files.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
-#include "distance/arguments/scopes.hpp"
-#include "distance/data/groups.hpp"
-#include "distance/data/pairs.hpp"
-#include "distance/output/group_tests.hpp"
-#include "distance/output/matching.hpp"
-#include "distance/output/table.hpp"
+#include "apps/common/files/extensions.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/inputs/barcode_files.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/distance/arguments/scopes.hpp"
+#include "apps/distance/data/groups.hpp"
+#include "apps/distance/data/pairs.hpp"
+#include "apps/distance/output/group_tests.hpp"
+#include "apps/distance/output/matching.hpp"
+#include "apps/distance/output/table.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::distance_program {

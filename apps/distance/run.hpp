@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "common/run/program.hpp"
-#include "common/run/session.hpp"
-#include "distance/arguments/arguments.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/distance/arguments/arguments.hpp"
 
 namespace ph::distance_program {
 

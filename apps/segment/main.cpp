@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/run_main.hpp"
-#include "segment/arguments/arguments.hpp"
-#include "segment/run.hpp"
+#include "apps/common/run/run_main.hpp"
+#include "apps/segment/arguments/arguments.hpp"
+#include "apps/segment/run.hpp"
 
 int main(int argc, char** argv) {
   using namespace ph::segment;

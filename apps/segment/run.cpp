@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/run.hpp"
+#include "apps/segment/run.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,14 @@
 #include <optional>
 #include <span>
 
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/words.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/words.hpp"
+#include "apps/segment/arguments/arguments.hpp"
+#include "apps/segment/arguments/scopes.hpp"
+#include "apps/segment/input/frames.hpp"
+#include "apps/segment/output/outputs.hpp"
+#include "apps/segment/output/summary.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/detail/report/sha256.hpp"
@@ -20,11 +25,6 @@
 #include "ph/detail/segment/notes.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
-#include "segment/arguments/arguments.hpp"
-#include "segment/arguments/scopes.hpp"
-#include "segment/input/frames.hpp"
-#include "segment/output/outputs.hpp"
-#include "segment/output/summary.hpp"
 
 namespace ph::segment {
 namespace {

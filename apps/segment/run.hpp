@@ -2,10 +2,10 @@
 #pragma once
 #include <string>
 
-#include "common/run/program.hpp"
-#include "common/run/session.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/segment/arguments/arguments.hpp"
 #include "ph/label_tracker.hpp"
-#include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

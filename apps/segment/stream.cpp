@@ -6,12 +6,12 @@
 #include <ctime>
 #include <string_view>
 
-#include "common/run/program.hpp"
-#include "common/terminal/exit_code.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/segment/input/frames.hpp"
+#include "apps/segment/run.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"
-#include "segment/input/frames.hpp"
-#include "segment/run.hpp"
 
 namespace ph::segment {
 namespace {

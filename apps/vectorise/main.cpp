@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/run_main.hpp"
-#include "vectorise/arguments/arguments.hpp"
-#include "vectorise/run.hpp"
+#include "apps/common/run/run_main.hpp"
+#include "apps/vectorise/arguments/arguments.hpp"
+#include "apps/vectorise/run.hpp"
 
 int main(int argc, char** argv) {
   using namespace ph::vectorise;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/make_fit.hpp"
+#include "apps/vectorise/make_fit.hpp"
 
 #include <fmt/format.h>
 

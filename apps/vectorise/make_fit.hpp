@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/vectorise/arguments/arguments.hpp"
+#include "apps/vectorise/fit/fit.hpp"
 #include "ph/barcode.hpp"
 #include "ph/euler_curve.hpp"
-#include "vectorise/arguments/arguments.hpp"
-#include "vectorise/fit/fit.hpp"
 
 namespace ph::vectorise {
 

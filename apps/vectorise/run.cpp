@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/run.hpp"
+#include "apps/vectorise/run.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "common/files/extensions.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/inputs/barcode_files.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/files/extensions.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/inputs/barcode_files.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/vectorise/arguments/scopes.hpp"
+#include "apps/vectorise/data/samples.hpp"
+#include "apps/vectorise/data/table.hpp"
+#include "apps/vectorise/fit/fit.hpp"
+#include "apps/vectorise/make_fit.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/diagram/thread_context.hpp"
-#include "vectorise/arguments/scopes.hpp"
-#include "vectorise/data/samples.hpp"
-#include "vectorise/data/table.hpp"
-#include "vectorise/fit/fit.hpp"
-#include "vectorise/make_fit.hpp"
 
 namespace ph::vectorise {
 namespace {

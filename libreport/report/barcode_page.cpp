@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "libreport/report/arrays/complex_arrays.hpp"
+#include "libreport/report/arrays/point_arrays.hpp"
+#include "libreport/report/arrays/tree_arrays.hpp"
+#include "libreport/report/arrays/voxel_arrays.hpp"
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/report/bar_arrays.hpp"
 #include "ph/detail/report/report_file.hpp"
-#include "report/arrays/complex_arrays.hpp"
-#include "report/arrays/point_arrays.hpp"
-#include "report/arrays/tree_arrays.hpp"
-#include "report/arrays/voxel_arrays.hpp"
 
 namespace ph::report {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "libreport/report/arrays/point_arrays.hpp"
+#include "libreport/report/arrays/tree_arrays.hpp"
 #include "ph/detail/report/bar_arrays.hpp"
 #include "ph/detail/report/report_file.hpp"
 #include "ph/detail/segment/bounds.hpp"
 #include "ph/detail/segment/colouring.hpp"
-#include "report/arrays/point_arrays.hpp"
-#include "report/arrays/tree_arrays.hpp"
 
 namespace ph::report {
 namespace {

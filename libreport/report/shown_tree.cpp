@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libreport/report/arrays/tree_arrays.hpp"
 #include "ph/detail/core/floating.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
-#include "report/arrays/tree_arrays.hpp"
 
 namespace ph::report {
 namespace {

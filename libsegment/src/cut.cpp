@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "methods.hpp"
+#include "libsegment/src/methods.hpp"
 
 #include <algorithm>
 
-#include "objects/stages.hpp"
-#include "objects/weak_seams.hpp"
+#include "libsegment/src/objects/stages.hpp"
+#include "libsegment/src/objects/weak_seams.hpp"
+#include "libsegment/src/scene/options.hpp"
+#include "libsegment/src/supports/stages.hpp"
+#include "libsegment/src/voxels/rips_graph.hpp"
 #include "ph/detail/metric/pairs_within.hpp"
-#include "scene/options.hpp"
-#include "supports/stages.hpp"
-#include "voxels/rips_graph.hpp"
 
 namespace ph::segment {
 namespace {

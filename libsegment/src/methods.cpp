@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "methods.hpp"
+#include "libsegment/src/methods.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "plane/stages.hpp"
-#include "surface/concavity.hpp"
-#include "surface/noise.hpp"
-#include "surface/seeds.hpp"
-#include "voxels/base_points.hpp"
-#include "voxels/rips_graph.hpp"
-#include "voxels/voxel_pairs.hpp"
+#include "libsegment/src/plane/stages.hpp"
+#include "libsegment/src/surface/concavity.hpp"
+#include "libsegment/src/surface/noise.hpp"
+#include "libsegment/src/surface/seeds.hpp"
+#include "libsegment/src/voxels/base_points.hpp"
+#include "libsegment/src/voxels/rips_graph.hpp"
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

@@ -4,13 +4,13 @@
 #include <string_view>
 #include <vector>
 
-#include "objects/objects.hpp"
+#include "libsegment/src/objects/objects.hpp"
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/supports/stages.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/scene_tree.hpp"
 #include "ph/segment.hpp"
-#include "plane/plane.hpp"
-#include "supports/stages.hpp"
-#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 

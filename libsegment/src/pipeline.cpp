@@ -5,17 +5,17 @@
 #include <iterator>
 #include <utility>
 
-#include "methods.hpp"
+#include "libsegment/src/methods.hpp"
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/plane/projection_centre.hpp"
+#include "libsegment/src/plane/stages.hpp"
+#include "libsegment/src/scene/options.hpp"
+#include "libsegment/src/tree/cross_check.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 #include "ph/detail/segment/bounds.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
-#include "plane/plane.hpp"
-#include "plane/projection_centre.hpp"
-#include "plane/stages.hpp"
-#include "scene/options.hpp"
-#include "tree/cross_check.hpp"
-#include "vessels/stages.hpp"
 
 namespace ph::segment {
 namespace {

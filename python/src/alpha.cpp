@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "alpha.hpp"
+#include "python/src/alpha.hpp"
 
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 

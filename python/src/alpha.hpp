@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ph/alpha.hpp"
-#include "recipes.hpp"
+#include "python/src/recipes.hpp"
 
 namespace ph::python {
 

@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "calls/words.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/facade/adjust.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
-#include "recipes.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/calls/words.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/recipes.hpp"
 
 namespace ph::python {
 namespace {

@@ -10,15 +10,15 @@
 #include <variant>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "calls/words.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
-#include "results/bars.hpp"
-#include "results/origin.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/calls/words.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/results/bars.hpp"
+#include "python/src/results/origin.hpp"
 
 namespace ph::python {
 namespace {

@@ -6,11 +6,11 @@
 #include <variant>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/facade/adjust.hpp"
-#include "recipes.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/recipes.hpp"
 
 namespace ph::python {
 namespace {

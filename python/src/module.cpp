@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The module libph._core: functions that take buffers and plain numbers and return blocks of their
 // own. Shapes, names, words and defaults are the business of the Python around it.
-#include "calls/bindings.hpp"
+#include "python/src/calls/bindings.hpp"
 
 PYBIND11_MODULE(_core, m) {
   using namespace ph::python;

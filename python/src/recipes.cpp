@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "recipes.hpp"
+#include "python/src/recipes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,12 +11,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "calls/bindings.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 namespace {

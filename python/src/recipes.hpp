@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "data/metric_space.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/persistence.hpp"
-#include "results/bars.hpp"
+#include "python/src/data/metric_space.hpp"
+#include "python/src/results/bars.hpp"
 
 namespace ph::python {
 

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/detail/report/page_template.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/report.hpp"
 #include "ph/scene_report.hpp"
-#include "recipes.hpp"
-#include "results/origin.hpp"
-#include "scenes/scene.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/recipes.hpp"
+#include "python/src/results/origin.hpp"
+#include "python/src/scenes/scene.hpp"
 
 namespace ph::python {
 namespace {

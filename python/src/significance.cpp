@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The suite on somebody else's complex; somebody else's engine is in it by itself.
-#include "own_complexes.hpp"
-#include "polygon.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/extension/own_complexes.hpp"
+#include "tests/extension/polygon.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

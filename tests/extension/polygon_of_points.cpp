@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What gives the complex to the program.
-#include "barcode/job/own_complex.hpp"
-#include "polygon.hpp"
+#include "apps/barcode/job/own_complex.hpp"
+#include "tests/extension/polygon.hpp"
 
 namespace {
 

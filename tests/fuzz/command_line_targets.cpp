@@ -3,12 +3,12 @@
 #include <array>
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
-#include "distance/arguments/arguments.hpp"
-#include "segment/arguments/arguments.hpp"
-#include "targets.hpp"
-#include "vectorise/arguments/arguments.hpp"
-#include "violation.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/distance/arguments/arguments.hpp"
+#include "apps/segment/arguments/arguments.hpp"
+#include "apps/vectorise/arguments/arguments.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "content.hpp"
+#include "tests/fuzz/content.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "violation.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -2,9 +2,9 @@
 // The conformance suite on filtrations that the bytes choose.
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
-#include "support/generators.hpp"
-#include "support/representatives.hpp"
-#include "targets.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/representatives.hpp"
 
 namespace ph::fuzz {
 namespace {

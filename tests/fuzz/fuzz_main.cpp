@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace {
 const ph::fuzz::Target* target = nullptr;

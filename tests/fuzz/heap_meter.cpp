@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "heap_meter.hpp"
+#include "tests/fuzz/heap_meter.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define PH_HAS_MALLOC_HOOKS 1

@@ -2,11 +2,11 @@
 // Checksums stop nearly every change of a PNG before it reaches a decoder: here they are set right.
 #include <vector>
 
-#include "io/bytes/unpack.hpp"
+#include "libph/src/io/bytes/unpack.hpp"
 #include "ph/io/cloud.hpp"
-#include "round_trip.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/round_trip.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

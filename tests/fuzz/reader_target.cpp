@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "heap_meter.hpp"
-#include "io/bytes/unpack.hpp"
-#include "readers.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "libph/src/io/bytes/unpack.hpp"
+#include "tests/fuzz/heap_meter.hpp"
+#include "tests/fuzz/readers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

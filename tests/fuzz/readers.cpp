@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "readers.hpp"
+#include "tests/fuzz/readers.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "heap_meter.hpp"
-#include "round_trip.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/heap_meter.hpp"
+#include "tests/fuzz/round_trip.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "content.hpp"
+#include "tests/fuzz/content.hpp"
 
 namespace ph::fuzz {
 

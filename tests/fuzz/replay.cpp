@@ -8,7 +8,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace {
 

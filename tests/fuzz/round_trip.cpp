@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "round_trip.hpp"
+#include "tests/fuzz/round_trip.hpp"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "violation.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

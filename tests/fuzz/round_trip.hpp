@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "content.hpp"
+#include "tests/fuzz/content.hpp"
 
 namespace ph::fuzz {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 #include <algorithm>
 
-#include "readers.hpp"
+#include "tests/fuzz/readers.hpp"
 
 namespace ph::fuzz {
 

@@ -14,8 +14,8 @@
 #include <set>
 #include <sstream>
 
-#include "readers.hpp"
-#include "support/expect_error.hpp"
+#include "tests/fuzz/readers.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Which room may include which, that no folders include each other in a circle, that nobody
-looks inside a library of another folder, how large a folder may be, where tests lie, and that
-fmt::join has its header: layering.py ROOT.
+looks inside a library of another folder, that includes say where they lead, how large a folder may
+be, where tests lie, and that fmt::join has its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -69,6 +69,7 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MAY_SHOW = {"pcl": "libsegment/pcl/", "CGAL": "libph/src/alpha/cgal/"}
 MOST_FILES = 40  # in a larger folder nobody finds a file by its name
+PUBLIC = ("libph/include", "libsegment/include", "libsegment/pcl/include", "libreport/include")
 # What only a library itself includes. Tests and benchmarks may look at anything.
 PRIVATE = ("libph/src/", "libsegment/src/", "libreport/report/")
 # Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
@@ -104,12 +105,26 @@ def room_of(file):
 
 def target_of(root, file, include):
     """The file of ours that is meant, below ROOT; None if it is somebody else's."""
-    for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
-                 Path("libsegment/pcl/include"), Path("libsegment/src"),
-                 Path("libreport/include"), Path("libreport"), Path("apps"), Path("python/src")):
+    for base in (*map(Path, PUBLIC), Path(), file.parent):
         if (root / base / include).is_file():
             return (root / base / include).resolve().relative_to(root)
     return None
+
+
+def unclear_includes(root):
+    """Includes that do not say where they lead: a header that is not public is included by its path
+    from the root."""
+    tops = ("libph", "libsegment", "libreport", "apps", "bench", "examples", "python", "tests")
+    for path in sorted(p for top in tops for p in (root / top).rglob("*")):
+        if path.suffix not in (".hpp", ".ipp", ".cpp", ".h", ".cu", ".cuh", ".mm") or \
+                root / "tests/headers/violations" in path.parents:
+            continue
+        file = path.relative_to(root)
+        for match in INCLUDE.finditer((root / file).read_text()):
+            include = match[1] or match[2]
+            target = target_of(root, file, include)
+            if target and include not in (str(target), str(target).split("/include/")[-1]):
+                yield f"{file}: {include}: expected {target}"
 
 
 def lacks_header_of_join(text):
@@ -223,7 +238,8 @@ def main():
     files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "libreport", "apps", "python")
                    for p in (root / top).rglob("*") if p.suffix in (".hpp", ".ipp", ".cpp"))
     found = [v for file in files for v in violations_of(root, file)]
-    found += [*too_large(root), *misplaced_tests(root), *room_cycles(), *circles(root, files)]
+    found += [*too_large(root), *misplaced_tests(root), *room_cycles(), *circles(root, files),
+              *unclear_includes(root)]
     count = sum(not text.startswith(" ") for text in found)
     print(*found, f"{len(files)} files looked at, {count} violations", sep="\n")
     return 1 if found or not files else 0

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "libsegment/scenery.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

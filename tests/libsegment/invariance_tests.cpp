@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "libsegment/scenery.hpp"
 #include "ph/persistence.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::segment {
 namespace {

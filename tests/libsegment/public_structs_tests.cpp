@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "libsegment/scenery.hpp"
 #include "ph/label_tracker.hpp"
-#include "support/expect_error.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {

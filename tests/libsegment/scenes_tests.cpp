@@ -10,7 +10,7 @@
 
 #include "ph/eigen.hpp"
 #include "ph/segment.hpp"
-#include "support/test_data.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::segment {
 namespace {

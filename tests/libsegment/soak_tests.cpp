@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "libsegment/scenery.hpp"
 #include "ph/label_tracker.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -34,7 +34,7 @@ if HAS_CGAL:
     SOURCES.append("alpha")
 NINJA = """\
 cxx = {compiler}
-flags = -std=c++20 -O1 -frounding-math -DCGAL_NDEBUG -Ilibph/include -Ilibph/src -Itests '-DPH_TEST_DATA=""' {includes}
+flags = -std=c++20 -O1 -frounding-math -DCGAL_NDEBUG -I. -Ilibph/include '-DPH_TEST_DATA=""' {includes}
 rule compile
   command = $cxx $flags -MMD -MF $out.d -c $in -o $out
   depfile = $out.d

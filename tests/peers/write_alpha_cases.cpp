@@ -13,7 +13,7 @@
 
 #include "ph/alpha.hpp"
 #include "ph/persistence.hpp"
-#include "support/generators.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 namespace {

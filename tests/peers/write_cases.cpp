@@ -10,8 +10,8 @@
 
 #include "ph/distances.hpp"
 #include "ph/persistence.hpp"
-#include "support/generators.hpp"
-#include "support/known_spaces.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/known_spaces.hpp"
 
 namespace ph::test {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "ph/custom.hpp"
 #include "ph/detail/core/range_filtration.hpp"
-#include "support/rips_graphs.hpp"
+#include "tests/support/rips_graphs.hpp"
 
 namespace ph::test {
 

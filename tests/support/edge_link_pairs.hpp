@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "rips/edge_links.hpp"
-#include "support/conformance.hpp"
+#include "libph/src/rips/edge_links.hpp"
+#include "tests/support/conformance.hpp"
 
 namespace ph::test {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "support/generators.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ph/parts/image_part.hpp"
-#include "support/generators.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 

@@ -3,8 +3,8 @@
 // Checks the representatives of the bars of one random image.
 #include <limits>
 
-#include "support/generators.hpp"
-#include "support/voxel_sets.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/voxel_sets.hpp"
 
 namespace ph::test {
 

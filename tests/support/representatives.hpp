@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // Checks from the definitions that a chain represents a bar.
-#include "support/conformance.hpp"
+#include "tests/support/conformance.hpp"
 
 namespace ph::test {
 

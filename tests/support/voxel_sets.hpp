@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "support/representatives.hpp"
+#include "tests/support/representatives.hpp"
 
 namespace ph::test {
 

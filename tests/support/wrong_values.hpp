@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "support/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::test {
 

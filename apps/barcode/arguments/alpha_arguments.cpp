@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/argument_groups.hpp"
+#include "apps/barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/files/batch_names.hpp"
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 namespace {

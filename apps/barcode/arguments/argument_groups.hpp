@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/arguments/scopes.hpp"
-#include "common/arguments/options.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/common/arguments/options.hpp"
 
 // The options of ph-barcode by topic, a file each. `add_…` registers them, and `arguments` must
 // outlive `options`. `check_…` looks at what no single one of them can see, sets what follows from

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,9 +10,9 @@
 #include <functional>
 #include <string_view>
 
-#include "barcode/arguments/argument_groups.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/argument_groups.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/report/page_template.hpp"
 

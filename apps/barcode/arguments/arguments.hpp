@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "barcode/job/job.hpp"
-#include "barcode/job/own_complex.hpp"
-#include "common/arguments/command_line.hpp"
-#include "common/arguments/option_scope.hpp"
-#include "common/arguments/plot_arguments.hpp"
-#include "common/manual/manual.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/barcode/job/own_complex.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/arguments/plot_arguments.hpp"
+#include "apps/common/manual/manual.hpp"
 #include "ph/alpha.hpp"
 #include "ph/cubical.hpp"
 #include "ph/greedy_permutation.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/argument_groups.hpp"
+#include "apps/barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 

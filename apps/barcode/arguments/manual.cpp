@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/terminal/words.hpp"
+#include "apps/common/terminal/words.hpp"
 #include "ph/alpha.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"

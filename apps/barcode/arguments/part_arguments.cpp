@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/argument_groups.hpp"
+#include "apps/barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
 
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/arguments/argument_groups.hpp"
+#include "apps/barcode/arguments/argument_groups.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/values/numbers.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "common/arguments/option_scope.hpp"
+#include "apps/common/arguments/option_scope.hpp"
 #include "ph/detail/core/names.hpp"
 
 namespace ph::barcode {

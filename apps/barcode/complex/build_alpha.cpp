@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/build_complex.hpp"
+#include "apps/barcode/complex/build_complex.hpp"
 
 #include <fmt/format.h>
 
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
 
 namespace ph::barcode {
 namespace {

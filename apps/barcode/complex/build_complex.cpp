@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/build_complex.hpp"
+#include "apps/barcode/complex/build_complex.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <limits>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/complex/cubical_options.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/complex/cubical_options.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/complex/listed_cubes.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/report/shown_tree.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/points.hpp"
 

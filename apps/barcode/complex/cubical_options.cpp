@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/cubical_options.hpp"
+#include "apps/barcode/complex/cubical_options.hpp"
 
 #include <fmt/format.h>
 

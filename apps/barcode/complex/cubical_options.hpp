@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {

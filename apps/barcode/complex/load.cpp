@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/load.hpp"
+#include "apps/barcode/complex/load.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "barcode/arguments/scopes.hpp"
-#include "common/terminal/messages.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/common/terminal/messages.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {

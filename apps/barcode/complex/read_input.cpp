@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/complex/read_input.hpp"
+#include "apps/barcode/complex/read_input.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 
 namespace ph::barcode {
 

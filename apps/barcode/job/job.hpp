@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/plot_arguments.hpp"
+#include "apps/common/arguments/plot_arguments.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/write.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/job/own_complex.hpp"
+#include "apps/barcode/job/own_complex.hpp"
 
 #include <fmt/format.h>
 

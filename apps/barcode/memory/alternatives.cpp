@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/memory/estimate_text.hpp"
+#include "apps/barcode/memory/estimate_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,10 +7,10 @@
 #include <new>
 #include <vector>
 
-#include "barcode/complex/build_complex.hpp"
-#include "barcode/complex/read_input.hpp"
-#include "common/terminal/words.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/complex/build_complex.hpp"
+#include "apps/barcode/complex/read_input.hpp"
+#include "apps/common/terminal/words.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/estimate.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/memory/estimate_text.hpp"
+#include "apps/barcode/memory/estimate_text.hpp"
 
 #include <fmt/format.h>
 

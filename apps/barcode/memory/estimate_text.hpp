@@ -2,10 +2,10 @@
 #pragma once
 #include <string>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/complex/build_complex.hpp"
-#include "barcode/job/job.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/complex/build_complex.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/common/run/session.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph::barcode {

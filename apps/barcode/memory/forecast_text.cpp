@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/memory/forecast_text.hpp"
+#include "apps/barcode/memory/forecast_text.hpp"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <thread>
 
-#include "barcode/mpi/mpi_transport.hpp"
-#include "barcode/ranks/rank_result.hpp"
-#include "common/run/program.hpp"
+#include "apps/barcode/mpi/mpi_transport.hpp"
+#include "apps/barcode/ranks/rank_result.hpp"
+#include "apps/common/run/program.hpp"
 #include "ph/detail/core/machine_memory.hpp"
 
 namespace {

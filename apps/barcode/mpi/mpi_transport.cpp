@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/mpi/mpi_transport.hpp"
+#include "apps/barcode/mpi/mpi_transport.hpp"
 
 #include <mpi.h>
 

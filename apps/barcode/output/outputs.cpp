@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/output/outputs.hpp"
+#include "apps/barcode/output/outputs.hpp"
 
 #include <fmt/format.h>
 

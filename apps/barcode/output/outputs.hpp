@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "barcode/job/job.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::barcode {
 

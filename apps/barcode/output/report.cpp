@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/output/report.hpp"
+#include "apps/barcode/output/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/output/stored.hpp"
-#include "common/distances/distance_choice.hpp"
-#include "common/inputs/barcode_files.hpp"
-#include "common/system/process.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/words.hpp"
+#include "apps/barcode/output/stored.hpp"
+#include "apps/common/distances/distance_choice.hpp"
+#include "apps/common/inputs/barcode_files.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/words.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/report/bar_arrays.hpp"
 #include "ph/detail/report/report_file.hpp"

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/complex/build_complex.hpp"
-#include "barcode/complex/read_input.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/complex/build_complex.hpp"
+#include "apps/barcode/complex/read_input.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::barcode {
 

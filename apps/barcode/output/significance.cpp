@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/output/significance.hpp"
+#include "apps/barcode/output/significance.hpp"
 
 #include <fmt/format.h>
 

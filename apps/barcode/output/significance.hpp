@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/write.hpp"
 #include "ph/significance.hpp"

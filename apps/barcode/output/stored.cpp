@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Processes barcodes that were computed earlier.
-#include "barcode/output/stored.hpp"
+#include "apps/barcode/output/stored.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <array>
 
-#include "common/distances/distance_choice.hpp"
-#include "common/system/process.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/distances/distance_choice.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/detail/report/sha256.hpp"
 #include "ph/report.hpp"

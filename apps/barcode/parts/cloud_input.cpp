@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/cloud_input.hpp"
+#include "apps/barcode/parts/cloud_input.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
 #include <utility>
 
-#include "barcode/parts/part_files.hpp"
+#include "apps/barcode/parts/part_files.hpp"
 #include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {

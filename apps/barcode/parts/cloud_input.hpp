@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/complex/read_input.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/complex/read_input.hpp"
+#include "apps/common/run/session.hpp"
 #include "ph/parts/cloud_part.hpp"
 
 namespace ph::barcode {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/cloud_parts.hpp"
+#include "apps/barcode/parts/cloud_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/memory/forecast_text.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/system/process.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/memory/forecast_text.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/io/write.hpp"
 

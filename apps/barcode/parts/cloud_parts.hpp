@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "barcode/parts/cloud_input.hpp"
-#include "barcode/parts/part_files.hpp"
+#include "apps/barcode/parts/cloud_input.hpp"
+#include "apps/barcode/parts/part_files.hpp"
 #include "ph/parts/cloud_part.hpp"
 
 namespace ph::barcode {

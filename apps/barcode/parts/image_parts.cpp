@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/image_parts.hpp"
+#include "apps/barcode/parts/image_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,17 +9,17 @@
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/complex/cubical_options.hpp"
-#include "barcode/memory/forecast_text.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "barcode/parts/part_input.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/system/process.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/complex/cubical_options.hpp"
+#include "apps/barcode/memory/forecast_text.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/barcode/parts/part_input.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/io/write.hpp"
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/job/job.hpp"
-#include "barcode/output/outputs.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "barcode/parts/part_input.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/barcode/output/outputs.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/barcode/parts/part_input.hpp"
+#include "apps/common/run/session.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph::barcode {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/inputs_part.hpp"
+#include "apps/barcode/parts/inputs_part.hpp"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/part_files.hpp"
+#include "apps/barcode/parts/part_files.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <utility>
 
-#include "common/files/batch_names.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/io/reader.hpp"

@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "barcode/arguments/arguments.hpp"
-#include "barcode/job/job.hpp"
-#include "barcode/output/outputs.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/barcode/job/job.hpp"
+#include "apps/barcode/output/outputs.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::barcode {
 

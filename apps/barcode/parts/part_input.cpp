@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/parts/part_input.hpp"
+#include "apps/barcode/parts/part_input.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
 
-#include "barcode/complex/cubical_options.hpp"
-#include "barcode/complex/read_input.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/complex/cubical_options.hpp"
+#include "apps/barcode/complex/read_input.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {

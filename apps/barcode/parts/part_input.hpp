@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "barcode/arguments/arguments.hpp"
-#include "common/run/session.hpp"
+#include "apps/barcode/arguments/arguments.hpp"
+#include "apps/common/run/session.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph::barcode {

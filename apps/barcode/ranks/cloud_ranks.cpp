@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "barcode/parts/cloud_input.hpp"
-#include "barcode/parts/cloud_parts.hpp"
-#include "barcode/ranks/rank_result.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/parts/cloud_input.hpp"
+#include "apps/barcode/parts/cloud_parts.hpp"
+#include "apps/barcode/ranks/rank_result.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/facade/join_ranks.hpp"
 
 namespace ph::barcode {

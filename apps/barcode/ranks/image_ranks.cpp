@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "barcode/memory/forecast_text.hpp"
-#include "barcode/parts/image_parts.hpp"
-#include "barcode/parts/part_input.hpp"
-#include "barcode/ranks/rank_result.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/barcode/memory/forecast_text.hpp"
+#include "apps/barcode/parts/image_parts.hpp"
+#include "apps/barcode/parts/part_input.hpp"
+#include "apps/barcode/ranks/rank_result.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/facade/bar_bytes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/ranks/rank_result.hpp"
+#include "apps/barcode/ranks/rank_result.hpp"
 
 #include <fmt/format.h>
 

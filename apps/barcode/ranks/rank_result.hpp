@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "barcode/parts/part_files.hpp"
-#include "barcode/run.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/barcode/run.hpp"
 #include "ph/detail/facade/post.hpp"
 #include "ph/detail/facade/transport.hpp"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/ranks/rank_result.hpp"
+#include "apps/barcode/ranks/rank_result.hpp"
 
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
-#include "barcode/arguments/scopes.hpp"
-#include "barcode/batch.hpp"
-#include "barcode/output/outputs.hpp"
-#include "barcode/parts/part_files.hpp"
-#include "common/files/file_identity.hpp"
+#include "apps/barcode/arguments/scopes.hpp"
+#include "apps/barcode/batch.hpp"
+#include "apps/barcode/output/outputs.hpp"
+#include "apps/barcode/parts/part_files.hpp"
+#include "apps/common/files/file_identity.hpp"
 #include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/arguments/command_line.hpp"
+#include "apps/common/arguments/command_line.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/options.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/manual/help_text.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/arguments/options.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/manual/help_text.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/manual/manual.hpp"
+#include "apps/common/manual/manual.hpp"
 #include "ph/detail/core/names.hpp"
 
 namespace ph::app {

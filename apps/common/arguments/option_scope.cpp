@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/arguments/option_scope.hpp"
+#include "apps/common/arguments/option_scope.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "common/arguments/options.hpp"
+#include "apps/common/arguments/options.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include "common/values/choices.hpp"
+#include "apps/common/values/choices.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

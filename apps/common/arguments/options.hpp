@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/arguments/option_scope.hpp"
-#include "common/values/cli_names.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/values/cli_names.hpp"
 #include "ph/detail/core/names.hpp"
 
 namespace ph::app {

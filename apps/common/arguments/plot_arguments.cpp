@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/arguments/plot_arguments.hpp"
+#include "apps/common/arguments/plot_arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/arguments/options.hpp"
-#include "common/files/batch_names.hpp"
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/arguments/options.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/error.hpp"
 

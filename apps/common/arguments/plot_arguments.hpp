@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/option_scope.hpp"
+#include "apps/common/arguments/option_scope.hpp"
 #include "ph/io/plot.hpp"
 
 namespace ph::app {

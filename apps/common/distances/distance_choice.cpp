@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/distances/distance_choice.hpp"
+#include "apps/common/distances/distance_choice.hpp"
 
 #include <fmt/format.h>
 

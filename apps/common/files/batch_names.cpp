@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/files/batch_names.hpp"
+#include "apps/common/files/batch_names.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <system_error>
 
-#include "common/files/file_identity.hpp"
+#include "apps/common/files/file_identity.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/reader.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/files/csv_cell.hpp"
+#include "apps/common/files/csv_cell.hpp"
 
 #include "ph/detail/io/reader.hpp"
 

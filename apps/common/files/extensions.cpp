@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/files/extensions.hpp"
+#include "apps/common/files/extensions.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "common/files/file_identity.hpp"
+#include "apps/common/files/file_identity.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <system_error>
 
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/inputs/barcode_files.hpp"
+#include "apps/common/inputs/barcode_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <array>
 #include <optional>
 
-#include "common/files/batch_names.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::app {
 namespace {

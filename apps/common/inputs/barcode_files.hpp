@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/run/session.hpp"
+#include "apps/common/run/session.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/io/write.hpp"

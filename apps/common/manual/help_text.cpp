@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/manual/help_text.hpp"
+#include "apps/common/manual/help_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "common/manual/lines.hpp"
-#include "common/manual/pages.hpp"
-#include "common/values/choices.hpp"
+#include "apps/common/manual/lines.hpp"
+#include "apps/common/manual/pages.hpp"
+#include "apps/common/values/choices.hpp"
 
 namespace ph::app {
 namespace {

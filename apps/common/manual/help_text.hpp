@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/manual/option_text.hpp"
+#include "apps/common/manual/option_text.hpp"
 
 namespace ph::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/manual/lines.hpp"
+#include "apps/common/manual/lines.hpp"
 
 #include <algorithm>
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "common/manual/lines.hpp"
-#include "common/manual/pages.hpp"
-#include "common/terminal/build_information.hpp"
-#include "common/terminal/exit_code.hpp"
+#include "apps/common/manual/lines.hpp"
+#include "apps/common/manual/pages.hpp"
+#include "apps/common/terminal/build_information.hpp"
+#include "apps/common/terminal/exit_code.hpp"
 
 namespace ph::app {
 namespace {

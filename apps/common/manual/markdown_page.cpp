@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "common/manual/lines.hpp"
-#include "common/manual/pages.hpp"
+#include "apps/common/manual/lines.hpp"
+#include "apps/common/manual/pages.hpp"
 
 namespace ph::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/manual/option_text.hpp"
+#include "apps/common/manual/option_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "common/manual/help_text.hpp"
+#include "apps/common/manual/help_text.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

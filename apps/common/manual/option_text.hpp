@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/manual/manual.hpp"
-#include "common/values/cli_names.hpp"
+#include "apps/common/manual/manual.hpp"
+#include "apps/common/values/cli_names.hpp"
 
 namespace ph::app {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "common/manual/option_text.hpp"
+#include "apps/common/manual/option_text.hpp"
 
 // The outputs for other programs, made from the manual of a program.
 namespace ph::app {

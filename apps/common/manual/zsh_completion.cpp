@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/manual/lines.hpp"
-#include "common/manual/pages.hpp"
+#include "apps/common/manual/lines.hpp"
+#include "apps/common/manual/pages.hpp"
 
 namespace ph::app {
 namespace {

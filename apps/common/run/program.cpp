@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/program.hpp"
+#include "apps/common/run/program.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <new>
 #include <system_error>
 
-#include "common/system/process.hpp"
-#include "common/system/signals.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/messages.hpp"
-#include "common/terminal/words.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/system/signals.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/messages.hpp"
+#include "apps/common/terminal/words.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {

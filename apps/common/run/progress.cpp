@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/progress.hpp"
+#include "apps/common/run/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "common/terminal/messages.hpp"
+#include "apps/common/terminal/messages.hpp"
 #include "ph/detail/io/json_writer.hpp"
 
 namespace ph::app {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <thread>
 
-#include "common/arguments/command_line.hpp"
+#include "apps/common/arguments/command_line.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::app {

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "common/arguments/command_line.hpp"
-#include "common/run/program.hpp"
-#include "common/run/session.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/run/program.hpp"
+#include "apps/common/run/session.hpp"
 
 namespace ph::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/run/session.hpp"
+#include "apps/common/run/session.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/files/extensions.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/system/process.hpp"
-#include "common/system/signals.hpp"
-#include "common/terminal/messages.hpp"
-#include "common/terminal/words.hpp"
+#include "apps/common/files/extensions.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/system/signals.hpp"
+#include "apps/common/terminal/messages.hpp"
+#include "apps/common/terminal/words.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/core/machine_memory.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "common/arguments/command_line.hpp"
-#include "common/run/progress.hpp"
-#include "common/system/memory_limit.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/run/progress.hpp"
+#include "apps/common/system/memory_limit.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 

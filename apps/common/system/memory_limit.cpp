@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/memory_limit.hpp"
+#include "apps/common/system/memory_limit.hpp"
 
 #include <malloc.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
 
 #include <fcntl.h>
 #include <malloc.h>

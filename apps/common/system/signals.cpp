@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/signals.hpp"
+#include "apps/common/system/signals.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -13,9 +13,9 @@
 #include <csignal>
 #include <system_error>
 
-#include "common/system/temporaries.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/messages.hpp"
+#include "apps/common/system/temporaries.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/messages.hpp"
 
 namespace ph::app {
 namespace {

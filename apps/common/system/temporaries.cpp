@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/temporaries.hpp"
+#include "apps/common/system/temporaries.hpp"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "common/system/signals.hpp"
+#include "apps/common/system/signals.hpp"
 
 namespace ph::app {
 namespace {

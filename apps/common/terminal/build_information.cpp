@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/terminal/build_information.hpp"
+#include "apps/common/terminal/build_information.hpp"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/terminal/exit_code.hpp"
+#include "apps/common/terminal/exit_code.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/terminal/messages.hpp"
+#include "apps/common/terminal/messages.hpp"
 
 #include <mutex>
 #include <string>

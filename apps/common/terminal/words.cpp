@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/terminal/words.hpp"
+#include "apps/common/terminal/words.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/values/choices.hpp"
+#include "apps/common/values/choices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

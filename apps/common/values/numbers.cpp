@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/values/numbers.hpp"
+#include "apps/common/values/numbers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distance/arguments/arguments.hpp"
+#include "apps/distance/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 
-#include "common/arguments/options.hpp"
-#include "common/values/numbers.hpp"
-#include "distance/arguments/scopes.hpp"
+#include "apps/common/arguments/options.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/distance/arguments/scopes.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/command_line.hpp"
-#include "common/arguments/option_scope.hpp"
-#include "common/distances/distance_choice.hpp"
-#include "common/manual/manual.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/distances/distance_choice.hpp"
+#include "apps/common/manual/manual.hpp"
 #include "ph/significance.hpp"
 
 namespace ph::distance_program {

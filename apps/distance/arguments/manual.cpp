@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distance/arguments/arguments.hpp"
+#include "apps/distance/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-#include "common/distances/distance_choice.hpp"
+#include "apps/common/distances/distance_choice.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::distance_program {

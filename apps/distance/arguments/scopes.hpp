@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "common/arguments/option_scope.hpp"
-#include "common/distances/distance_choice.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/distances/distance_choice.hpp"
 
 namespace ph::distance_program {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "distance/data/groups.hpp"
+#include "apps/distance/data/groups.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "common/values/numbers.hpp"
+#include "apps/common/values/numbers.hpp"
 
 namespace ph::distance_program {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distance/data/pairs.hpp"
+#include "apps/distance/data/pairs.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/distances/distance_choice.hpp"
+#include "apps/common/distances/distance_choice.hpp"
 #include "ph/distance_matrix.hpp"
 
 namespace ph::distance_program {

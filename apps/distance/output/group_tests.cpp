@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "distance/output/group_tests.hpp"
+#include "apps/distance/output/group_tests.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "distance/output/table.hpp"
+#include "apps/distance/output/table.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "distance/arguments/arguments.hpp"
-#include "distance/data/groups.hpp"
-#include "distance/data/pairs.hpp"
+#include "apps/distance/arguments/arguments.hpp"
+#include "apps/distance/data/groups.hpp"
+#include "apps/distance/data/pairs.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::distance_program {

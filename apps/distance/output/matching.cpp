@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "distance/output/matching.hpp"
+#include "apps/distance/output/matching.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "distance/output/table.hpp"
+#include "apps/distance/output/table.hpp"
 #include "ph/detail/diagram/ground_cost.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/io/write.hpp"

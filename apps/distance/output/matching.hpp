@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/distances/distance_choice.hpp"
+#include "apps/common/distances/distance_choice.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::distance_program {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "common/files/csv_cell.hpp"
-#include "distance/output/table.hpp"
+#include "apps/common/files/csv_cell.hpp"
+#include "apps/distance/output/table.hpp"
 #include "ph/detail/io/npy_write.hpp"
 #include "ph/io/write.hpp"
 

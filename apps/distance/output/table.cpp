@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "distance/output/table.hpp"
+#include "apps/distance/output/table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "common/files/csv_cell.hpp"
-#include "common/terminal/build_information.hpp"
+#include "apps/common/files/csv_cell.hpp"
+#include "apps/common/terminal/build_information.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/io/write.hpp"

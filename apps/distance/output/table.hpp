@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "distance/arguments/arguments.hpp"
-#include "distance/data/pairs.hpp"
+#include "apps/distance/arguments/arguments.hpp"
+#include "apps/distance/data/pairs.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::distance_program {

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "common/arguments/options.hpp"
-#include "common/arguments/plot_arguments.hpp"
-#include "segment/arguments/arguments.hpp"
-#include "segment/arguments/scopes.hpp"
+#include "apps/common/arguments/options.hpp"
+#include "apps/common/arguments/plot_arguments.hpp"
+#include "apps/segment/arguments/arguments.hpp"
+#include "apps/segment/arguments/scopes.hpp"
 
 // The options of ph-segment by topic. What they are put into must outlive `options`.
 namespace ph::segment {

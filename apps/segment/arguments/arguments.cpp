@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/arguments/arguments.hpp"
+#include "apps/segment/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,12 +9,12 @@
 #include <array>
 #include <string_view>
 
-#include "common/files/batch_names.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/segment/arguments/argument_groups.hpp"
+#include "apps/segment/arguments/scopes.hpp"
 #include "ph/detail/report/page_template.hpp"
 #include "ph/error.hpp"
-#include "segment/arguments/argument_groups.hpp"
-#include "segment/arguments/scopes.hpp"
 
 namespace ph::segment {
 namespace {

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/command_line.hpp"
-#include "common/arguments/option_scope.hpp"
-#include "common/files/file_identity.hpp"
-#include "common/manual/manual.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/manual/manual.hpp"
+#include "apps/segment/arguments/output_paths.hpp"
 #include "ph/detail/segment/cloud_picture.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
-#include "segment/arguments/output_paths.hpp"
 
 namespace ph::segment {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "segment/arguments/arguments.hpp"
+#include "apps/segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/arguments/arguments.hpp"
+#include "apps/segment/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,9 +7,9 @@
 #include <array>
 #include <cstdint>
 
-#include "common/values/numbers.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/segment/arguments/argument_groups.hpp"
 #include "ph/error.hpp"
-#include "segment/arguments/argument_groups.hpp"
 
 namespace ph::segment {
 namespace {

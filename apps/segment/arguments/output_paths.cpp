@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "segment/arguments/output_paths.hpp"
+#include "apps/segment/arguments/output_paths.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "common/files/batch_names.hpp"
-#include "segment/arguments/scopes.hpp"
+#include "apps/common/files/batch_names.hpp"
+#include "apps/segment/arguments/scopes.hpp"
 
 namespace ph::segment {
 namespace {

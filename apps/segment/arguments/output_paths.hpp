@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/arguments/plot_arguments.hpp"
-#include "common/files/file_identity.hpp"
+#include "apps/common/arguments/plot_arguments.hpp"
+#include "apps/common/files/file_identity.hpp"
 
 namespace ph::segment {
 

@@ -6,10 +6,10 @@
 #include <array>
 #include <limits>
 
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/segment/arguments/argument_groups.hpp"
 #include "ph/error.hpp"
-#include "segment/arguments/argument_groups.hpp"
 
 namespace ph::segment {
 namespace {

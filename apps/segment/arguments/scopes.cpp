@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/arguments/scopes.hpp"
+#include "apps/segment/arguments/scopes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "common/arguments/option_scope.hpp"
+#include "apps/common/arguments/option_scope.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/input/frames.hpp"
+#include "apps/segment/input/frames.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/values/choices.hpp"
+#include "apps/common/values/choices.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/segment/depth_scene.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/input/frame_list.hpp"
+#include "apps/segment/input/frame_list.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "segment/input/frames.hpp"
+#include "apps/segment/input/frames.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "common/files/batch_names.hpp"
+#include "apps/common/files/batch_names.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 

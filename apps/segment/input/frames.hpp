@@ -7,9 +7,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "common/run/session.hpp"
-#include "segment/arguments/arguments.hpp"
-#include "segment/input/frame_list.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/segment/arguments/arguments.hpp"
+#include "apps/segment/input/frame_list.hpp"
 
 namespace ph::segment {
 

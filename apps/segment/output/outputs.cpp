@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/output/outputs.hpp"
+#include "apps/segment/output/outputs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/segment/output/summary.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/segment/cloud_files.hpp"
 #include "ph/detail/segment/cloud_legend.hpp"
@@ -17,7 +18,6 @@
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "ph/scene_report.hpp"
-#include "segment/output/summary.hpp"
 
 namespace ph::segment {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/run/session.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/segment/arguments/arguments.hpp"
 #include "ph/io/write.hpp"
 #include "ph/scene_report.hpp"
-#include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

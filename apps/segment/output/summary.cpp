@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "segment/output/summary.hpp"
+#include "apps/segment/output/summary.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <string_view>
 
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
 #include "ph/detail/segment/json_text.hpp"
 #include "ph/io/write.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "segment/output/outputs.hpp"
+#include "apps/segment/output/outputs.hpp"
 
 namespace ph::segment {
 

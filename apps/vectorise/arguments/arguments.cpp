@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/arguments/arguments.hpp"
+#include "apps/vectorise/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,12 +8,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "common/arguments/options.hpp"
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
+#include "apps/common/arguments/options.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
+#include "apps/vectorise/arguments/scopes.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/error.hpp"
-#include "vectorise/arguments/scopes.hpp"
 
 namespace ph::vectorise {
 namespace {

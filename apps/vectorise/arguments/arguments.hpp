@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/command_line.hpp"
-#include "common/arguments/option_scope.hpp"
-#include "common/manual/manual.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/common/manual/manual.hpp"
+#include "apps/vectorise/fit/fit.hpp"
 #include "ph/io/read.hpp"
-#include "vectorise/fit/fit.hpp"
 
 namespace ph::vectorise {
 

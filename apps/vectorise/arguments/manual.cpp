@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/arguments/arguments.hpp"
+#include "apps/vectorise/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
+#include "apps/vectorise/fit/fit.hpp"
 #include "ph/io/write.hpp"
-#include "vectorise/fit/fit.hpp"
 
 namespace ph::vectorise {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 #include <initializer_list>
 
-#include "common/arguments/option_scope.hpp"
-#include "vectorise/fit/fit.hpp"
+#include "apps/common/arguments/option_scope.hpp"
+#include "apps/vectorise/fit/fit.hpp"
 
 namespace ph::vectorise {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/data/samples.hpp"
+#include "apps/vectorise/data/samples.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <span>
 
-#include "common/inputs/barcode_files.hpp"
+#include "apps/common/inputs/barcode_files.hpp"
+#include "apps/vectorise/arguments/scopes.hpp"
 #include "ph/io/write.hpp"
-#include "vectorise/arguments/scopes.hpp"
 
 namespace ph::vectorise {
 namespace {

@@ -5,10 +5,10 @@
 #include <variant>
 #include <vector>
 
-#include "common/run/session.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/vectorise/arguments/arguments.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
-#include "vectorise/arguments/arguments.hpp"
 
 namespace ph::vectorise {
 

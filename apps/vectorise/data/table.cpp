@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/data/table.hpp"
+#include "apps/vectorise/data/table.hpp"
 
 #include <array>
 
-#include "common/files/csv_cell.hpp"
+#include "apps/common/files/csv_cell.hpp"
 #include "ph/detail/io/npy_write.hpp"
 #include "ph/io/write.hpp"
 

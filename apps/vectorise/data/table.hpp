@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/vectorise/arguments/arguments.hpp"
 #include "ph/detail/io/output_file.hpp"
-#include "vectorise/arguments/arguments.hpp"
 
 namespace ph::vectorise {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/fit/fit.hpp"
+#include "apps/vectorise/fit/fit.hpp"
 
 #include <fmt/format.h>
 

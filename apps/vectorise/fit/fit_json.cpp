@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vectorise/fit/fit.hpp"
+#include "apps/vectorise/fit/fit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments/command_line.hpp"
-#include "common/terminal/build_information.hpp"
+#include "apps/common/arguments/command_line.hpp"
+#include "apps/common/terminal/build_information.hpp"
 #include "ph/detail/io/json_cursor.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/error.hpp"

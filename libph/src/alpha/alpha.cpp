@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "alpha/alpha_lazy.hpp"
-#include "alpha/intervals/intervals.hpp"
-#include "alpha/listed_simplices.hpp"
-#include "alpha/sites/power_of_two.hpp"
+#include "libph/src/alpha/alpha_lazy.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/listed_simplices.hpp"
+#include "libph/src/alpha/sites/power_of_two.hpp"
 
 namespace ph {
 

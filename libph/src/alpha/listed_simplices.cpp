@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/listed_simplices.hpp"
+#include "libph/src/alpha/listed_simplices.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 #include "ph/alpha.hpp"
 #include "ph/explicit.hpp"
 

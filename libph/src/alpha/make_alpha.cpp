@@ -7,11 +7,11 @@
 #include <cmath>
 #include <optional>
 
-#include "alpha/alpha_lazy.hpp"
-#include "alpha/intervals/frames.hpp"
-#include "alpha/intervals/intervals.hpp"
-#include "alpha/listed_simplices.hpp"
-#include "alpha/periodic/quotient.hpp"
+#include "libph/src/alpha/alpha_lazy.hpp"
+#include "libph/src/alpha/intervals/frames.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/listed_simplices.hpp"
+#include "libph/src/alpha/periodic/quotient.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

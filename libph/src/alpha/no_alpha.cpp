@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stands in for the library ph::alpha where there is no CGAL.
-#include "alpha/alpha_lazy.hpp"
+#include "libph/src/alpha/alpha_lazy.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

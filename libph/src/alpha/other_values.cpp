@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/listed_simplices.hpp"
+#include "libph/src/alpha/listed_simplices.hpp"
 
 #include <algorithm>
 
-#include "alpha/intervals/spheres.hpp"
+#include "libph/src/alpha/intervals/spheres.hpp"
 
 namespace ph::alpha {
 namespace {

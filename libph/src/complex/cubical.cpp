@@ -11,7 +11,7 @@
 #include <optional>
 #include <thread>
 
-#include "image/voxels_in_use.hpp"
+#include "libph/src/image/voxels_in_use.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/core/radix_sort.hpp"

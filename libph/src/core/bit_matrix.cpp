@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ph/detail/core/bit_matrix.hpp"
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph::bits {
 

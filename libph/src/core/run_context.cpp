@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/system/pages.hpp"
+#include "libph/src/core/system/pages.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/error.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/representatives/represent_voxels.hpp"
+#include "libph/src/cubical/representatives/represent_voxels.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/engine.hpp"
 #include "ph/detail/cubical/pair_voxels.hpp"

@@ -6,11 +6,11 @@
 #include <mutex>
 #include <string>
 
-#include "cubical/any_axes/pair_cells.hpp"
-#include "cubical/graphs/two_graphs.hpp"
-#include "cubical/loops/loop_reduction.hpp"
-#include "cubical/slabs/pair_in_slabs.hpp"
-#include "image/voxels_in_use.hpp"
+#include "libph/src/cubical/any_axes/pair_cells.hpp"
+#include "libph/src/cubical/graphs/two_graphs.hpp"
+#include "libph/src/cubical/loops/loop_reduction.hpp"
+#include "libph/src/cubical/slabs/pair_in_slabs.hpp"
+#include "libph/src/image/voxels_in_use.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "diagram/diagram_parts.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/diagram/thread_context.hpp"
 #include "ph/distance_matrix.hpp"

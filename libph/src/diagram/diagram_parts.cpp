@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/diagram_parts.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
 
 #include <fmt/format.h>
 

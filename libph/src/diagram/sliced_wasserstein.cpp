@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "diagram/diagram_parts.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"

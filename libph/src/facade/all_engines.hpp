@@ -2,11 +2,11 @@
 #pragma once
 #include <tuple>
 
-#include "cubical/gradient.hpp"
+#include "libph/src/cubical/gradient.hpp"
+#include "libph/src/rips/beta_skeleton/beta_skeleton.hpp"
+#include "libph/src/rips/edge_links.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"
-#include "rips/beta_skeleton/beta_skeleton.hpp"
-#include "rips/edge_links.hpp"
 
 namespace ph::detail {
 

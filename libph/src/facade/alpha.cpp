@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/alpha_engine.hpp"
+#include "libph/src/alpha/alpha_engine.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"

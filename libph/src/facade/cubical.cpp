@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/all_engines.hpp"
+#include "libph/src/facade/all_engines.hpp"
 
 namespace ph::detail {
 

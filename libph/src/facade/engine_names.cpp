@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "facade/all_engines.hpp"
+#include "libph/src/facade/all_engines.hpp"
 #include "ph/custom.hpp"
 
 namespace ph {

@@ -5,13 +5,13 @@
 #include <new>
 #include <optional>
 
-#include "facade/memory_forecast.hpp"
-#include "facade/rips_plan.hpp"
+#include "libph/src/facade/memory_forecast.hpp"
+#include "libph/src/facade/rips_plan.hpp"
+#include "libph/src/rips/clique_count.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
 #include "ph/detail/core/machine_memory.hpp"
 #include "ph/detail/cubical/pair_voxels.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"
-#include "rips/clique_count.hpp"
 
 namespace ph {
 namespace {

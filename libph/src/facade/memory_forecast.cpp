@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/memory_forecast.hpp"
+#include "libph/src/facade/memory_forecast.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "rips/clique_count.hpp"
+#include "libph/src/rips/clique_count.hpp"
 
 #include "ph/detail/rips/rips_graph.hpp"
 

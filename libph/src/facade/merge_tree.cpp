@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "facade/rips_plan.hpp"
+#include "libph/src/facade/rips_plan.hpp"
 #include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"

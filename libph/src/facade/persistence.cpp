@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "facade/rips_plan.hpp"
+#include "libph/src/facade/rips_plan.hpp"
 #include "ph/detail/facade/adjust.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "facade/rips_plan.hpp"
+#include "libph/src/facade/rips_plan.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"

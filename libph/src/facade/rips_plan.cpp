@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "facade/rips_plan.hpp"
+#include "libph/src/facade/rips_plan.hpp"
 
 #include <fmt/format.h>
 

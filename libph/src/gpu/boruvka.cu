@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gpu/boruvka.cuh"
+#include "libph/src/gpu/boruvka.cuh"
 
 #include <thrust/copy.h>
 #include <thrust/count.h>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "gpu/device_points.cuh"
+#include "libph/src/gpu/device_points.cuh"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
 

@@ -6,8 +6,8 @@
 #include <thrust/sequence.h>
 #include <thrust/sort.h>
 
-#include "gpu/boruvka.cuh"
-#include "gpu/linear_bvh.cuh"
+#include "libph/src/gpu/boruvka.cuh"
+#include "libph/src/gpu/linear_bvh.cuh"
 
 namespace ph::gpu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gpu/gpu_forest.hpp"
+#include "libph/src/gpu/gpu_forest.hpp"
 
 #include <thrust/copy.h>
 #include <thrust/functional.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/boruvka.cuh"
+#include "libph/src/gpu/boruvka.cuh"
 #include "ph/error.hpp"
 
 namespace ph::gpu {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "gpu/device_points.cuh"
+#include "libph/src/gpu/device_points.cuh"
 
 // A hierarchy of boxes over points in the order of a space-filling curve: Karras, "Maximizing
 // parallelism in the construction of BVHs, octrees, and k-d trees" (2012).

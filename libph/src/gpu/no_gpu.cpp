@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stands in for what CUDA compiles.
-#include "gpu/gpu_forest.hpp"
+#include "libph/src/gpu/gpu_forest.hpp"
 #include "ph/error.hpp"
 
 namespace ph::gpu {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "gpu/boruvka.cuh"
+#include "libph/src/gpu/boruvka.cuh"
 
 // Finds the nearest foreign point among all points, in spaces of so many dimensions that boxes
 // exclude nothing.

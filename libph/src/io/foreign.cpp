@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
 
 namespace ph::detail {

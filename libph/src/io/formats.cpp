@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 

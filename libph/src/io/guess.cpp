@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "io/bytes/readers.hpp"
-#include "io/tables/array.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/tables/array.hpp"
 #include "ph/detail/io/table.hpp"
 
 namespace ph::detail {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "loops/cover_search.hpp"
+#include "libph/src/loops/cover_search.hpp"
 
 #include <algorithm>
 #include <functional>

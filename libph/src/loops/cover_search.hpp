@@ -6,8 +6,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "loops/early_graph.hpp"
-#include "loops/edge_cocycles.hpp"
+#include "libph/src/loops/early_graph.hpp"
+#include "libph/src/loops/edge_cocycles.hpp"
 
 namespace ph::detail {
 

@@ -4,7 +4,7 @@
 #include <memory_resource>
 #include <span>
 
-#include "loops/early_graph.hpp"
+#include "libph/src/loops/early_graph.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::detail {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "loops/early_graph.hpp"
+#include "libph/src/loops/early_graph.hpp"
 #include "ph/detail/core/loop.hpp"
 
 namespace ph::detail {

@@ -2,7 +2,7 @@
 #include "ph/loops.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 
-#include "loops/tighten.hpp"
+#include "libph/src/loops/tighten.hpp"
 
 namespace ph {
 namespace {

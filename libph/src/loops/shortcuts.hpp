@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "loops/cover_search.hpp"
-#include "loops/early_graph.hpp"
+#include "libph/src/loops/cover_search.hpp"
+#include "libph/src/loops/early_graph.hpp"
 
 namespace ph::detail {
 

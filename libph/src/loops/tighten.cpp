@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "loops/tighten.hpp"
+#include "libph/src/loops/tighten.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <numeric>
 #include <optional>
 
-#include "loops/cover_search.hpp"
-#include "loops/early_graph.hpp"
-#include "loops/edge_cocycles.hpp"
-#include "loops/edge_sum.hpp"
-#include "loops/shortcuts.hpp"
+#include "libph/src/loops/cover_search.hpp"
+#include "libph/src/loops/early_graph.hpp"
+#include "libph/src/loops/edge_cocycles.hpp"
+#include "libph/src/loops/edge_sum.hpp"
+#include "libph/src/loops/shortcuts.hpp"
 #include "ph/custom.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/error.hpp"

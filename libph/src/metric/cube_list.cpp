@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/cube_list.hpp"
+#include "libph/src/metric/cube_list.hpp"
 
 #include "ph/detail/core/polled_sort.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "metric/neighbour_search.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/distinct_points.hpp"
+#include "libph/src/metric/distinct_points.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/plain_squares.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

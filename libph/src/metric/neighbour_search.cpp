@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "metric/neighbour_search.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/plain_squares.hpp"
 
 namespace ph {
 namespace {

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <vector>
 
-#include "metric/cube_list.hpp"
-#include "metric/neighbour_search.hpp"
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/cube_list.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
+#include "libph/src/metric/plain_squares.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/error.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/plain_squares.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

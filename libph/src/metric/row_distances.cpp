@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph {
 namespace {

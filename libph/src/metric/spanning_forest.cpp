@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 
-#include "metric/distinct_points.hpp"
-#include "metric/neighbour_search.hpp"
+#include "libph/src/metric/distinct_points.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/core/parallel.hpp"
 

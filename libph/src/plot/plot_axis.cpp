@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
-#include "plot/plot_canvas.hpp"
 
 namespace ph::plot {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "plot/plot_intervals.hpp"
+#include "libph/src/plot/plot_intervals.hpp"
 
 namespace ph::plot {
 namespace {

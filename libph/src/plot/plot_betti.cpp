@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plot/plot_canvas.hpp"
+#include "libph/src/plot/plot_canvas.hpp"
 
 namespace ph::plot {
 namespace {

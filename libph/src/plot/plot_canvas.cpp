@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_canvas.hpp"
+#include "libph/src/plot/plot_canvas.hpp"
 
 #include <array>
 #include <utility>

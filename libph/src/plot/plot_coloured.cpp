@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/error.hpp"
-#include "plot/plot_canvas.hpp"
 
 namespace ph::plot {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_coverage.hpp"
+#include "libph/src/plot/plot_coverage.hpp"
 
 namespace ph::plot {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "libph/src/plot/plot_intervals.hpp"
 #include "ph/detail/core/lower_case.hpp"
-#include "plot/plot_intervals.hpp"
 
 namespace ph::plot {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_font.hpp"
+#include "libph/src/plot/plot_font.hpp"
 
 #include <fmt/format.h>
 #include <ft2build.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plot/plot_coverage.hpp"
+#include "libph/src/plot/plot_coverage.hpp"
 
 namespace ph::plot {
 

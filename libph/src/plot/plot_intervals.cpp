@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_intervals.hpp"
+#include "libph/src/plot/plot_intervals.hpp"
 
 #include <fmt/format.h>
 

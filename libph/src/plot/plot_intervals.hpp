@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "plot/plot_canvas.hpp"
+#include "libph/src/plot/plot_canvas.hpp"
 
 // Code shared by pictures of barcodes and merge trees: classes as lines over the filtration value,
 // the longest one by one, the others as a density.

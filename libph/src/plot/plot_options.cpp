@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/error.hpp"
-#include "plot/plot_canvas.hpp"
 
 namespace ph::plot {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot_canvas.hpp"
+#include "libph/src/plot/plot_canvas.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "plot/plot_coverage.hpp"
-#include "plot/plot_font.hpp"
+#include "libph/src/plot/plot_coverage.hpp"
+#include "libph/src/plot/plot_font.hpp"
 
 namespace ph::plot {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <sstream>
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/detail/io/base64.hpp"
-#include "plot/plot_canvas.hpp"
 
 namespace ph::plot {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/plot/plot_intervals.hpp"
 #include "ph/error.hpp"
-#include "plot/plot_intervals.hpp"
 
 namespace ph::plot {
 namespace {

@@ -4,10 +4,10 @@
 #include <sstream>
 #include <utility>
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/error.hpp"
-#include "plot/plot_canvas.hpp"
 #if PH_WITH_FREETYPE
-#include "plot/plot_font.hpp"
+#include "libph/src/plot/plot_font.hpp"
 #endif
 
 namespace ph {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ph/io/plot.hpp"
 
+#include "libph/src/plot/plot_canvas.hpp"
 #include "ph/error.hpp"
-#include "plot/plot_canvas.hpp"
 
 namespace ph {
 namespace plot {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/system/pages.hpp"
+#include "libph/src/core/system/pages.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph {

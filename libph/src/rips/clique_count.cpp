@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/clique_count.hpp"
+#include "libph/src/rips/clique_count.hpp"
 
 #include <algorithm>
 #include <memory_resource>

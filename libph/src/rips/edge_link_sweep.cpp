@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/edge_link_sweep.hpp"
+#include "libph/src/rips/edge_link_sweep.hpp"
 
 namespace ph {
 

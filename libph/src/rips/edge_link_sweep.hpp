@@ -7,18 +7,18 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/link_loops.hpp"
+#include "libph/src/rips/surfaces/link_surfaces.hpp"
+#include "libph/src/rips/sweep/link_components.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/sweep_observer.hpp"
+#include "libph/src/rips/volumes/link_volumes.hpp"
 #include "ph/detail/components/elder_rule.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
 #include "ph/run_context.hpp"
-#include "rips/link_loops.hpp"
-#include "rips/surfaces/link_surfaces.hpp"
-#include "rips/sweep/link_components.hpp"
-#include "rips/sweep/link_graph.hpp"
-#include "rips/sweep/sweep_observer.hpp"
-#include "rips/volumes/link_volumes.hpp"
 
 namespace ph {
 

@@ -3,13 +3,13 @@
 #include <memory_resource>
 #include <vector>
 
+#include "libph/src/rips/edge_link_sweep.hpp"
 #include "ph/detail/components/component_representatives.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/engine.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/filtration.hpp"
-#include "rips/edge_link_sweep.hpp"
 
 namespace ph {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph {
 namespace {

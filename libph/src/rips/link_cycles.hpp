@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/annotations/annotations.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/annotations.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 

@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/annotations/annotations.hpp"
+#include "libph/src/rips/link_cycles.hpp"
+#include "libph/src/rips/relations/relation_solver.hpp"
+#include "libph/src/rips/sweep/active_edges.hpp"
+#include "libph/src/rips/sweep/link_components.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/sweep_observer.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
-#include "rips/annotations/annotations.hpp"
-#include "rips/link_cycles.hpp"
-#include "rips/relations/relation_solver.hpp"
-#include "rips/sweep/active_edges.hpp"
-#include "rips/sweep/link_components.hpp"
-#include "rips/sweep/link_graph.hpp"
-#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "rips/make_graph.hpp"
+#include "libph/src/rips/make_graph.hpp"
 
 #include <fmt/format.h>
 
-#include "metric/distinct_points.hpp"
+#include "libph/src/metric/distinct_points.hpp"
 #include "ph/detail/rips/rips_vertices.hpp"
 #include "ph/detail/rips/sparse_rips.hpp"
 #include "ph/distance_to_measure.hpp"

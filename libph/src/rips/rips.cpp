@@ -9,10 +9,10 @@
 #include <mutex>
 #include <thread>
 
+#include "libph/src/rips/make_graph.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
-#include "rips/make_graph.hpp"
 
 namespace ph {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "gpu/gpu_forest.hpp"
+#include "libph/src/gpu/gpu_forest.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/metric/pairs_within.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/make_graph.hpp"
+#include "libph/src/rips/make_graph.hpp"
 
 #include <algorithm>
 #include <limits>

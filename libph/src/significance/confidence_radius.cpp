@@ -6,13 +6,13 @@
 #include <limits>
 #include <numeric>
 
-#include "core/random.hpp"
-#include "metric/neighbour_search.hpp"
+#include "libph/src/core/random.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
+#include "libph/src/significance/quantile.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/error.hpp"
 #include "ph/significance.hpp"
-#include "significance/quantile.hpp"
 
 namespace ph {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
+#include "libph/src/core/random.hpp"
+#include "libph/src/significance/quantile.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/error.hpp"
 #include "ph/significance.hpp"
-#include "significance/quantile.hpp"
 
 namespace ph {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/random.hpp"
+#include "libph/src/core/random.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/error.hpp"
 #include "ph/significance.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random.hpp"
+#include "libph/src/core/random.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"

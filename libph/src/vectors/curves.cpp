@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libph/src/vectors/grid_cells.hpp"
+#include "libph/src/vectors/long_sum.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
-#include "vectors/grid_cells.hpp"
-#include "vectors/long_sum.hpp"
 
 namespace ph {
 namespace vectors {

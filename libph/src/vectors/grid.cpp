@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/grid_cells.hpp"
 
 namespace ph {
 namespace vectors {

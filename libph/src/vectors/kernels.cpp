@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <numbers>
 
+#include "libph/src/vectors/long_sum.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/diagram/thread_context.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/vectorise.hpp"
-#include "vectors/long_sum.hpp"
 
 namespace ph {
 namespace vectors {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <memory_resource>
 
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/grid_cells.hpp"
 
 namespace ph {
 namespace vectors {

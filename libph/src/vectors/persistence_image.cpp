@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
-#include "vectors/grid_cells.hpp"
 
 namespace ph {
 namespace vectors {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
+#include "libph/src/vectors/long_sum.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/vectorise.hpp"
-#include "vectors/long_sum.hpp"
 
 namespace ph {
 namespace vectors {

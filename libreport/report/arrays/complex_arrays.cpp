@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/arrays/complex_arrays.hpp"
+#include "libreport/report/arrays/complex_arrays.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/arrays/tree_arrays.hpp"
+#include "libreport/report/arrays/tree_arrays.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/arrays/voxel_arrays.hpp"
+#include "libreport/report/arrays/voxel_arrays.hpp"
 
 #include <fmt/format.h>
 

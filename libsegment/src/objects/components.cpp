@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "objects/stages.hpp"
+#include "libsegment/src/objects/stages.hpp"
 
 #include <algorithm>
 #include <span>
 
-#include "objects/oriented_box.hpp"
+#include "libsegment/src/objects/oriented_box.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/detail/segment/bounds.hpp"
 

@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "libsegment/src/scene/options.hpp"
 #include "ph/error.hpp"
-#include "scene/options.hpp"
 
 namespace ph::segment {
 namespace {

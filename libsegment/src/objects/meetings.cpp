@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "objects/stages.hpp"
+#include "libsegment/src/objects/stages.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "libsegment/src/scene/options.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
-#include "scene/options.hpp"
 
 namespace ph::segment {
 

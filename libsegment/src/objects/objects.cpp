@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/objects.hpp"
+#include "libsegment/src/objects/objects.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,13 +8,13 @@
 #include <memory_resource>
 #include <utility>
 
-#include "objects/view.hpp"
+#include "libsegment/src/objects/view.hpp"
+#include "libsegment/src/scene/close_boxes.hpp"
+#include "libsegment/src/scene/parts.hpp"
+#include "libsegment/src/surface/concavity.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
-#include "scene/close_boxes.hpp"
-#include "scene/parts.hpp"
-#include "surface/concavity.hpp"
-#include "vessels/stages.hpp"
 
 namespace ph::segment {
 namespace {

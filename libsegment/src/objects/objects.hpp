@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/segment.hpp"
-#include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

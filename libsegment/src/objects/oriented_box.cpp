@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/oriented_box.hpp"
+#include "libsegment/src/objects/oriented_box.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

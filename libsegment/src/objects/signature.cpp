@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "libsegment/src/scene/options.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
 #include "ph/voxel_image.hpp"
-#include "scene/options.hpp"
 
 namespace ph::segment {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/view.hpp"
+#include "libsegment/src/objects/view.hpp"
 
 #include <Eigen/Geometry>
 

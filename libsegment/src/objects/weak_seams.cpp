@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/weak_seams.hpp"
+#include "libsegment/src/objects/weak_seams.hpp"
 
 #include <algorithm>
 #include <cstdint>

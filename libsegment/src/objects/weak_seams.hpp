@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/run_context.hpp"
-#include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "plane/stages.hpp"
+#include "libsegment/src/plane/stages.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "plane/squares.hpp"
+#include "libsegment/src/plane/squares.hpp"
 
 namespace ph::segment {
 namespace {

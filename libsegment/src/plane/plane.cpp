@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/plane.hpp"
+#include "libsegment/src/plane/plane.hpp"
 
 #include <fmt/format.h>
 

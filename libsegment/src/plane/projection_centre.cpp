@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/projection_centre.hpp"
+#include "libsegment/src/plane/projection_centre.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "libsegment/src/plane/plane.hpp"
 #include "ph/segment.hpp"
-#include "plane/plane.hpp"
 
 namespace ph::segment {
 

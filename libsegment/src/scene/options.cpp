@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/options.hpp"
+#include "libsegment/src/scene/options.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/error.hpp"
-#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/plane/squares.hpp"
+#include "libsegment/src/scene/parts.hpp"
+#include "libsegment/src/supports/planar.hpp"
 #include "ph/eigen.hpp"
-#include "plane/plane.hpp"
-#include "plane/squares.hpp"
-#include "scene/parts.hpp"
-#include "supports/planar.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "supports/planar.hpp"
+#include "libsegment/src/supports/planar.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

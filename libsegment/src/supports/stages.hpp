@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/scene_tree.hpp"
-#include "plane/plane.hpp"
-#include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "supports/stages.hpp"
+#include "libsegment/src/supports/stages.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface/concavity.hpp"
+#include "libsegment/src/surface/concavity.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

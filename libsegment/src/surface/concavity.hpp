@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "voxels/voxel_pairs.hpp"
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

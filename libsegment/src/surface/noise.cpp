@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface/noise.hpp"
+#include "libsegment/src/surface/noise.hpp"
 
 #include <algorithm>
 #include <cmath>

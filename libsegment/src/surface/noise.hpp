@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "libsegment/src/surface/concavity.hpp"
 #include "ph/segment.hpp"
-#include "surface/concavity.hpp"
 
 namespace ph::segment {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface/seeds.hpp"
+#include "libsegment/src/surface/seeds.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
-#include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 

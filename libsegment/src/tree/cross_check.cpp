@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tree/cross_check.hpp"
+#include "libsegment/src/tree/cross_check.hpp"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "tree/tree_file.hpp"
+#include "libsegment/src/tree/tree_file.hpp"
 
 #include <zlib.h>
 
 #include <bit>
 #include <iterator>
 
+#include "libsegment/src/scene/options.hpp"
 #include "ph/scene_tree.hpp"
-#include "scene/options.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "libsegment/src/scene/options.hpp"
+#include "libsegment/src/tree/tree_file.hpp"
 #include "ph/detail/segment/json_text.hpp"
-#include "scene/options.hpp"
-#include "tree/tree_file.hpp"
 
 namespace ph::segment {
 namespace {

@@ -7,12 +7,12 @@
 #include <limits>
 #include <span>
 
+#include "libsegment/src/tree/tree_file.hpp"
+#include "libsegment/src/vessels/stages.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/scene_tree.hpp"
-#include "tree/tree_file.hpp"
-#include "vessels/stages.hpp"
-#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {

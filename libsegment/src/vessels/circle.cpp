@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/circle.hpp"
+#include "libsegment/src/vessels/circle.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/stages.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "libsegment/src/scene/parts.hpp"
+#include "libsegment/src/vessels/circle.hpp"
+#include "libsegment/src/vessels/upper_end.hpp"
 #include "ph/eigen.hpp"
-#include "scene/parts.hpp"
-#include "vessels/circle.hpp"
-#include "vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/stages.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "libsegment/src/scene/close_boxes.hpp"
+#include "libsegment/src/vessels/circle.hpp"
+#include "libsegment/src/vessels/upper_end.hpp"
 #include "ph/eigen.hpp"
-#include "scene/close_boxes.hpp"
-#include "vessels/circle.hpp"
-#include "vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {

@@ -3,10 +3,10 @@
 #include <functional>
 #include <vector>
 
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/scene/parts.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/segment.hpp"
-#include "plane/plane.hpp"
-#include "scene/parts.hpp"
-#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/upper_end.hpp"
+#include "libsegment/src/vessels/upper_end.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

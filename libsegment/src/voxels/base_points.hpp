@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "plane/plane.hpp"
-#include "voxels/voxel_grid.hpp"
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 

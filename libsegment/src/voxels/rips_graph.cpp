@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/rips_graph.hpp"
+#include "libsegment/src/voxels/rips_graph.hpp"
 
 #include <algorithm>
 #include <cmath>

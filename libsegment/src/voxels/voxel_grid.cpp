@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/voxel_grid.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/voxel_pairs.hpp"
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
-#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "calls/words.hpp"
 #include "ph/error.hpp"
 #include "ph/run_context.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/calls/words.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calls/run.hpp"
+#include "python/src/calls/run.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "calls/bindings.hpp"
 #include "ph/detail/core/machine_memory.hpp"
+#include "python/src/calls/bindings.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calls/words.hpp"
+#include "python/src/calls/words.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "data/array_metric.hpp"
+#include "python/src/data/array_metric.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "data/arrays.hpp"
+#include "python/src/data/arrays.hpp"
 
-#include "calls/bindings.hpp"
+#include "python/src/calls/bindings.hpp"
 
 namespace ph::python {
 

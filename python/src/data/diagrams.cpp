@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "data/diagrams.hpp"
+#include "python/src/data/diagrams.hpp"
 
-#include "data/arrays.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 

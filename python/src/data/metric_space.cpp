@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "data/metric_space.hpp"
+#include "python/src/data/metric_space.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
 #include "ph/voxel_image.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 namespace {

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "data/array_metric.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
+#include "python/src/data/array_metric.hpp"
 
 namespace ph::python {
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
-#include "data/diagrams.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/data/diagrams.hpp"
 
 namespace ph::python {
 namespace {

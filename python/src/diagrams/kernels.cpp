@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
-#include "data/diagrams.hpp"
 #include "ph/distances.hpp"
 #include "ph/vectorise.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/data/diagrams.hpp"
 
 namespace ph::python {
 namespace {

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
-#include "parts/part_bytes.hpp"
-#include "results/bars.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/parts/part_bytes.hpp"
+#include "python/src/results/bars.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "parts/image_loops.hpp"
+#include "python/src/parts/image_loops.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "calls/bindings.hpp"
-#include "parts/part_bytes.hpp"
 #include "ph/error.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/parts/part_bytes.hpp"
 
 namespace ph::python {
 namespace {

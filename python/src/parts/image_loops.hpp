@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "calls/run.hpp"
 #include "ph/parts/image_loops.hpp"
-#include "results/bars.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/results/bars.hpp"
 
 namespace ph::python {
 

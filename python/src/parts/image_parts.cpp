@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "parts/image_loops.hpp"
-#include "parts/part_bytes.hpp"
 #include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/parts/image_part.hpp"
-#include "recipes.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/parts/image_loops.hpp"
+#include "python/src/parts/part_bytes.hpp"
+#include "python/src/recipes.hpp"
 
 namespace ph::python {
 namespace {

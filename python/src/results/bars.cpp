@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "results/bars.hpp"
+#include "python/src/results/bars.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <functional>
 #include <utility>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/error.hpp"
 #include "ph/io/plot.hpp"
-#include "results/bars_state.hpp"
-#include "results/state.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/results/bars_state.hpp"
+#include "python/src/results/state.hpp"
 
 namespace ph::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "results/bars_state.hpp"
+#include "python/src/results/bars_state.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "calls/bindings.hpp"
-#include "data/arrays.hpp"
 #include "ph/error.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/data/arrays.hpp"
 
 namespace ph::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "results/bars.hpp"
+#include "python/src/results/bars.hpp"
 
 namespace ph::python {
 

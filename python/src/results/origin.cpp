@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "results/origin.hpp"
+#include "python/src/results/origin.hpp"
 
 #include <cstdlib>
 #include <optional>

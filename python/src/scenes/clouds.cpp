@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/segment/depth_scene.hpp"
 #include "ph/io/cloud.hpp"
-#include "scenes/scene.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/scenes/scene.hpp"
 
 namespace ph::python {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "calls/words.hpp"
 #include "ph/detail/segment/depth_scene.hpp"
 #include "ph/segment.hpp"
+#include "python/src/calls/words.hpp"
 
 namespace ph::python {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/scene_state.hpp"
+#include "python/src/scenes/scene_state.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
-#include "results/state.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/results/state.hpp"
 
 namespace ph::python {
 namespace {

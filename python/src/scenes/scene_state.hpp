@@ -3,9 +3,9 @@
 // Segmentations as plain values and arrays: for pickle.
 #include <pybind11/pybind11.h>
 
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
-#include "scenes/scene.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/scenes/scene.hpp"
 
 namespace ph::python {
 

@@ -12,9 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include "calls/bindings.hpp"
-#include "calls/run.hpp"
-#include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/detail/segment/cloud_files.hpp"
 #include "ph/detail/segment/cloud_legend.hpp"
@@ -24,9 +21,12 @@
 #include "ph/io/cloud.hpp"
 #include "ph/io/plot.hpp"
 #include "ph/label_tracker.hpp"
-#include "results/bars.hpp"
-#include "scenes/scene.hpp"
-#include "scenes/scene_state.hpp"
+#include "python/src/calls/bindings.hpp"
+#include "python/src/calls/run.hpp"
+#include "python/src/data/arrays.hpp"
+#include "python/src/results/bars.hpp"
+#include "python/src/scenes/scene.hpp"
+#include "python/src/scenes/scene_state.hpp"
 
 namespace ph::python {
 namespace {

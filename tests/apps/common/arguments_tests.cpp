@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "common/files/file_identity.hpp"
-#include "common/manual/lines.hpp"
-#include "common/manual/option_text.hpp"
-#include "common/values/choices.hpp"
-#include "common/values/numbers.hpp"
-#include "kind_of.hpp"
+#include "apps/common/files/file_identity.hpp"
+#include "apps/common/manual/lines.hpp"
+#include "apps/common/manual/option_text.hpp"
+#include "apps/common/values/choices.hpp"
+#include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/format_size.hpp"
+#include "tests/apps/common/kind_of.hpp"
 
 namespace ph::app {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "common/run/progress.hpp"
-#include "common/run/session.hpp"
-#include "common/system/memory_limit.hpp"
-#include "common/terminal/exit_code.hpp"
-#include "common/terminal/messages.hpp"
-#include "kind_of.hpp"
+#include "apps/common/run/progress.hpp"
+#include "apps/common/run/session.hpp"
+#include "apps/common/system/memory_limit.hpp"
+#include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/messages.hpp"
+#include "tests/apps/common/kind_of.hpp"
 
 namespace ph::app {
 namespace {

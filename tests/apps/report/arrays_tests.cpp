@@ -9,9 +9,9 @@
 #include <random>
 #include <string>
 
-#include "report/arrays/point_arrays.hpp"
-#include "report/arrays/tree_arrays.hpp"
-#include "report/arrays/voxel_arrays.hpp"
+#include "libreport/report/arrays/point_arrays.hpp"
+#include "libreport/report/arrays/tree_arrays.hpp"
+#include "libreport/report/arrays/voxel_arrays.hpp"
 
 namespace ph::report {
 namespace {

@@ -14,7 +14,7 @@
 #include "ph/detail/report/report_file.hpp"
 #include "ph/detail/report/sha256.hpp"
 #include "ph/error.hpp"
-#include "support/report_arrays.hpp"
+#include "tests/support/report_arrays.hpp"
 
 namespace ph::report {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "ph/detail/io/png.hpp"
 #include "ph/io/plot.hpp"
-#include "program_fixture.hpp"
+#include "tests/apps/segment/program_fixture.hpp"
 
 namespace ph::segment {
 namespace {

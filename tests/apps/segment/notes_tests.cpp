@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ph/detail/io/png.hpp"
-#include "program_fixture.hpp"
+#include "tests/apps/segment/program_fixture.hpp"
 
 namespace ph::segment {
 namespace {

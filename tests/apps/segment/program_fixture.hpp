@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "libsegment/scenery.hpp"
 #include "ph/io/cloud.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment::test {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "program_fixture.hpp"
+#include "tests/apps/segment/program_fixture.hpp"
 
 namespace ph::segment {
 namespace {

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include "program_fixture.hpp"
+#include "tests/apps/segment/program_fixture.hpp"
 
 namespace ph::segment {
 namespace {

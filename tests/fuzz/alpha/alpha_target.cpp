@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Alpha complexes of any doubles.
-#include "chosen_numbers.hpp"
-#include "libph/alpha/alpha_oracle.hpp"
 #include "ph/persistence.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/chosen_numbers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
+#include "tests/libph/alpha/alpha_oracle.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <optional>
 
-#include "chosen_numbers.hpp"
-#include "libph/alpha/exact_spheres.hpp"
 #include "ph/error.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/chosen_numbers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
+#include "tests/libph/alpha/exact_spheres.hpp"
 
 namespace ph::fuzz {
 

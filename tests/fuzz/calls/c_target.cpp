@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "chosen_numbers.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/ph.h"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/chosen_numbers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

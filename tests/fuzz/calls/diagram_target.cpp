@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "chosen_numbers.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/chosen_numbers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -7,13 +7,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "chosen_numbers.hpp"
 #include "ph/detail/io/json_cursor.hpp"
 #include "ph/detail/report/array_block.hpp"
 #include "ph/detail/report/metadata.hpp"
-#include "support/report_arrays.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/chosen_numbers.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
+#include "tests/support/report_arrays.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "barcode/parts/inputs_part.hpp"
+#include "apps/barcode/parts/inputs_part.hpp"
 #include "ph/detail/core/sealed_part.hpp"
 #include "ph/error.hpp"
 #include "ph/parts/cloud_part.hpp"
 #include "ph/parts/image_part.hpp"
 #include "ph/persistence.hpp"
-#include "targets.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 namespace {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "distance/data/groups.hpp"
+#include "apps/distance/data/groups.hpp"
+#include "apps/vectorise/fit/fit.hpp"
+#include "libsegment/src/tree/tree_file.hpp"
 #include "ph/error.hpp"
-#include "targets.hpp"
-#include "tree/tree_file.hpp"
-#include "vectorise/fit/fit.hpp"
-#include "violation.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/fuzz/violation.hpp"
 
 namespace ph::fuzz {
 

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "libph/alpha/alpha_support.hpp"
 #include "ph/alpha.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -7,14 +7,14 @@
 #include <numeric>
 #include <thread>
 
-#include "libph/alpha/alpha_oracle.hpp"
-#include "libph/alpha/alpha_support.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/representatives.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/alpha/alpha_oracle.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/representatives.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "libph/alpha/alpha_support.hpp"
 #include "ph/alpha.hpp"
 #include "ph/merge_tree.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -3,10 +3,10 @@
 // points.
 #include <gtest/gtest.h>
 
-#include "libph/alpha/alpha_oracle.hpp"
-#include "libph/alpha/alpha_support.hpp"
-#include "libph/alpha/expect_bars.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/alpha/alpha_oracle.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/libph/alpha/expect_bars.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

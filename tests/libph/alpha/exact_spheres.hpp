@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "alpha/intervals/spheres.hpp"
+#include "libph/src/alpha/intervals/spheres.hpp"
 
 namespace ph::test {
 

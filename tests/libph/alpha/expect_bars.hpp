@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "libph/alpha/alpha_oracle.hpp"
 #include "ph/barcode.hpp"
+#include "tests/libph/alpha/alpha_oracle.hpp"
 
 namespace ph::test {
 

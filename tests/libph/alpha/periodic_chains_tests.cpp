@@ -7,8 +7,8 @@
 
 #include "ph/alpha.hpp"
 #include "ph/persistence.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/points.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/points.hpp"
 
 namespace ph::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "libph/alpha/alpha_oracle.hpp"
 #include "ph/points.hpp"
+#include "tests/libph/alpha/alpha_oracle.hpp"
 
 namespace ph::test {
 

@@ -5,15 +5,15 @@
 
 #include <numeric>
 
-#include "alpha/periodic/quotient.hpp"
-#include "libph/alpha/alpha_support.hpp"
-#include "libph/alpha/expect_bars.hpp"
-#include "libph/alpha/periodic_oracle.hpp"
+#include "libph/src/alpha/periodic/quotient.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/libph/alpha/expect_bars.hpp"
+#include "tests/libph/alpha/periodic_oracle.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "libph/alpha/alpha_support.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/alpha/alpha_support.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -2,8 +2,8 @@
 // Signs of which rounding knows nothing: what goes wrong with them is seldom seen in bars.
 #include <gtest/gtest.h>
 
-#include "libph/alpha/exact_spheres.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/alpha/exact_spheres.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

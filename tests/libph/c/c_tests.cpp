@@ -8,8 +8,8 @@
 
 #include "ph/persistence.hpp"
 #include "ph/ph.h"
-#include "support/for_each_seed.hpp"
-#include "support/random_images.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace ph::test {
 namespace {

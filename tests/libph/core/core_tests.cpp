@@ -10,9 +10,9 @@
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/persistence.hpp"
-#include "support/expect_error.hpp"
-#include "support/generators.hpp"
-#include "support/known_spaces.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/known_spaces.hpp"
 
 namespace ph::test {
 namespace {

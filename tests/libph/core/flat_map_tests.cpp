@@ -3,7 +3,7 @@
 #include <map>
 
 #include "ph/detail/core/flat_map.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

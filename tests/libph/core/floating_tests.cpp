@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "support/for_each_seed.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

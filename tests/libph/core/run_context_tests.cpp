@@ -10,11 +10,11 @@
 #include <thread>
 
 #include "ph/custom.hpp"
-#include "support/expect_error.hpp"
-#include "support/generators.hpp"
-#include "support/known_spaces.hpp"
-#include "support/patience.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/patience.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

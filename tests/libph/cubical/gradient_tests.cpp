@@ -10,11 +10,11 @@
 #include <string>
 #include <thread>
 
-#include "support/conformance.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
-#include "support/known_spaces.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -9,14 +9,14 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/bytes/crc32.hpp"
+#include "libph/src/core/bytes/crc32.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/sealed_part.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
-#include "support/image_cases.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/image_cases.hpp"
 
 namespace ph::test {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "ph/detail/facade/join_ranks.hpp"
 #include "ph/parts/image_loops.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/image_cases.hpp"
-#include "support/thread_ranks.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/image_cases.hpp"
+#include "tests/support/thread_ranks.hpp"
 
 namespace ph::test {
 namespace {

@@ -8,11 +8,11 @@
 #include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/detail/facade/join_ranks.hpp"
 #include "ph/parts/cloud_part.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/image_cases.hpp"
-#include "support/thread_ranks.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/image_cases.hpp"
+#include "tests/support/thread_ranks.hpp"
 
 namespace ph::test {
 namespace {

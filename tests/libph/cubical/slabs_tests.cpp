@@ -9,11 +9,11 @@
 #include <tuple>
 #include <utility>
 
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

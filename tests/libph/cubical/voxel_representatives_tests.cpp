@@ -5,9 +5,9 @@
 #include <set>
 
 #include "ph/eigen.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/random_images.hpp"
-#include "support/voxel_sets.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/random_images.hpp"
+#include "tests/support/voxel_sets.hpp"
 
 namespace ph::test {
 namespace {

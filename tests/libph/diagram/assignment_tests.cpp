@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prices that prove a matching, looked at pair by pair; auctions that are given up.
-#include "diagram/wasserstein/assignment.hpp"
+#include "libph/src/diagram/wasserstein/assignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "diagram/wasserstein/auction.hpp"
+#include "libph/src/diagram/wasserstein/auction.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::diagram {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points that are left in a tree, held to a list of them.
-#include "diagram/bottleneck/points_left.hpp"
+#include "libph/src/diagram/bottleneck/points_left.hpp"
 
 #include <gtest/gtest.h>
 

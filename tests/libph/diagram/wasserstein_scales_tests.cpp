@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ph/distances.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

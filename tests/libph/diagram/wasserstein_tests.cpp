@@ -14,9 +14,9 @@
 
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
-#include "support/random_bars.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/random_bars.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph {
 namespace {

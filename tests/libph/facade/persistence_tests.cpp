@@ -3,11 +3,11 @@
 #include "ph/estimate.hpp"
 
 #include "ph/detail/rips/edge_collapse.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/known_spaces.hpp"
-#include "support/rips_graphs.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {

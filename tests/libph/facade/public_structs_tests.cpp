@@ -14,7 +14,7 @@
 #include "ph/greedy_permutation.hpp"
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
-#include "support/wrong_values.hpp"
+#include "tests/support/wrong_values.hpp"
 
 namespace ph::test {
 namespace {

@@ -9,11 +9,11 @@
 #include "ph/estimate.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/merge_tree.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/points.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "ph/custom.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/points.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

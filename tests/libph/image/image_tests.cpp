@@ -19,8 +19,8 @@
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
-#include "support/expect_error.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph {
 namespace {

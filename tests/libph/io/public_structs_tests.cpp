@@ -10,7 +10,7 @@
 #include "ph/io/plot.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
-#include "support/wrong_values.hpp"
+#include "tests/support/wrong_values.hpp"
 
 namespace ph::test {
 namespace {

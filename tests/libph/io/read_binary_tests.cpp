@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

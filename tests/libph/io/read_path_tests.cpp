@@ -2,8 +2,8 @@
 // Readers that take a path, and what read_any says of each kind of result.
 #include <limits>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -15,7 +15,7 @@
 #include "ph/error.hpp"
 #include "ph/image.hpp"
 #include "ph/io/read.hpp"
-#include "support/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::test {
 

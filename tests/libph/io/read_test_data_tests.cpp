@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
-#include "support/test_data.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
-#include "support/patience.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/patience.hpp"
 
 namespace ph::test {
 namespace {

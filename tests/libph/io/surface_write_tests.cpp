@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "ph/io/write.hpp"
-#include "support/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 #include <vector>
 
-#include "libph/loops/loop_chains.hpp"
 #include "ph/loops.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/libph/loops/loop_chains.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "libph/loops/loop_chains.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/rips.hpp"
+#include "tests/libph/loops/loop_chains.hpp"
 
 namespace ph::test {
 

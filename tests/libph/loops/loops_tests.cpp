@@ -9,11 +9,11 @@
 #include <cmath>
 #include <vector>
 
-#include "libph/loops/loop_oracle.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/rips_graphs.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/loops/loop_oracle.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/rips_graphs.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "metric/blocks/numbered_forest.hpp"
-#include "metric/blocks/sample_tree.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
+#include "libph/src/metric/blocks/numbered_forest.hpp"
+#include "libph/src/metric/blocks/sample_tree.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 namespace {

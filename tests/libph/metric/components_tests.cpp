@@ -5,11 +5,11 @@
 #include "ph/eigen.hpp"
 #include "ph/estimate.hpp"
 #include "ph/merge_tree.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/points.hpp"
-#include "support/rips_graphs.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/rips_graphs.hpp"
 
 namespace ph::test {
 namespace {

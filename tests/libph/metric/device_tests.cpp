@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a device is asked for and cannot do is refused; what it does: gpu/gpu_forest_tests.cpp.
 #include "ph/persistence.hpp"
-#include "support/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::test {
 namespace {

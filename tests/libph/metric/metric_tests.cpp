@@ -3,18 +3,18 @@
 #include <limits>
 #include <numeric>
 
-#include "metric/neighbour_search.hpp"
+#include "libph/src/metric/neighbour_search.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/pairs_within.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/eigen.hpp"
 #include "ph/sparse_distances.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
-#include "support/points.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

@@ -13,8 +13,8 @@
 #include "ph/greedy_permutation.hpp"
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

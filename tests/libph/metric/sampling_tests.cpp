@@ -8,14 +8,14 @@
 #include "ph/eigen.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/persistence.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/known_spaces.hpp"
-#include "support/matching.hpp"
-#include "support/points.hpp"
-#include "support/rips_graphs.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/matching.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/rips_graphs.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

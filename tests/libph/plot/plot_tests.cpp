@@ -11,7 +11,7 @@
 
 #include "ph/error.hpp"
 #include "ph/io/plot.hpp"
-#include "plot_support.hpp"
+#include "tests/libph/plot/plot_support.hpp"
 
 namespace ph {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "ph/detail/io/png.hpp"
-#include "plot_support.hpp"
-#include "support/expect_error.hpp"
+#include "tests/libph/plot/plot_support.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "rips/annotations/dead_generators.hpp"
-#include "rips/annotations/number_set.hpp"
-#include "rips/sweep/active_edges.hpp"
-#include "support/for_each_seed.hpp"
+#include "libph/src/rips/annotations/dead_generators.hpp"
+#include "libph/src/rips/annotations/number_set.hpp"
+#include "libph/src/rips/sweep/active_edges.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

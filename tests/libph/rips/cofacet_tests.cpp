@@ -5,8 +5,8 @@
 #include <set>
 
 #include "ph/persistence.hpp"
-#include "support/conformance.hpp"
-#include "support/generators.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 namespace {

@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "ph/eigen.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/known_spaces.hpp"
-#include "support/representatives.hpp"
-#include "support/rips_graphs.hpp"
-#include "support/run_contexts.hpp"
-#include "support/test_data.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/representatives.hpp"
+#include "tests/support/rips_graphs.hpp"
+#include "tests/support/run_contexts.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::test {
 namespace {

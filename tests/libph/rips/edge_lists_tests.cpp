@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/sweep/neighbour_lists.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
 #include "ph/persistence.hpp"
-#include "rips/sweep/neighbour_lists.hpp"
-#include "support/conformance.hpp"
-#include "support/known_spaces.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/known_spaces.hpp"
 
 namespace ph::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "support/conformance.hpp"
-#include "support/edge_link_pairs.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/edge_link_pairs.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

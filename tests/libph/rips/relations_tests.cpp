@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "rips/relations/formal_sums.hpp"
-#include "rips/relations/pair_labels.hpp"
-#include "rips/relations/sum_rows.hpp"
-#include "support/for_each_seed.hpp"
+#include "libph/src/rips/relations/formal_sums.hpp"
+#include "libph/src/rips/relations/pair_labels.hpp"
+#include "libph/src/rips/relations/sum_rows.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

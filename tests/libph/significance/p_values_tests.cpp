@@ -10,11 +10,11 @@
 #include <random>
 #include <vector>
 
-#include "libph/significance/random_points.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
-#include "support/expect_error.hpp"
+#include "tests/libph/significance/random_points.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/random.hpp"
+#include "libph/src/core/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,10 +11,10 @@
 #include <set>
 #include <vector>
 
-#include "libph/significance/random_points.hpp"
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/significance/random_points.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "support/random_bars.hpp"
+#include "tests/support/random_bars.hpp"
 
 namespace ph::test {
 

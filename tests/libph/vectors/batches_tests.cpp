@@ -7,11 +7,11 @@
 #include <set>
 #include <string>
 
-#include "libph/vectors/bars_by_definition.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
-#include "support/expect_error.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/vectors/bars_by_definition.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph {
 namespace {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "libph/vectors/bars_by_definition.hpp"
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/vectorise.hpp"
-#include "support/expect_error.hpp"
-#include "vectors/grid_cells.hpp"
+#include "tests/libph/vectors/bars_by_definition.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph {
 namespace {

@@ -9,10 +9,10 @@
 #include "ph/error.hpp"
 #include "ph/euler_curve.hpp"
 #include "ph/persistence.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/random_images.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/random_images.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph {
 namespace {

@@ -5,10 +5,10 @@
 #include <stop_token>
 #include <string>
 
-#include "libph/vectors/bars_by_definition.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
-#include "support/expect_error.hpp"
+#include "tests/libph/vectors/bars_by_definition.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/stages.hpp"
+#include "libsegment/src/objects/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numeric>
 #include <vector>
 
-#include "libsegment/scenery.hpp"
+#include "libsegment/src/voxels/rips_graph.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/merge_tree.hpp"
-#include "voxels/rips_graph.hpp"
-#include "voxels/voxel_grid.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "libsegment/scenery.hpp"
 #include "ph/segment.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/oriented_box.hpp"
+#include "libsegment/src/objects/oriented_box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "libsegment/scenery.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

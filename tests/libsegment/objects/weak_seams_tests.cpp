@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/weak_seams.hpp"
+#include "libsegment/src/objects/weak_seams.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {

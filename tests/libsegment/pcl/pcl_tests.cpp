@@ -5,8 +5,8 @@
 #include <ph/pcl.hpp>
 #include <stdexcept>
 
-#include "libsegment/scenery.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::pcl {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "libsegment/scenery.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <set>
 
-#include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

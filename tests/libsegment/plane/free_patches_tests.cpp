@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/stages.hpp"
+#include "libsegment/src/plane/stages.hpp"
 
 #include <gtest/gtest.h>
 

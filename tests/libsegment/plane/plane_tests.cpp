@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/plane.hpp"
+#include "libsegment/src/plane/plane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "libsegment/scenery.hpp"
-#include "plane/stages.hpp"
+#include "libsegment/src/plane/stages.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

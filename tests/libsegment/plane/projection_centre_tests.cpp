@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/projection_centre.hpp"
+#include "libsegment/src/plane/projection_centre.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <random>
 
-#include "libsegment/scenery.hpp"
-#include "support/test_data.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::segment {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ph/segment.hpp"
-#include "support/generators.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::segment::test {
 

@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "libsegment/scenery.hpp"
-#include "support/for_each_seed.hpp"
-#include "top_down_scene.hpp"
+#include "tests/libsegment/plane/top_down_scene.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::segment {
 namespace {

@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
 #include "ph/segment.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

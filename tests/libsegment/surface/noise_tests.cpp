@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface/noise.hpp"
+#include "libsegment/src/surface/noise.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "libsegment/scenery.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
-#include "libsegment/scenery.hpp"
+#include "libsegment/src/surface/seeds.hpp"
 #include "ph/error.hpp"
 #include "ph/greedy_permutation.hpp"
-#include "surface/seeds.hpp"
+#include "tests/libsegment/scenery.hpp"
 
 namespace ph::segment {
 namespace {

@@ -11,14 +11,14 @@
 #include <numbers>
 #include <random>
 
-#include "libsegment/scenery.hpp"
-#include "objects/weak_seams.hpp"
+#include "libsegment/src/objects/weak_seams.hpp"
+#include "libsegment/src/surface/concavity.hpp"
+#include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/eigen.hpp"
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
-#include "surface/concavity.hpp"
-#include "voxels/voxel_pairs.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -11,11 +11,11 @@
 #include <numbers>
 #include <random>
 
-#include "libsegment/scenery.hpp"
-#include "methods.hpp"
-#include "objects/objects.hpp"
+#include "libsegment/src/methods.hpp"
+#include "libsegment/src/objects/objects.hpp"
 #include "ph/error.hpp"
-#include "support/expect_error.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tree/cross_check.hpp"
+#include "libsegment/src/tree/cross_check.hpp"
 
 #include <gtest/gtest.h>
 
+#include "libsegment/src/voxels/rips_graph.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
-#include "voxels/rips_graph.hpp"
 
 namespace ph::segment {
 namespace {

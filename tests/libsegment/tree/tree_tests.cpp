@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <iostream>
 
-#include "libsegment/scenery.hpp"
-#include "libsegment/vessel_scene.hpp"
+#include "libsegment/src/tree/tree_file.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
-#include "support/points.hpp"
-#include "support/test_data.hpp"
-#include "tree/tree_file.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/libsegment/vessel_scene.hpp"
+#include "tests/support/points.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::segment {
 namespace {

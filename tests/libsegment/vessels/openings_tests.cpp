@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/stages.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "libsegment/scenery.hpp"
-#include "libsegment/vessel_scene.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/libsegment/vessel_scene.hpp"
 
 namespace ph::segment {
 namespace {

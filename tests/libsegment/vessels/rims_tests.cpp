@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vessels/stages.hpp"
+#include "libsegment/src/vessels/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ph/error.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::segment {
 namespace {

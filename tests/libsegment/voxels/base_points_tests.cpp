@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/base_points.hpp"
+#include "libsegment/src/voxels/base_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,17 +7,17 @@
 #include <map>
 #include <random>
 
-#include "libsegment/scenery.hpp"
+#include "libsegment/src/plane/stages.hpp"
+#include "libsegment/src/tree/cross_check.hpp"
+#include "libsegment/src/voxels/rips_graph.hpp"
+#include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/detail/segment/tree_barcode.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
-#include "plane/stages.hpp"
-#include "support/expect_error.hpp"
-#include "tree/cross_check.hpp"
-#include "voxels/rips_graph.hpp"
-#include "voxels/voxel_grid.hpp"
+#include "tests/libsegment/scenery.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/process.hpp"
+#include "apps/common/system/process.hpp"
 
 #include <fcntl.h>
 #include <io.h>
 #include <malloc.h>
 
-#include "common/system/memory_limit.hpp"
+#include "apps/common/system/memory_limit.hpp"
 #include "ph/detail/core/machine_memory.hpp"
 
 namespace ph::app {

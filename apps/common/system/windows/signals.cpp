@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/system/signals.hpp"
+#include "apps/common/system/signals.hpp"
 
 #include <windows.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "common/system/temporaries.hpp"
+#include "apps/common/system/temporaries.hpp"
 
 namespace ph::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "alpha/cgal/kernel.hpp"
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/cgal/kernel.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 #include "ph/error.hpp"
 
 namespace ph::alpha {

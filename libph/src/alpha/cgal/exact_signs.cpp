@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "alpha/cgal/kernel.hpp"
-#include "alpha/sites/squared_radius.hpp"
-#include "alpha/triangulation/triangulations.hpp"
+#include "libph/src/alpha/cgal/kernel.hpp"
+#include "libph/src/alpha/sites/squared_radius.hpp"
+#include "libph/src/alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

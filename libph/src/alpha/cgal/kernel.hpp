@@ -7,7 +7,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/sites/sites.hpp"
+#include "libph/src/alpha/sites/sites.hpp"
 
 namespace ph::alpha {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/triangulation/triangulations.hpp"
+#include "libph/src/alpha/triangulation/triangulations.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -11,7 +11,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
-#include "alpha/cgal/cells_of.hpp"
+#include "libph/src/alpha/cgal/cells_of.hpp"
 
 namespace ph::alpha {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "alpha/sites/power_of_two.hpp"
+#include "libph/src/alpha/sites/power_of_two.hpp"
 
 namespace ph::alpha {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/intervals/edges.hpp"
+#include "libph/src/alpha/intervals/edges.hpp"
 
 #include <algorithm>
 #include <vector>

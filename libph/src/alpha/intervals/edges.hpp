@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 
-#include "alpha/intervals/places.hpp"
-#include "alpha/periodic/images.hpp"
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/intervals/places.hpp"
+#include "libph/src/alpha/periodic/images.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 
 namespace ph::alpha {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "alpha/intervals/intervals.hpp"
-#include "alpha/periodic/images.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/periodic/images.hpp"
 
 namespace ph::alpha {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -5,9 +5,9 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/intervals/edges.hpp"
-#include "alpha/intervals/places.hpp"
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/intervals/edges.hpp"
+#include "libph/src/alpha/intervals/places.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 
 namespace ph::alpha {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cassert>
 
-#include "alpha/intervals/frames.hpp"
-#include "alpha/intervals/marks.hpp"
-#include "alpha/intervals/spheres.hpp"
+#include "libph/src/alpha/intervals/frames.hpp"
+#include "libph/src/alpha/intervals/marks.hpp"
+#include "libph/src/alpha/intervals/spheres.hpp"
 
 namespace ph::alpha {
 namespace {

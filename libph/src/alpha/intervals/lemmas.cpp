@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 
 #ifdef NDEBUG
 
@@ -13,7 +13,7 @@ void ph::alpha::check_lemmas(const AlphaCells&) {}
 #include <map>
 #include <vector>
 
-#include "alpha/triangulation/triangulations.hpp"
+#include "libph/src/alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

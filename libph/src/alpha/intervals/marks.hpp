@@ -6,7 +6,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph::alpha {

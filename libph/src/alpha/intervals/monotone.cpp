@@ -3,9 +3,9 @@
 #include <limits>
 #include <mutex>
 
-#include "alpha/intervals/frames.hpp"
-#include "alpha/intervals/marks.hpp"
-#include "alpha/intervals/spheres.hpp"
+#include "libph/src/alpha/intervals/frames.hpp"
+#include "libph/src/alpha/intervals/marks.hpp"
+#include "libph/src/alpha/intervals/spheres.hpp"
 
 namespace ph::alpha {
 namespace {

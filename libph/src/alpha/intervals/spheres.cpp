@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/intervals/spheres.hpp"
+#include "libph/src/alpha/intervals/spheres.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "alpha/intervals/double_double.hpp"
-#include "alpha/sites/squared_radius.hpp"
-#include "alpha/triangulation/triangulations.hpp"
+#include "libph/src/alpha/intervals/double_double.hpp"
+#include "libph/src/alpha/sites/squared_radius.hpp"
+#include "libph/src/alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "alpha/sites/sites.hpp"
+#include "libph/src/alpha/sites/sites.hpp"
 
 namespace ph::alpha {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "alpha/pairs/alpha_bars.hpp"
+#include "libph/src/alpha/pairs/alpha_bars.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::alpha {

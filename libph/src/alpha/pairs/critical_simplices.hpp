@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::alpha {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "alpha/intervals/intervals.hpp"
-#include "alpha/pairs/critical_simplices.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/pairs/critical_simplices.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 

@@ -5,8 +5,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/intervals/intervals.hpp"
-#include "alpha/pairs/critical_simplices.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/pairs/critical_simplices.hpp"
 #include "ph/detail/core/field.hpp"
 
 namespace ph::alpha {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "alpha/pairs/alpha_bars.hpp"
+#include "libph/src/alpha/pairs/alpha_bars.hpp"
 #include "ph/detail/components/elder_rule.hpp"
 
 namespace ph::alpha {

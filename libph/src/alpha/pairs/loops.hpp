@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "alpha/pairs/alpha_bars.hpp"
-#include "alpha/pairs/column_store.hpp"
-#include "alpha/pairs/critical_simplices.hpp"
-#include "alpha/pairs/edge_column.hpp"
-#include "alpha/pairs/edge_forest.hpp"
+#include "libph/src/alpha/pairs/alpha_bars.hpp"
+#include "libph/src/alpha/pairs/column_store.hpp"
+#include "libph/src/alpha/pairs/critical_simplices.hpp"
+#include "libph/src/alpha/pairs/edge_column.hpp"
+#include "libph/src/alpha/pairs/edge_forest.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph::alpha {

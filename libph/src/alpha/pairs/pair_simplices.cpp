@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/alpha_engine.hpp"
+#include "libph/src/alpha/alpha_engine.hpp"
 
-#include "alpha/pairs/components.hpp"
-#include "alpha/pairs/hollows.hpp"
-#include "alpha/pairs/loops.hpp"
+#include "libph/src/alpha/pairs/components.hpp"
+#include "libph/src/alpha/pairs/hollows.hpp"
+#include "libph/src/alpha/pairs/loops.hpp"
 
 namespace ph::alpha {
 

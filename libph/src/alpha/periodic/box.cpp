@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/periodic/box.hpp"
+#include "libph/src/alpha/periodic/box.hpp"
 
 #include <fmt/format.h>
 

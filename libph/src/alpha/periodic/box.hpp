@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "alpha/sites/power_of_two.hpp"
+#include "libph/src/alpha/sites/power_of_two.hpp"
 #include "ph/points.hpp"
 
 namespace ph::alpha {

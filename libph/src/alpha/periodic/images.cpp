@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/periodic/images.hpp"
+#include "libph/src/alpha/periodic/images.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/periodic/box.hpp"
-#include "alpha/sites/sites.hpp"
+#include "libph/src/alpha/periodic/box.hpp"
+#include "libph/src/alpha/sites/sites.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::alpha {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "alpha/periodic/images.hpp"
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/periodic/images.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 
 namespace ph::alpha {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/periodic/quotient.hpp"
+#include "libph/src/alpha/periodic/quotient.hpp"
 
 #include <algorithm>
 #include <cmath>

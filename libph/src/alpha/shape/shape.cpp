@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "alpha/intervals/intervals.hpp"
+#include "libph/src/alpha/intervals/intervals.hpp"
 #include "ph/alpha.hpp"
 #include "ph/error.hpp"
 

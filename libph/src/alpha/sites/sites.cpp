@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/sites/sites.hpp"
+#include "libph/src/alpha/sites/sites.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "alpha/sites/hilbert.hpp"
-#include "alpha/sites/power_of_two.hpp"
+#include "libph/src/alpha/sites/hilbert.hpp"
+#include "libph/src/alpha/sites/power_of_two.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/error.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "alpha/sites/vector.hpp"
+#include "libph/src/alpha/sites/vector.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"

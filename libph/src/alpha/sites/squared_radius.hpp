@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "alpha/sites/vector.hpp"
+#include "libph/src/alpha/sites/vector.hpp"
 
 namespace ph::alpha {
 

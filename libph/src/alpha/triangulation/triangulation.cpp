@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 
 #include <algorithm>
 
-#include "alpha/triangulation/triangulations.hpp"
+#include "libph/src/alpha/triangulation/triangulations.hpp"
 
 namespace ph::alpha {
 

@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "alpha/sites/sites.hpp"
+#include "libph/src/alpha/sites/sites.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "alpha/triangulation/triangulation.hpp"
+#include "libph/src/alpha/triangulation/triangulation.hpp"
 
 // The services of CGAL, without any name of CGAL.
 namespace ph::alpha {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/bytes/crc32.hpp"
+#include "libph/src/core/bytes/crc32.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/pages.hpp"
+#include "libph/src/core/system/pages.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/any_axes/cell_components.hpp"
+#include "libph/src/cubical/any_axes/cell_components.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/grid/cell_grid.hpp"
+#include "libph/src/cubical/grid/cell_grid.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::cubical {

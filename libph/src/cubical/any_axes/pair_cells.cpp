@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/any_axes/pair_cells.hpp"
+#include "libph/src/cubical/any_axes/pair_cells.hpp"
 
 #include <algorithm>
 
-#include "cubical/any_axes/cell_components.hpp"
-#include "cubical/columns/boundary_reduction.hpp"
-#include "cubical/sinks/cell_sink.hpp"
-#include "cubical/stars/star_matcher.hpp"
-#include "image/voxels_in_use.hpp"
+#include "libph/src/cubical/any_axes/cell_components.hpp"
+#include "libph/src/cubical/columns/boundary_reduction.hpp"
+#include "libph/src/cubical/sinks/cell_sink.hpp"
+#include "libph/src/cubical/stars/star_matcher.hpp"
+#include "libph/src/image/voxels_in_use.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/chain_heap.hpp"
-#include "cubical/grid/cell_grid.hpp"
+#include "libph/src/cubical/columns/chain_heap.hpp"
+#include "libph/src/cubical/grid/cell_grid.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/run_context.hpp"

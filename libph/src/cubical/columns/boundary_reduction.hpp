@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "cubical/columns/boundary_column.hpp"
-#include "cubical/columns/parallel_reduction.hpp"
-#include "cubical/sinks/cell_sink.hpp"
+#include "libph/src/cubical/columns/boundary_column.hpp"
+#include "libph/src/cubical/columns/parallel_reduction.hpp"
+#include "libph/src/cubical/sinks/cell_sink.hpp"
 #include "ph/detail/core/flat_map.hpp"
 
 namespace ph::cubical {

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 

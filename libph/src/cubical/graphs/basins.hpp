@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "cubical/graphs/arrow_forest.hpp"
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/graphs/arrow_forest.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {

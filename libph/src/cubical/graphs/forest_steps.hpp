@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "cubical/graphs/top_graph.hpp"
-#include "cubical/graphs/voxel_graph.hpp"
+#include "libph/src/cubical/graphs/top_graph.hpp"
+#include "libph/src/cubical/graphs/voxel_graph.hpp"
 
 namespace ph::cubical {
 

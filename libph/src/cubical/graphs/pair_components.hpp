@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/graphs/basins.hpp"
-#include "cubical/graphs/elder_forest.hpp"
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/graphs/basins.hpp"
+#include "libph/src/cubical/graphs/elder_forest.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/graphs/top_graph.hpp"
+#include "libph/src/cubical/graphs/top_graph.hpp"
 
 namespace ph::cubical {
 

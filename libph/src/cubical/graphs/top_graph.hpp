@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "cubical/graphs/top_nodes.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/graphs/top_nodes.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

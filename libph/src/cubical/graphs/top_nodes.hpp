@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
 
 namespace ph::cubical {
 

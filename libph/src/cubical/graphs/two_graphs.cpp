@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/graphs/two_graphs.hpp"
+#include "libph/src/cubical/graphs/two_graphs.hpp"
 
-#include "cubical/graphs/pair_components.hpp"
-#include "cubical/graphs/top_graph.hpp"
-#include "cubical/graphs/voxel_graph.hpp"
+#include "libph/src/cubical/graphs/pair_components.hpp"
+#include "libph/src/cubical/graphs/top_graph.hpp"
+#include "libph/src/cubical/graphs/voxel_graph.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 #include "ph/detail/cubical/bar_sink.hpp"
 
 namespace ph::cubical {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "cubical/graphs/voxel_nodes.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/graphs/voxel_nodes.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

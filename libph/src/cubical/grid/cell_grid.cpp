@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/grid/cell_grid.hpp"
+#include "libph/src/cubical/grid/cell_grid.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cubical/grid/grid_shape.hpp"
-#include "cubical/grid/star_tables.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/grid/star_tables.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
 
 namespace ph::cubical {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/grid/star_tables.hpp"
+#include "libph/src/cubical/grid/star_tables.hpp"
 
 #include <algorithm>
 #include <numeric>

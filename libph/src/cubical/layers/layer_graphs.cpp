@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/layers/layer_graphs.hpp"
+#include "libph/src/cubical/layers/layer_graphs.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cubical/layers/top_star.hpp"
-#include "cubical/layers/voxel_star.hpp"
+#include "libph/src/cubical/layers/top_star.hpp"
+#include "libph/src/cubical/layers/voxel_star.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {

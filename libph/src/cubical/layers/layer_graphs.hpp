@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 
-#include "cubical/graphs/arrow_forest.hpp"
-#include "cubical/graphs/top_nodes.hpp"
-#include "cubical/graphs/voxel_nodes.hpp"
-#include "cubical/layers/layer_grid.hpp"
-#include "cubical/layers/star_links.hpp"
-#include "cubical/layers/star_numbers.hpp"
+#include "libph/src/cubical/graphs/arrow_forest.hpp"
+#include "libph/src/cubical/graphs/top_nodes.hpp"
+#include "libph/src/cubical/graphs/voxel_nodes.hpp"
+#include "libph/src/cubical/layers/layer_grid.hpp"
+#include "libph/src/cubical/layers/star_links.hpp"
+#include "libph/src/cubical/layers/star_numbers.hpp"
 
 namespace ph::cubical {
 

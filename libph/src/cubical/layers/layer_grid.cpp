@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/layers/layer_grid.hpp"
+#include "libph/src/cubical/layers/layer_grid.hpp"
 
 #include <atomic>
 

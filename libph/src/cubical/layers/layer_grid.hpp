@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cubical/grid/slab_frame.hpp"
+#include "libph/src/cubical/grid/slab_frame.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 

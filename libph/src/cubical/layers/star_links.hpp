@@ -4,7 +4,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::cubical {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "cubical/grid/grid_shape.hpp"
-#include "cubical/grid/star_tables.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/grid/star_tables.hpp"
 
 namespace ph::cubical {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/layers/top_star.hpp"
+#include "libph/src/cubical/layers/top_star.hpp"
 
 #include <algorithm>
 #include <functional>

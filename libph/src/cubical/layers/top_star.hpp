@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/layers/layer_graphs.hpp"
-#include "cubical/stars/star_matcher.hpp"
+#include "libph/src/cubical/layers/layer_graphs.hpp"
+#include "libph/src/cubical/stars/star_matcher.hpp"
 
 namespace ph::cubical {
 

@@ -7,7 +7,7 @@
 #include <memory_resource>
 #include <numeric>
 
-#include "cubical/layers/layer_graphs.hpp"
+#include "libph/src/cubical/layers/layer_graphs.hpp"
 
 namespace ph::cubical {
 

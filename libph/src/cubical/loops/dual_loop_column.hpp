@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/chain_heap.hpp"
-#include "cubical/columns/ordered_cell.hpp"
-#include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/facet_search.hpp"
+#include "libph/src/cubical/columns/chain_heap.hpp"
+#include "libph/src/cubical/columns/ordered_cell.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/facet_search.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 

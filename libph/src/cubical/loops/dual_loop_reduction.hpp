@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/parallel_reduction.hpp"
-#include "cubical/loops/dual_loop_column.hpp"
+#include "libph/src/cubical/columns/parallel_reduction.hpp"
+#include "libph/src/cubical/loops/dual_loop_column.hpp"
 
 namespace ph::cubical {
 

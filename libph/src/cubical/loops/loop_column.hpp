@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/chain_heap.hpp"
-#include "cubical/columns/ordered_cell.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/columns/chain_heap.hpp"
+#include "libph/src/cubical/columns/ordered_cell.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/run_context.hpp"

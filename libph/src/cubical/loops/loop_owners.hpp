@@ -5,9 +5,9 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/columns/ordered_cell.hpp"
-#include "cubical/grid/grid_frame.hpp"
-#include "cubical/stars/free_edges.hpp"
+#include "libph/src/cubical/columns/ordered_cell.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/stars/free_edges.hpp"
 
 namespace ph::cubical {
 

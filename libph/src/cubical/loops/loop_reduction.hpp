@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/parallel_reduction.hpp"
-#include "cubical/loops/loop_column.hpp"
-#include "cubical/loops/loop_owners.hpp"
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/columns/parallel_reduction.hpp"
+#include "libph/src/cubical/loops/loop_column.hpp"
+#include "libph/src/cubical/loops/loop_owners.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 
 namespace ph::cubical {
 

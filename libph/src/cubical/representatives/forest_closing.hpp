@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/columns/voxel_chain.hpp"
-#include "cubical/graphs/forest_steps.hpp"
-#include "cubical/representatives/component_tree.hpp"
+#include "libph/src/cubical/columns/voxel_chain.hpp"
+#include "libph/src/cubical/graphs/forest_steps.hpp"
+#include "libph/src/cubical/representatives/component_tree.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {

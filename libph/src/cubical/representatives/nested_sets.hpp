@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/representatives/component_tree.hpp"
+#include "libph/src/cubical/representatives/component_tree.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/representatives/represent_voxels.hpp"
+#include "libph/src/cubical/representatives/represent_voxels.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <type_traits>
 
-#include "cubical/loops/dual_loop_reduction.hpp"
-#include "cubical/loops/loop_reduction.hpp"
-#include "cubical/representatives/component_tree.hpp"
-#include "cubical/representatives/forest_closing.hpp"
-#include "cubical/representatives/nested_sets.hpp"
-#include "cubical/representatives/represented_pairs.hpp"
-#include "cubical/representatives/separating_cycles.hpp"
-#include "cubical/representatives/torus_surfaces.hpp"
-#include "image/voxels_in_use.hpp"
+#include "libph/src/cubical/loops/dual_loop_reduction.hpp"
+#include "libph/src/cubical/loops/loop_reduction.hpp"
+#include "libph/src/cubical/representatives/component_tree.hpp"
+#include "libph/src/cubical/representatives/forest_closing.hpp"
+#include "libph/src/cubical/representatives/nested_sets.hpp"
+#include "libph/src/cubical/representatives/represented_pairs.hpp"
+#include "libph/src/cubical/representatives/separating_cycles.hpp"
+#include "libph/src/cubical/representatives/torus_surfaces.hpp"
+#include "libph/src/image/voxels_in_use.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "cubical/columns/voxel_chain.hpp"
-#include "cubical/representatives/represent_voxels.hpp"
-#include "cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/columns/voxel_chain.hpp"
+#include "libph/src/cubical/representatives/represent_voxels.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
 
 namespace ph::cubical {
 

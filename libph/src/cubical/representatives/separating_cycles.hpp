@@ -2,11 +2,11 @@
 #pragma once
 #include <cstdint>
 
-#include "cubical/columns/voxel_chain.hpp"
-#include "cubical/graphs/top_graph.hpp"
-#include "cubical/graphs/voxel_graph.hpp"
-#include "cubical/representatives/component_tree.hpp"
-#include "cubical/representatives/nested_sets.hpp"
+#include "libph/src/cubical/columns/voxel_chain.hpp"
+#include "libph/src/cubical/graphs/top_graph.hpp"
+#include "libph/src/cubical/graphs/voxel_graph.hpp"
+#include "libph/src/cubical/representatives/component_tree.hpp"
+#include "libph/src/cubical/representatives/nested_sets.hpp"
 
 namespace ph::cubical {
 

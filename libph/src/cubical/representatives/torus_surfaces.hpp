@@ -5,8 +5,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/columns/voxel_chain.hpp"
-#include "cubical/stars/facet_search.hpp"
+#include "libph/src/cubical/columns/voxel_chain.hpp"
+#include "libph/src/cubical/stars/facet_search.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::cubical {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/bytes/crc32.hpp"
-#include "cubical/columns/ordered_cell.hpp"
-#include "cubical/grid/star_tables.hpp"
+#include "libph/src/core/bytes/crc32.hpp"
+#include "libph/src/cubical/columns/ordered_cell.hpp"
+#include "libph/src/cubical/grid/star_tables.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/chain.hpp"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cubical/grid/grid_shape.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/rounds/part_loops.hpp"
+#include "libph/src/cubical/rounds/part_loops.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/parallel_reduction.hpp"
-#include "cubical/loops/loop_column.hpp"
-#include "cubical/loops/loop_owners.hpp"
-#include "cubical/rounds/loop_message.hpp"
-#include "cubical/rounds/part_stars.hpp"
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/slabs/free_cells.hpp"
-#include "cubical/stars/free_edges.hpp"
+#include "libph/src/cubical/columns/parallel_reduction.hpp"
+#include "libph/src/cubical/loops/loop_column.hpp"
+#include "libph/src/cubical/loops/loop_owners.hpp"
+#include "libph/src/cubical/rounds/loop_message.hpp"
+#include "libph/src/cubical/rounds/part_stars.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/stars/free_edges.hpp"
 
 namespace ph::cubical {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "cubical/rounds/part_layout.hpp"
-#include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/rounds/part_layout.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

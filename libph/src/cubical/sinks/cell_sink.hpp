@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "cubical/grid/cell_grid.hpp"
-#include "cubical/sinks/bar_blocks.hpp"
+#include "libph/src/cubical/grid/cell_grid.hpp"
+#include "libph/src/cubical/sinks/bar_blocks.hpp"
 
 namespace ph::cubical {
 

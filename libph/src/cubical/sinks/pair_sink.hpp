@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cubical/grid/grid_shape.hpp"
-#include "cubical/sinks/bar_blocks.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/sinks/bar_blocks.hpp"
 
 namespace ph::cubical {
 

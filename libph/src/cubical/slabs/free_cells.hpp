@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/layers/star_numbers.hpp"
+#include "libph/src/cubical/layers/star_numbers.hpp"
 
 namespace ph::cubical {
 

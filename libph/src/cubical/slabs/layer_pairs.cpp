@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/slabs/layer_pairs.hpp"
+#include "libph/src/cubical/slabs/layer_pairs.hpp"
 
 #include <utility>
 
-#include "cubical/graphs/top_graph.hpp"
-#include "cubical/graphs/voxel_graph.hpp"
-#include "cubical/layers/layer_graphs.hpp"
-#include "cubical/slabs/slab_basins.hpp"
+#include "libph/src/cubical/graphs/top_graph.hpp"
+#include "libph/src/cubical/graphs/voxel_graph.hpp"
+#include "libph/src/cubical/layers/layer_graphs.hpp"
+#include "libph/src/cubical/slabs/slab_basins.hpp"
 #include "ph/error.hpp"
 
 namespace ph::cubical {

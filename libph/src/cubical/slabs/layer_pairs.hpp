@@ -5,12 +5,12 @@
 #include <memory_resource>
 #include <optional>
 
-#include "cubical/layers/layer_grid.hpp"
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/slabs/free_cells.hpp"
-#include "cubical/slabs/seam_forest.hpp"
-#include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/layers/layer_grid.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/slabs/seam_forest.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cubical/grid/grid_frame.hpp"
-#include "cubical/grid/grid_shape.hpp"
-#include "cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/grid/grid_shape.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/slabs/pair_in_slabs.hpp"
+#include "libph/src/cubical/slabs/pair_in_slabs.hpp"
 
 #include <cstdint>
 #include <new>
 #include <optional>
 #include <string>
 
-#include "cubical/graphs/two_graphs.hpp"
-#include "cubical/layers/layer_grid.hpp"
-#include "cubical/slabs/layer_pairs.hpp"
-#include "cubical/slabs/slab_loops.hpp"
+#include "libph/src/cubical/graphs/two_graphs.hpp"
+#include "libph/src/cubical/layers/layer_grid.hpp"
+#include "libph/src/cubical/slabs/layer_pairs.hpp"
+#include "libph/src/cubical/slabs/slab_loops.hpp"
 #include "ph/error.hpp"
 
 namespace ph::cubical {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/slabs/slabs.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/slabs/slabs.hpp"
 #include "ph/detail/core/field.hpp"
 
 namespace ph::cubical {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/graphs/elder_forest.hpp"
-#include "cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/graphs/elder_forest.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/graphs/basins.hpp"
-#include "cubical/slabs/seam_forest.hpp"
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/graphs/basins.hpp"
+#include "libph/src/cubical/slabs/seam_forest.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::cubical {

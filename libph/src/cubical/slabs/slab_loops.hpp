@@ -6,9 +6,9 @@
 #include <tuple>
 #include <vector>
 
-#include "cubical/loops/loop_reduction.hpp"
-#include "cubical/slabs/free_cells.hpp"
-#include "cubical/slabs/stored_stars.hpp"
+#include "libph/src/cubical/loops/loop_reduction.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/slabs/stored_stars.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {

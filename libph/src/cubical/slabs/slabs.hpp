@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/slabs/layered_image.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/slabs/layered_image.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 #include "ph/detail/core/file_pages.hpp"
 
 namespace ph::cubical {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "cubical/slabs/slabs.hpp"
-#include "cubical/stars/free_edges.hpp"
+#include "libph/src/cubical/slabs/slabs.hpp"
+#include "libph/src/cubical/stars/free_edges.hpp"
 #include "ph/detail/core/file_pages.hpp"
 
 namespace ph::cubical {

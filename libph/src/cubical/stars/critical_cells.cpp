@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/stars/critical_cells.hpp"
+#include "libph/src/cubical/stars/critical_cells.hpp"
 
 namespace ph::cubical {
 

@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/stars/free_edges.hpp"
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/stars/free_edges.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/run_context.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <tuple>
 
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

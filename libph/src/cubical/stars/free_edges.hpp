@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "cubical/grid/grid_frame.hpp"
+#include "libph/src/cubical/grid/grid_frame.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/stars/star_grid.hpp"
+#include "libph/src/cubical/stars/star_grid.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/grid/slab_frame.hpp"
+#include "libph/src/cubical/grid/slab_frame.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cubical/stars/star_matcher.hpp"
+#include "libph/src/cubical/stars/star_matcher.hpp"
 
 #include <algorithm>
 #include <bit>

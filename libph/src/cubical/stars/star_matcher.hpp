@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cubical/grid/cell_grid.hpp"
+#include "libph/src/cubical/grid/cell_grid.hpp"
 
 namespace ph::cubical {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "diagram/bottleneck/joined_matchings.hpp"
-#include "diagram/bottleneck/one_sided_matching.hpp"
-#include "diagram/diagram_parts.hpp"
+#include "libph/src/diagram/bottleneck/joined_matchings.hpp"
+#include "libph/src/diagram/bottleneck/one_sided_matching.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
 #include "ph/distances.hpp"
 
 namespace ph {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/bottleneck/one_sided_matching.hpp"
+#include "libph/src/diagram/bottleneck/one_sided_matching.hpp"
 
 #include <algorithm>
 
-#include "diagram/diagram_parts.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
 
 namespace ph::diagram {
 

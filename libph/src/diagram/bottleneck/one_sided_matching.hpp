@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "diagram/bottleneck/points_left.hpp"
+#include "libph/src/diagram/bottleneck/points_left.hpp"
 #include "ph/distances.hpp"
 
 namespace ph::diagram {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/bottleneck/points_left.hpp"
+#include "libph/src/diagram/bottleneck/points_left.hpp"
 
 #include <utility>
 

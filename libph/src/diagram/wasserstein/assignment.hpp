@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "diagram/wasserstein/weighted_tree.hpp"
+#include "libph/src/diagram/wasserstein/weighted_tree.hpp"
 #include "ph/detail/diagram/ground_cost.hpp"
 
 namespace ph::diagram {

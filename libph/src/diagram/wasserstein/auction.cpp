@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/wasserstein/auction.hpp"
+#include "libph/src/diagram/wasserstein/auction.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "diagram/wasserstein/assignment.hpp"
+#include "libph/src/diagram/wasserstein/assignment.hpp"
 
 namespace ph::diagram {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "diagram/diagram_parts.hpp"
-#include "diagram/wasserstein/assignment.hpp"
-#include "diagram/wasserstein/auction.hpp"
+#include "libph/src/diagram/diagram_parts.hpp"
+#include "libph/src/diagram/wasserstein/assignment.hpp"
+#include "libph/src/diagram/wasserstein/auction.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/wasserstein/weighted_tree.hpp"
+#include "libph/src/diagram/wasserstein/weighted_tree.hpp"
 
 #include <algorithm>
 #include <limits>

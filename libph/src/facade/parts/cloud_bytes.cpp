@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "facade/parts/cloud_state.hpp"
+#include "libph/src/facade/parts/cloud_state.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"

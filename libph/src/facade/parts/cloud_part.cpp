@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "facade/parts/cloud_state.hpp"
-#include "metric/blocks/cloud_blocks.hpp"
+#include "libph/src/facade/parts/cloud_state.hpp"
+#include "libph/src/metric/blocks/cloud_blocks.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/detail/rips/rips_graph.hpp"

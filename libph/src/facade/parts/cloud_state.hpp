@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "metric/blocks/numbered_forest.hpp"
+#include "libph/src/metric/blocks/numbered_forest.hpp"
 #include "ph/parts/cloud_part.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "cubical/rounds/part_loops.hpp"
-#include "facade/parts/part_state.hpp"
+#include "libph/src/cubical/rounds/part_loops.hpp"
+#include "libph/src/facade/parts/part_state.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/field.hpp"

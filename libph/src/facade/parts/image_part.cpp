@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "cubical/rounds/part_layout.hpp"
-#include "cubical/slabs/slabs.hpp"
-#include "facade/parts/part_state.hpp"
+#include "libph/src/cubical/rounds/part_layout.hpp"
+#include "libph/src/cubical/slabs/slabs.hpp"
+#include "libph/src/facade/parts/part_state.hpp"
 #include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/error.hpp"
 

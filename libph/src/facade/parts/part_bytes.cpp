@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/bytes/crc32.hpp"
-#include "facade/parts/part_state.hpp"
+#include "libph/src/core/bytes/crc32.hpp"
+#include "libph/src/facade/parts/part_state.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/sealed_part.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "facade/parts/part_state.hpp"
+#include "libph/src/facade/parts/part_state.hpp"
 
 namespace ph {
 namespace {

@@ -9,13 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "cubical/graphs/two_graphs.hpp"
-#include "cubical/rounds/part_layout.hpp"
-#include "cubical/rounds/part_stars.hpp"
-#include "cubical/sinks/pair_sink.hpp"
-#include "cubical/slabs/free_cells.hpp"
-#include "cubical/slabs/layer_pairs.hpp"
-#include "image/voxels_in_use.hpp"
+#include "libph/src/cubical/graphs/two_graphs.hpp"
+#include "libph/src/cubical/rounds/part_layout.hpp"
+#include "libph/src/cubical/rounds/part_stars.hpp"
+#include "libph/src/cubical/sinks/pair_sink.hpp"
+#include "libph/src/cubical/slabs/free_cells.hpp"
+#include "libph/src/cubical/slabs/layer_pairs.hpp"
+#include "libph/src/image/voxels_in_use.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/bytes/crc32.hpp"
+#include "libph/src/core/bytes/crc32.hpp"
 #include "ph/detail/core/byte_reader.hpp"
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/barcodes/barcode_read.hpp"
+#include "libph/src/io/barcodes/barcode_read.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
 
 namespace ph {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "io/barcodes/barcode_read.hpp"
+#include "libph/src/io/barcodes/barcode_read.hpp"
 #include "ph/detail/io/json_cursor.hpp"
 
 namespace ph {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/barcodes/barcode_read.hpp"
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/barcodes/barcode_read.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/table.hpp"
 

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "io/bytes/unpack.hpp"
-#include "io/bytes/utf8.hpp"
+#include "libph/src/io/bytes/unpack.hpp"
+#include "libph/src/io/bytes/utf8.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/core/lower_case.hpp"

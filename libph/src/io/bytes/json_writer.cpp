@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "io/bytes/utf8.hpp"
+#include "libph/src/io/bytes/utf8.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::json {

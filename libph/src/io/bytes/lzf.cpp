@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/lzf.hpp"
+#include "libph/src/io/bytes/lzf.hpp"
 
 #include <algorithm>
 #include <array>

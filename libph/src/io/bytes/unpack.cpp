@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/unpack.hpp"
+#include "libph/src/io/bytes/unpack.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

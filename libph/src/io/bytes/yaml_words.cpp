@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/yaml_words.hpp"
+#include "libph/src/io/bytes/yaml_words.hpp"
 #include "ph/detail/core/lower_case.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/bytes/yaml_words.hpp"
+#include "libph/src/io/bytes/yaml_words.hpp"
 #include "ph/detail/core/floating.hpp"
 #include "ph/detail/io/camera.hpp"
 #include "ph/detail/io/json_cursor.hpp"

@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "io/bytes/field_access.hpp"
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/field_access.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

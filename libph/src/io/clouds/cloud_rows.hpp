@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph::detail {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "io/bytes/readers.hpp"
-#include "io/clouds/cloud_rows.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/clouds/cloud_rows.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"

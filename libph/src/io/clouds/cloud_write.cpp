@@ -7,9 +7,9 @@
 #include <ostream>
 #include <set>
 
-#include "io/bytes/field_access.hpp"
-#include "io/bytes/lzf.hpp"
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/field_access.hpp"
+#include "libph/src/io/bytes/lzf.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

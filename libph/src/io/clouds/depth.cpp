@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

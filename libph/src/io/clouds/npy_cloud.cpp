@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/bytes/readers.hpp"
-#include "io/clouds/cloud_rows.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/clouds/cloud_rows.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

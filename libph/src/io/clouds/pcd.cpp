@@ -6,10 +6,10 @@
 #include <array>
 #include <charconv>
 
-#include "io/bytes/field_access.hpp"
-#include "io/bytes/lzf.hpp"
-#include "io/bytes/readers.hpp"
-#include "io/clouds/pcd.hpp"
+#include "libph/src/io/bytes/field_access.hpp"
+#include "libph/src/io/bytes/lzf.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/clouds/pcd.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <array>
 #include <charconv>
 
-#include "io/bytes/readers.hpp"
-#include "io/clouds/pcd.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/clouds/pcd.hpp"
 
 namespace ph::detail {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/clouds/ply.hpp"
+#include "libph/src/io/clouds/ply.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "io/bytes/field_access.hpp"
+#include "libph/src/io/bytes/field_access.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/cloud_data.hpp"
 #include "ph/detail/io/reader.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <set>
 
-#include "io/clouds/ply.hpp"
+#include "libph/src/io/clouds/ply.hpp"
 
 namespace ph::detail {
 namespace {

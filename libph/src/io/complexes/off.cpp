@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

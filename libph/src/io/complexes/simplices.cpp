@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

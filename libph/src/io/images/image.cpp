@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

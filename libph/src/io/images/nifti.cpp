@@ -6,8 +6,8 @@
 #include <cmath>
 #include <concepts>
 
-#include "io/bytes/readers.hpp"
-#include "io/tables/array.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/tables/array.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

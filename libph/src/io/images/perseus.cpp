@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/bytes/readers.hpp"
-#include "io/tables/array.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/tables/array.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/read.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/png.hpp"
 
 namespace ph::detail {

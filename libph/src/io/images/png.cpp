@@ -9,7 +9,7 @@
 #include <new>
 #include <ostream>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
 
 namespace ph {

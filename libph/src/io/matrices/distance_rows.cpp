@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/matrices/distance_rows.hpp"
+#include "libph/src/io/matrices/distance_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "io/matrices/matrix_entry.hpp"
+#include "libph/src/io/matrices/matrix_entry.hpp"
 
 // Code shared by square matrices and triangles of distances.
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/matrices/matrix_entry.hpp"
+#include "libph/src/io/matrices/matrix_entry.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/io/table.hpp"
 

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "io/bytes/readers.hpp"
-#include "io/matrices/matrix_entry.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/matrices/matrix_entry.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

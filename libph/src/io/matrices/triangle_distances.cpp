@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/bytes/readers.hpp"
-#include "io/matrices/distance_rows.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/matrices/distance_rows.hpp"
 
 namespace ph {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "io/bytes/readers.hpp"
-#include "io/tables/array.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/tables/array.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "io/bytes/readers.hpp"
-#include "io/bytes/unpack.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/bytes/unpack.hpp"
 
 // An NPZ is a zip archive of NPY files. The central directory at the end of the file lists the
 // members; local headers are only used to find the data.

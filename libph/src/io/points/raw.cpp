@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "io/bytes/readers.hpp"
-#include "io/tables/array.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/tables/array.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

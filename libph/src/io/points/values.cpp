@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/bytes/field_access.hpp"
-#include "io/bytes/readers.hpp"
-#include "io/bytes/utf8.hpp"
+#include "libph/src/io/bytes/field_access.hpp"
+#include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/bytes/utf8.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/tables/array.hpp"
+#include "libph/src/io/tables/array.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/system/pages.hpp"
+#include "libph/src/core/system/pages.hpp"
 
 namespace ph::detail {
 namespace {

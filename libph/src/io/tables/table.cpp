@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/bytes/readers.hpp"
+#include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/core/lower_case.hpp"
 
 namespace ph::detail {

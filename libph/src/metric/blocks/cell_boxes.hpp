@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "metric/blocks/sample_tree.hpp"
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/blocks/sample_tree.hpp"
+#include "libph/src/metric/plain_squares.hpp"
 
 namespace ph {
 

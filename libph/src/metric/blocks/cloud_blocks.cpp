@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/blocks/cloud_blocks.hpp"
+#include "libph/src/metric/blocks/cloud_blocks.hpp"
 
 #include <fmt/format.h>
 

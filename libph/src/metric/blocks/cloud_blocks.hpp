@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "metric/blocks/cell_boxes.hpp"
-#include "metric/blocks/near_points.hpp"
-#include "metric/blocks/numbered_forest.hpp"
-#include "metric/blocks/sample_tree.hpp"
+#include "libph/src/metric/blocks/cell_boxes.hpp"
+#include "libph/src/metric/blocks/near_points.hpp"
+#include "libph/src/metric/blocks/numbered_forest.hpp"
+#include "libph/src/metric/blocks/sample_tree.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 

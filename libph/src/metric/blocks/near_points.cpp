@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/blocks/near_points.hpp"
+#include "libph/src/metric/blocks/near_points.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "metric/blocks/cell_boxes.hpp"
-#include "metric/blocks/sample_tree.hpp"
+#include "libph/src/metric/blocks/cell_boxes.hpp"
+#include "libph/src/metric/blocks/sample_tree.hpp"
 
 namespace ph {
 

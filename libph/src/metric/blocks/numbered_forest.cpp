@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/blocks/numbered_forest.hpp"
+#include "libph/src/metric/blocks/numbered_forest.hpp"
 
 #include <algorithm>
 #include <cstdint>

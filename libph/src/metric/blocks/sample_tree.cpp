@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metric/blocks/sample_tree.hpp"
+#include "libph/src/metric/blocks/sample_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/random.hpp"
-#include "metric/blocks/cell_boxes.hpp"
+#include "libph/src/core/random.hpp"
+#include "libph/src/metric/blocks/cell_boxes.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"

@@ -9,14 +9,14 @@
 #include <unordered_set>
 #include <vector>
 
+#include "libph/src/rips/annotations/dead_generators.hpp"
+#include "libph/src/rips/annotations/number_set.hpp"
+#include "libph/src/rips/sweep/active_edges.hpp"
+#include "libph/src/rips/sweep/sorted_terms.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/core/flat_map.hpp"
 #include "ph/error.hpp"
-#include "rips/annotations/dead_generators.hpp"
-#include "rips/annotations/number_set.hpp"
-#include "rips/sweep/active_edges.hpp"
-#include "rips/sweep/sorted_terms.hpp"
 
 namespace ph {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/annotations/list_pool.hpp"
+#include "libph/src/rips/sweep/sorted_terms.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/list_pool.hpp"
-#include "rips/sweep/sorted_terms.hpp"
 
 namespace ph {
 

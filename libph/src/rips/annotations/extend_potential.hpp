@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "libph/src/rips/annotations/vertex_functions.hpp"
+#include "libph/src/rips/sweep/link_forest.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/vertex_functions.hpp"
-#include "rips/sweep/link_forest.hpp"
 
 namespace ph {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/annotations/vertex_functions.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/vertex_functions.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/beta_skeleton/beta_skeleton.hpp"
+#include "libph/src/rips/beta_skeleton/beta_skeleton.hpp"
 
 #include <iterator>
 #include <random>

@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
+#include "libph/src/rips/beta_skeleton/pair_points.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/engine.hpp"
 #include "ph/filtration.hpp"
 #include "ph/rips.hpp"
-#include "rips/beta_skeleton/pair_points.hpp"
 
 namespace ph {
 

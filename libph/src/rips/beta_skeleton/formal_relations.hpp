@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "libph/src/rips/sweep/sorted_terms.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/sweep/sorted_terms.hpp"
 
 namespace ph::beta_skeleton {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "rips/beta_skeleton/point_tree.hpp"
+#include "libph/src/rips/beta_skeleton/point_tree.hpp"
 
 namespace ph::beta_skeleton {
 

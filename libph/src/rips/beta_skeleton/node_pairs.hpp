@@ -6,7 +6,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "rips/beta_skeleton/point_tree.hpp"
+#include "libph/src/rips/beta_skeleton/point_tree.hpp"
 
 namespace ph::beta_skeleton {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "rips/beta_skeleton/pair_points.hpp"
+#include "libph/src/rips/beta_skeleton/pair_points.hpp"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "metric/distinct_points.hpp"
-#include "metric/plain_squares.hpp"
+#include "libph/src/metric/distinct_points.hpp"
+#include "libph/src/metric/plain_squares.hpp"
+#include "libph/src/rips/beta_skeleton/formal_relations.hpp"
+#include "libph/src/rips/beta_skeleton/skeleton_cycles.hpp"
+#include "libph/src/rips/beta_skeleton/split_lenses.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
-#include "rips/beta_skeleton/formal_relations.hpp"
-#include "rips/beta_skeleton/skeleton_cycles.hpp"
-#include "rips/beta_skeleton/split_lenses.hpp"
 
 namespace ph {
 namespace {

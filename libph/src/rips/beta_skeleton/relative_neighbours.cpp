@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/beta_skeleton/relative_neighbours.hpp"
+#include "libph/src/rips/beta_skeleton/relative_neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>

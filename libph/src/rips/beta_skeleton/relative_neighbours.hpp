@@ -3,8 +3,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "rips/beta_skeleton/lenses.hpp"
-#include "rips/beta_skeleton/node_pairs.hpp"
+#include "libph/src/rips/beta_skeleton/lenses.hpp"
+#include "libph/src/rips/beta_skeleton/node_pairs.hpp"
 
 namespace ph::beta_skeleton {
 

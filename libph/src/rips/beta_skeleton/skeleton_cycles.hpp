@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "rips/beta_skeleton/lenses.hpp"
-#include "rips/beta_skeleton/relative_neighbours.hpp"
+#include "libph/src/rips/beta_skeleton/lenses.hpp"
+#include "libph/src/rips/beta_skeleton/relative_neighbours.hpp"
 
 namespace ph::beta_skeleton {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rips/beta_skeleton/point_tree.hpp"
+#include "libph/src/rips/beta_skeleton/point_tree.hpp"
 
 namespace ph::beta_skeleton {
 

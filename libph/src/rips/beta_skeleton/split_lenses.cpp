@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "rips/beta_skeleton/split_lenses.hpp"
+#include "libph/src/rips/beta_skeleton/split_lenses.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "libph/src/rips/beta_skeleton/spindle.hpp"
 #include "ph/detail/core/parallel.hpp"
-#include "rips/beta_skeleton/spindle.hpp"
 
 namespace ph::beta_skeleton {
 

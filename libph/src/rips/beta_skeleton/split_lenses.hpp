@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "rips/beta_skeleton/node_pairs.hpp"
-#include "rips/beta_skeleton/relative_neighbours.hpp"
+#include "libph/src/rips/beta_skeleton/node_pairs.hpp"
+#include "libph/src/rips/beta_skeleton/relative_neighbours.hpp"
 
 namespace ph::beta_skeleton {
 

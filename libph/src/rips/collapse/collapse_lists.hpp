@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rips/collapse/collapse_graph.hpp"
+#include "libph/src/rips/collapse/collapse_graph.hpp"
 
 namespace ph::collapse {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/collapse/collapse_graph.hpp"
 #include "ph/detail/core/bit_matrix.hpp"
-#include "rips/collapse/collapse_graph.hpp"
 
 namespace ph::collapse {
 

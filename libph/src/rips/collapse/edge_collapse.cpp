@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "rips/collapse/collapse_lists.hpp"
-#include "rips/collapse/collapse_rows.hpp"
+#include "libph/src/rips/collapse/collapse_lists.hpp"
+#include "libph/src/rips/collapse/collapse_rows.hpp"
 
 namespace ph {
 namespace collapse {

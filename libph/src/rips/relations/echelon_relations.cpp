@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "rips/relations/echelon_relations.hpp"
+#include "libph/src/rips/relations/echelon_relations.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/relations/formal_sums.hpp"
+#include "libph/src/rips/relations/formal_sums.hpp"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "rips/relations/echelon_relations.hpp"
+#include "libph/src/rips/relations/echelon_relations.hpp"
 
 namespace ph {
 

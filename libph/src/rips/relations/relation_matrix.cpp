@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "rips/relations/relation_matrix.hpp"
+#include "libph/src/rips/relations/relation_matrix.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/relations/relation_solver.hpp"
+#include "libph/src/rips/relations/relation_solver.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/annotations/annotations.hpp"
+#include "libph/src/rips/relations/formal_sums.hpp"
+#include "libph/src/rips/relations/pair_labels.hpp"
+#include "libph/src/rips/relations/sum_rows.hpp"
+#include "libph/src/rips/sweep/sweep_observer.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/run_context.hpp"
-#include "rips/annotations/annotations.hpp"
-#include "rips/relations/formal_sums.hpp"
-#include "rips/relations/pair_labels.hpp"
-#include "rips/relations/sum_rows.hpp"
-#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/relations/sum_rows.hpp"
+#include "libph/src/rips/relations/sum_rows.hpp"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/relations/relation_matrix.hpp"
 #include "ph/detail/core/bit_matrix.hpp"
-#include "rips/relations/relation_matrix.hpp"
 
 namespace ph {
 

@@ -6,15 +6,15 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/annotations/extend_potential.hpp"
+#include "libph/src/rips/annotations/link_cochains.hpp"
+#include "libph/src/rips/annotations/living_cocycles.hpp"
+#include "libph/src/rips/annotations/vertex_functions.hpp"
+#include "libph/src/rips/surfaces/triangle_cochain.hpp"
+#include "libph/src/rips/sweep/link_cover.hpp"
+#include "libph/src/rips/sweep/link_forest.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
-#include "rips/annotations/extend_potential.hpp"
-#include "rips/annotations/link_cochains.hpp"
-#include "rips/annotations/living_cocycles.hpp"
-#include "rips/annotations/vertex_functions.hpp"
-#include "rips/surfaces/triangle_cochain.hpp"
-#include "rips/sweep/link_cover.hpp"
-#include "rips/sweep/link_forest.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/surfaces/link_surfaces.hpp"
+#include "libph/src/rips/surfaces/link_surfaces.hpp"
 
 namespace ph {
 

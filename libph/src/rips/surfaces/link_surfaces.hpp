@@ -8,14 +8,14 @@
 #include <memory_resource>
 #include <vector>
 
+#include "libph/src/rips/surfaces/link_extensions.hpp"
+#include "libph/src/rips/sweep/link_components.hpp"
+#include "libph/src/rips/sweep/link_cover.hpp"
+#include "libph/src/rips/sweep/link_forest.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/sweep_observer.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
-#include "rips/surfaces/link_extensions.hpp"
-#include "rips/sweep/link_components.hpp"
-#include "rips/sweep/link_cover.hpp"
-#include "rips/sweep/link_forest.hpp"
-#include "rips/sweep/link_graph.hpp"
-#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 

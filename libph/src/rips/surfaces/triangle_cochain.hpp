@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "libph/src/rips/annotations/cochain_lists.hpp"
+#include "libph/src/rips/annotations/vertex_functions.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/cochain_lists.hpp"
-#include "rips/annotations/vertex_functions.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 

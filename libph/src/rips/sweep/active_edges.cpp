@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/active_edges.hpp"
+#include "libph/src/rips/sweep/active_edges.hpp"
 
 #include <algorithm>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 namespace ph {
 namespace {

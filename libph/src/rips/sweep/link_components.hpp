@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/link_cover.hpp"
+#include "libph/src/rips/sweep/link_cover.hpp"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "rips/sweep/link_components.hpp"
-#include "rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/link_components.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/link_forest.hpp"
+#include "libph/src/rips/sweep/link_forest.hpp"
 
 #include <algorithm>
 

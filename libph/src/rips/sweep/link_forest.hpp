@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 
 namespace ph {
 

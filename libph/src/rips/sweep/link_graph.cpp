@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 #include "ph/detail/core/parallel.hpp"
 
 namespace ph {

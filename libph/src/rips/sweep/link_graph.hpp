@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/sweep/active_edges.hpp"
+#include "libph/src/rips/sweep/neighbour_lists.hpp"
 #include "ph/detail/core/bit_matrix.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
 #include "ph/run_context.hpp"
-#include "rips/sweep/active_edges.hpp"
-#include "rips/sweep/neighbour_lists.hpp"
 
 namespace ph {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/annotations/link_cochains.hpp"
+#include "libph/src/rips/annotations/vertex_functions.hpp"
+#include "libph/src/rips/sweep/link_cover.hpp"
+#include "libph/src/rips/sweep/link_forest.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
 #include "ph/detail/core/bit_matrix.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/link_cochains.hpp"
-#include "rips/annotations/vertex_functions.hpp"
-#include "rips/sweep/link_cover.hpp"
-#include "rips/sweep/link_forest.hpp"
-#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
@@ -343,4 +343,4 @@ void LinkPrimitives<K>::settle_mismatches() {
 
 }  // namespace ph
 
-#include "rips/volumes/link_primitives.ipp"
+#include "libph/src/rips/volumes/link_primitives.ipp"

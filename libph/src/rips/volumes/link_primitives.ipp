@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // Primitives in the order of the filtration: for the classes that die.
-#include "rips/annotations/extend_potential.hpp"
-#include "rips/volumes/link_primitives.hpp"
+#include "libph/src/rips/annotations/extend_potential.hpp"
+#include "libph/src/rips/volumes/link_primitives.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/volumes/link_volumes.hpp"
+#include "libph/src/rips/volumes/link_volumes.hpp"
 
 namespace ph {
 

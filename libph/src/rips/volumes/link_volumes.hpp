@@ -4,15 +4,15 @@
 #include <memory_resource>
 #include <vector>
 
+#include "libph/src/rips/annotations/living_cocycles.hpp"
+#include "libph/src/rips/sweep/link_components.hpp"
+#include "libph/src/rips/sweep/link_cover.hpp"
+#include "libph/src/rips/sweep/link_graph.hpp"
+#include "libph/src/rips/sweep/sweep_observer.hpp"
+#include "libph/src/rips/volumes/link_primitives.hpp"
+#include "libph/src/rips/volumes/tetrahedron_cochain.hpp"
 #include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
-#include "rips/annotations/living_cocycles.hpp"
-#include "rips/sweep/link_components.hpp"
-#include "rips/sweep/link_cover.hpp"
-#include "rips/sweep/link_graph.hpp"
-#include "rips/sweep/sweep_observer.hpp"
-#include "rips/volumes/link_primitives.hpp"
-#include "rips/volumes/tetrahedron_cochain.hpp"
 
 namespace ph {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "libph/src/rips/annotations/cochain_lists.hpp"
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/cochain_lists.hpp"
 
 namespace ph {
 

@@ -7,11 +7,11 @@
 #include <mutex>
 #include <vector>
 
+#include "libph/src/vectors/euler/layers.hpp"
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/euler_curve.hpp"
-#include "vectors/euler/layers.hpp"
-#include "vectors/grid_cells.hpp"
 
 // The destination of changes of the Euler characteristic at voxels. Each kind has a part per
 // thread, which takes rows of keys and changes and adds them to the whole at its end.

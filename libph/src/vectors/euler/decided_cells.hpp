@@ -6,8 +6,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "vectors/euler/layers.hpp"
-#include "vectors/euler/mask_rows.hpp"
+#include "libph/src/vectors/euler/layers.hpp"
+#include "libph/src/vectors/euler/mask_rows.hpp"
 
 namespace ph::vectors {
 

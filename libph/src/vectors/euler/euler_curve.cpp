@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "libph/src/vectors/euler/change_counts.hpp"
+#include "libph/src/vectors/euler/decided_cells.hpp"
+#include "libph/src/vectors/euler/layers.hpp"
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
-#include "vectors/euler/change_counts.hpp"
-#include "vectors/euler/decided_cells.hpp"
-#include "vectors/euler/layers.hpp"
 
 namespace ph {
 namespace vectors {

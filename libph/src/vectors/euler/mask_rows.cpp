@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "vectors/euler/mask_rows.hpp"
+#include "libph/src/vectors/euler/mask_rows.hpp"
 
-#include "core/for_each_target.hpp"
+#include "libph/src/core/for_each_target.hpp"
 
 // A template cannot have targets; each type therefore has its own function, into which a common one
 // is inlined.

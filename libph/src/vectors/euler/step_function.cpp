@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "libph/src/vectors/grid_cells.hpp"
 #include "ph/detail/vectors/checked_bars.hpp"
 #include "ph/error.hpp"
 #include "ph/euler_curve.hpp"
-#include "vectors/grid_cells.hpp"
 
 namespace ph {
 namespace {

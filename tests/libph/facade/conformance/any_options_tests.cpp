@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "support/conformance.hpp"
-#include "support/generators.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 namespace {

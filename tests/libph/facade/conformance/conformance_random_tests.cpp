@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "ph/detail/complex/filtered_graph.hpp"
-#include "support/conformance.hpp"
-#include "support/edge_link_pairs.hpp"
-#include "support/for_each_seed.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/edge_link_pairs.hpp"
+#include "tests/support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "ph/eigen.hpp"
 #include "ph/persistence.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/known_spaces.hpp"
-#include "support/points.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/known_spaces.hpp"
+#include "tests/support/points.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Images of known homology: shells, rings, boxes that close up on themselves.
-#include "support/conformance.hpp"
-#include "support/generators.hpp"
-#include "support/known_spaces.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/generators.hpp"
+#include "tests/support/known_spaces.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Spaces of known homology, each run through the whole suite and then held to the textbook.
-#include "support/known_spaces.hpp"
+#include "tests/support/known_spaces.hpp"
 
-#include "support/conformance.hpp"
+#include "tests/support/conformance.hpp"
 
 namespace ph::test {
 namespace {

@@ -12,10 +12,10 @@
 #include "ph/explicit.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/voxel_image.hpp"
-#include "support/conformance.hpp"
-#include "support/expect_error.hpp"
-#include "support/for_each_seed.hpp"
-#include "support/generators.hpp"
+#include "tests/support/conformance.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/generators.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cycles and cocycles of random small filtrations, checked from the definitions.
-#include "support/for_each_seed.hpp"
-#include "support/representatives.hpp"
+#include "tests/support/for_each_seed.hpp"
+#include "tests/support/representatives.hpp"
 
 #include "ph/detail/rips/rips_filtration.hpp"
 

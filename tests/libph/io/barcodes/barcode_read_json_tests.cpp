@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "libph/io/barcodes/barcode_support.hpp"
+#include "tests/libph/io/barcodes/barcode_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "libph/io/barcodes/barcode_support.hpp"
 #include "ph/io/write.hpp"
+#include "tests/libph/io/barcodes/barcode_support.hpp"
 
 namespace ph::test {
 namespace {

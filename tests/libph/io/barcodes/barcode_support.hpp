@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/write.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 

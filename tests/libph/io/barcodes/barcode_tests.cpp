@@ -8,9 +8,9 @@
 #include <limits>
 #include <sstream>
 
-#include "libph/io/read_support.hpp"
 #include "ph/detail/io/json_writer.hpp"
 #include "ph/io/write.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph {
 namespace {

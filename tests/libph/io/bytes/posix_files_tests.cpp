@@ -7,8 +7,8 @@
 #include <fstream>
 #include <thread>
 
-#include "libph/io/read_support.hpp"
-#include "support/patience.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/patience.hpp"
 
 namespace ph::test {
 namespace {

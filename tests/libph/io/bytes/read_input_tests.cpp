@@ -5,12 +5,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "libph/io/read_support.hpp"
 #include "ph/detail/core/machine_memory.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
-#include "support/patience.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/patience.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

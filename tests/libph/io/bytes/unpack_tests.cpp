@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "libph/io/packed.hpp"
-#include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
-#include "support/patience.hpp"
+#include "tests/libph/io/packed.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/patience.hpp"
 
 namespace ph::test {
 namespace {

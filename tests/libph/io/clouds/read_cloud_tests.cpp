@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "libph/io/read_support.hpp"
-#include "motley_cloud.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/clouds/motley_cloud.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "libph/io/read_support.hpp"
-#include "motley_cloud.hpp"
 #include "ph/io/cloud.hpp"
+#include "tests/libph/io/clouds/motley_cloud.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

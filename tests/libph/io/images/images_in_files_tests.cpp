@@ -8,11 +8,11 @@
 #include <optional>
 #include <random>
 
-#include "libph/io/packed.hpp"
-#include "libph/io/read_support.hpp"
-#include "nifti_file.hpp"
 #include "ph/io/read.hpp"
-#include "support/run_contexts.hpp"
+#include "tests/libph/io/images/nifti_file.hpp"
+#include "tests/libph/io/packed.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/run_contexts.hpp"
 
 namespace ph::test {
 namespace {

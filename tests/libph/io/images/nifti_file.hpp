@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libph/io/read_support.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 

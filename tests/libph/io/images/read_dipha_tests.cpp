@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "libph/io/read_support.hpp"
 #include "ph/io/read.hpp"
-#include "support/test_data.hpp"
+#include "tests/libph/io/read_support.hpp"
+#include "tests/support/test_data.hpp"
 
 namespace ph::test {
 namespace {

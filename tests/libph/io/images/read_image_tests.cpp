@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "libph/io/packed.hpp"
-#include "libph/io/read_support.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/packed.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory_resource>
 #include <thread>
 
-#include "libph/io/read_support.hpp"
-#include "nifti_file.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/images/nifti_file.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "libph/io/read_support.hpp"
 #include "ph/detail/io/png.hpp"
 #include "ph/io/read.hpp"
+#include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/system/pages.hpp"
+#include "libph/src/core/system/pages.hpp"
 
 #include <windows.h>
 

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include "io/bytes/input.hpp"
+#include "libph/src/io/bytes/input.hpp"

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "io/bytes/input.hpp"
+#include "libph/src/io/bytes/input.hpp"

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include "io/points/table.hpp"
+#include "libph/src/io/points/table.hpp"
