@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-# The rooms that each may look into, beside itself.
+# The rooms that each room may include, beside itself.
 MAY_INCLUDE = {
     "core": "",
     "metric": "core components",
@@ -77,7 +77,7 @@ MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 4,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
-# Folders of tests, and whose rooms theirs are.
+# Folders of tests, and the sources whose rooms they mirror.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
             "tests/apps": ("apps", "libreport")}
 
@@ -104,7 +104,7 @@ def room_of(file):
 
 
 def target_of(root, file, include):
-    """The file of ours that is meant, below ROOT; None if it is somebody else's."""
+    """The file below ROOT that is meant; None if it is a third-party file."""
     for base in (*map(Path, PUBLIC), Path(), file.parent):
         if (root / base / include).is_file():
             return (root / base / include).resolve().relative_to(root)
@@ -163,7 +163,7 @@ def too_large(root):
     tops = ("libph", "libsegment", "libreport", "apps", "bench", "python", "tests")
     for folder in sorted(p for top in tops for p in (root / top, *(root / top).rglob("*"))
                          if p.is_dir()):
-        # Seeds are as many as were found, and what Python caches is not ours.
+        # The number of seeds is not limited, and Python's caches are not ours.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue
         count = sum(p.is_file() and p.name != "py.typed" for p in folder.iterdir())
@@ -184,7 +184,7 @@ def misplaced_tests(root):
 
 
 def room_cycles():
-    """Rooms that may see one another."""
+    """Rooms that may include each other."""
     seen = {room: set(rooms.split()) for room, rooms in MAY_INCLUDE.items()}
     for via in seen:
         for rooms in seen.values():
