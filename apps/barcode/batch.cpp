@@ -222,6 +222,7 @@ int run_all(const Arguments& given, app::Session& session) {
     for (const std::string& path : given.compare) inputs.add(path);
     std::vector<app::Written> outputs;
     const BarcodeFormat format = given.output_format.value_or(BarcodeFormat::csv);
+    // mutant: compare-output
     if (format != BarcodeFormat::none) outputs.push_back({"--output", given.output});
     if (!given.report.empty()) outputs.push_back({"--report", given.report});
     require_separate(inputs, outputs, given, session);

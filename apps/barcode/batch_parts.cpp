@@ -74,7 +74,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
 int code_of(std::span<const InputsPart::Result> results) {
   const auto failed =
       std::ranges::find_if(results, [](const auto& r) { return r.code != app::kOk; });
-  return failed == results.end() ? app::kOk : failed->code;
+  return failed == results.end() ? app::kOk : failed->code;  // mutant: part-failed
 }
 
 }  // namespace

@@ -240,6 +240,7 @@ class Run {
       watch_.lap("loops");
     }
     // Points may have become an image, whose cells are named by coordinates.
+    // mutant: point-ids
     if (!loaded.point_ids.empty() && result.bars.cell_kind() == CellKind::vertices) {
       const MemoryClaim claim(context().memory, bytes_of(result.loops));
       result.bars = with_input_ids(result.bars, loaded.point_ids);

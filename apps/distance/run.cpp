@@ -104,7 +104,7 @@ class Run {
   void require_separate() const {
     app::InputFiles inputs;
     for (const std::string& file : files_) inputs.add(file);
-    if (!arguments_.groups.empty()) inputs.add(arguments_.groups);
+    if (!arguments_.groups.empty()) inputs.add(arguments_.groups);  // mutant: group-file
     std::vector<app::Written> outputs;
     if (arguments_.writes_table()) outputs.push_back({"--output", arguments_.output_path()});
     if (!arguments_.matching.empty()) outputs.push_back({"--matching", arguments_.matching});
@@ -121,7 +121,7 @@ class Run {
       if (!std::ranges::binary_search(there, dim))
         session_.note(fmt::format("--dims: no barcode has bars of H{}: all distances are 0", dim));
     const std::vector<int>& dims = arguments_.dims.empty() ? there : arguments_.dims;
-    if (matrix_ && dims.size() != 1)
+    if (matrix_ && dims.size() != 1)  // mutant: matrix-dimensions
       throw Error(ErrorKind::usage,
                   fmt::format("--matrix: found {}, expected one dimension; --dim D",
                               dims.empty() ? "no bars" : names_of(dims)));
@@ -147,7 +147,7 @@ class Run {
       std::size_t count = 0;
       for (std::size_t a = 0; a < distances.count(); ++a)
         for (std::size_t b = 0; b < a; ++b) count += std::isinf(distances.at(d, a, b).value);
-      if (count > 0)
+      if (count > 0)  // mutant: matrix-infinite
         session_.note(fmt::format(
             "H{}: {} infinite, because the numbers of infinite bars differ", distances.dims()[d],
             count == 1 ? "1 distance is" : fmt::format("{} distances are", count)));

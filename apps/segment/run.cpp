@@ -56,6 +56,7 @@ bool prints(const Arguments& a) { return a.explain || !a.files.any(); }
 /// No output may replace an input. @throws Error (usage).
 void require_separate(const Arguments& a, app::Session& session) {
   std::vector<app::Written> outputs = a.files.written();
+  // mutant: file-table
   if (prints(a)) outputs.push_back({a.explain ? "--explain" : "the table", "-"});
   if (!app::require_separate(inputs_of(a), outputs, a.common.force) && a.common.force)
     session.explain("--force: not needed, no output is an input");

@@ -9,6 +9,7 @@
 
 namespace ph::segment {
 
+// mutant: segment-memory
 inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise --memory-limit"};
 
 /// Runs ph-segment after its command line was parsed; results go to files or standard output.

@@ -82,7 +82,7 @@ class Stream {
     if (!json_) return;
     app::InputFiles frame;
     frame.add(input);
-    if (!arguments_.common.force) frame.require_other(json());
+    if (!arguments_.common.force) frame.require_other(json());  // mutant: file-frame-json
     replaces_input_ = replaces_input_ || frame.replaced_by(json().path);
   }
 
@@ -90,8 +90,8 @@ class Stream {
   void require_separate(const Arguments& one) {
     std::vector<app::Written> outputs = one.files.written();
     if (outputs.empty()) return;
-    known_.add(one.input);  // only if needed, because a stream may be endless
-    if (json_) outputs.push_back(json());
+    known_.add(one.input);                 // only if needed, because a stream may be endless
+    if (json_) outputs.push_back(json());  // mutant: file-stream-json
     if (app::require_separate(known_, outputs, arguments_.common.force)) replaces_input_ = true;
   }
 

@@ -52,6 +52,7 @@ Block block_of(const Fit& fit, int dim, const Spans& diagrams, const Arguments& 
       break;
     case Kind::image:
       block.frame = frame_of(diagrams, arguments);
+      // mutant: fit-sigma
       block.sigma = arguments.sigma.value_or(
           std::max(width_of(block.frame.births), width_of(block.frame.lengths)) / 20);
       break;
@@ -119,7 +120,7 @@ void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Argum
     const std::size_t count = curve.at.size();
     // A curve that begins at -infinity has its range from the next change on.
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}, count - 1})
-      if (k < count) changes.push_back({0, curve.at[k], kInfinity});
+      if (k < count) changes.push_back({0, curve.at[k], kInfinity});  // mutant: euler-change
   }
   fit.blocks.emplace_back().grid = grid_of({changes}, arguments.grid);
 }

@@ -65,7 +65,7 @@ class Run {
   /// No output may replace an input. @throws Error (usage).
   void require_separate() const {
     app::InputFiles inputs;
-    for (const std::string& file : files_) inputs.add(file);
+    for (const std::string& file : files_) inputs.add(file);  // mutant: table-inputs
     if (!arguments_.fitted.empty()) inputs.add(arguments_.fitted);
     std::vector<app::Written> outputs{{"--output", arguments_.output}};
     if (!arguments_.fit.empty()) outputs.push_back({"--fit", arguments_.fit});
@@ -107,7 +107,7 @@ class Run {
             if (error.kind() != ErrorKind::bad_data) throw;
             throw about_input(error, files_[i]);
           }
-          at += length;
+          at += length;  // mutant: block-place
         }
       }
     });

@@ -159,6 +159,7 @@ void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree&
     if (is_leaf(contracted.leaf_of[v])) labels[contracted.leaf_of[v]] = s.cut.vertex_labels[v];
   for (std::size_t k = 0; k < s.tree.points.size(); ++k)
     if (const auto leaf = contracted.leaf_of[s.tree.vertex_of_point[k]]; is_leaf(leaf))
+      // mutant: report-walls
       surfaces[leaf] = s.cut.surface_labels[static_cast<std::size_t>(s.tree.points[k])];
   report.add("tree/leaf_label", labels, {.delta = true});
   report.add("tree/leaf_surface", surfaces);
@@ -173,6 +174,7 @@ SceneMeta scene_meta(const ScenePage& page) {
   const std::vector<std::uint32_t> colours =
       segment::shown_colours(page.cloud, s.cut, page.numbers);
   const auto number_of = [&](std::uint32_t label) {
+    // mutant: report-numbers
     return label == 0 || page.numbers.empty() ? label : page.numbers[label - 1];
   };
   SceneMeta meta;

@@ -77,7 +77,7 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
   constexpr double least_share = 0.1;
   std::optional<double> middle;
   for (std::size_t i = 1; i < levels.size(); ++i) {
-    if (levels[i] < least_share * levels.back()) continue;
+    if (levels[i] < least_share * levels.back()) continue;  // mutant: report-cut
     const double apart = width(levels[i - 1], levels[i]);
     if (apart <= least) continue;
     least = apart;

@@ -158,7 +158,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   Segmentation result;
   result.tree.removed_with.resize(cloud.size());
   StageClock clock(context, result.stages);
-  result.rays_meet_at = centre_elsewhere(cloud);
+  result.rays_meet_at = centre_elsewhere(cloud);  // mutant: viewpoint-rays
   if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
   const Scene scene = clear_scene(cloud, options, clock, result);
   VoxelFiltration filtration = options.method == Method::paper

@@ -5,10 +5,11 @@ of them.
 
     plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
-A mutant is killed if one of its test programs fails or reaches the time limit. It counts as a
-failure if the tests pass, if the mutant does not compile, or if its text is not found exactly once:
-then the code has changed and the mutant must follow. Exit code 0 if all were killed. --check builds
-nothing and only checks that each text is found, including those of program_mutants.py.
+A mutant is killed if its test program fails or runs into the time limit. It counts as a
+failure if the tests pass, if it does not compile, or if its anchor (mutant.py) or the text it
+replaces is not found exactly once: then the code has moved on and the mutant must follow. Exit code
+0 if all were killed. --check builds nothing. It only sees whether each mutant can be planted, also
+the mutants of program_mutants.py, and whether each anchor has a mutant.
 """
 import argparse
 import os
@@ -20,6 +21,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from mutant import NotPlanted, find_anchors, plant
 from mutants import MUTANTS
 from program_mutants import MUTANTS as PROGRAM_MUTANTS
 
@@ -95,31 +97,35 @@ def passes(tree, program):
         return None
 
 
-def why_not_planted(base, mutant):
-    """Empty if it can be."""
-    file, old = mutant[1:3]
-    found = (base / file).read_text().count(old) if (base / file).exists() else 0
-    return "" if found == 1 else f"NOT PLANTED: {old!r} occurs {found} times in {file}"
+def check(anchors):
+    """@return the exit code."""
+    mutants = MUTANTS + PROGRAM_MUTANTS
+    lost = []
+    for mutant in mutants:
+        try:
+            plant(ROOT, mutant, anchors)
+        except NotPlanted as why:
+            lost.append(f"{mutant.name}: {why}")
+    unused = [f"no mutant has the anchor {a}" for a in sorted(anchors.keys() - {m.anchor for m in mutants})]
+    print(*lost, *unused, f"{len(mutants) - len(lost)} of {len(mutants)} can be planted", sep="\n")
+    return 1 if lost or unused else 0
 
 
-def try_mutant(base, mutant):
-    _, file, old, new, programs = mutant
-    if why_not := why_not_planted(base, mutant):
-        return why_not
-    text = (base / file).read_text()
+def try_mutant(base, mutant, anchors):
+    try:
+        file, text = plant(base, mutant, anchors)
+    except NotPlanted as why:
+        return f"NOT PLANTED: {why}"
     tree = Path(tempfile.mkdtemp(prefix="mutant-", dir=base.parent))
     try:
         shutil.copytree(base, tree, dirs_exist_ok=True)  # keeps times: only the mutant is rebuilt
-        (tree / file).write_text(text.replace(old, new))
-        for program in programs:
-            if (result := build(tree, [program], 1)).returncode != 0:
-                return "DOES NOT COMPILE: " + result.stdout[-600:]
-            passed = passes(tree, program)
-            if passed is None:
-                return f"killed by the time limit of {program}"
-            if not passed:
-                return f"killed by {program}"
-        return "SURVIVED " + ", ".join(programs)
+        (tree / file).write_text(text)
+        if (result := build(tree, [mutant.test], 1)).returncode != 0:
+            return "DOES NOT COMPILE: " + result.stdout[-600:]
+        passed = passes(tree, mutant.test)
+        if passed is None:
+            return f"killed by the time limit of {mutant.test}"
+        return f"SURVIVED {mutant.test}" if passed else f"killed by {mutant.test}"
     finally:
         shutil.rmtree(tree)
 
@@ -130,17 +136,15 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
+    anchors = find_anchors(ROOT)
     if arguments.check:
-        mutants = MUTANTS + PROGRAM_MUTANTS
-        lost = [f"{m[0]}: {why}" for m in mutants if (why := why_not_planted(ROOT, m))]
-        print(*lost, f"{len(mutants) - len(lost)} of {len(mutants)} can be planted", sep="\n")
-        return 1 if lost else 0
-    mutants = [m for m in MUTANTS if not arguments.names or m[0] in arguments.names]
+        return check(anchors)
+    mutants = [m for m in MUTANTS if not arguments.names or m.name in arguments.names]
     if not HAS_CGAL:
-        left_out = [m for m in mutants if "/alpha/" in m[1]]
+        left_out = [m for m in mutants if any("alpha" in file.parts for file in anchors.get(m.anchor, []))]
         mutants = [m for m in mutants if m not in left_out]
         print(f"without CGAL: {len(left_out)} mutants of alpha complexes are left out")
-    programs = sorted({p for m in mutants for p in m[4]})
+    programs = sorted({m.test for m in mutants})
     start = time.monotonic()
 
     with tempfile.TemporaryDirectory(prefix="ph-mutants-") as folder:
@@ -159,9 +163,9 @@ def main():
 
         killed = 0
         with ThreadPoolExecutor(arguments.jobs) as pool:
-            for mutant, verdict in zip(mutants, pool.map(lambda m: try_mutant(base, m), mutants)):
+            for mutant, verdict in zip(mutants, pool.map(lambda m: try_mutant(base, m, anchors), mutants)):
                 killed += verdict.startswith("killed")
-                print(f"{mutant[0]:<60} {verdict}", flush=True)
+                print(f"{mutant.name:<60} {verdict}", flush=True)
     print(f"{killed} passed, {len(mutants) - killed} failed "
           f"(mutants killed, {time.monotonic() - start:.0f} s)")
     return 0 if killed == len(mutants) and killed > 0 else 1

@@ -14,7 +14,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from plant_mutants import ROOT, why_not_planted
+from mutant import NotPlanted, find_anchors, plant
+from plant_mutants import ROOT
 from program_mutants import MUTANTS
 
 OPTIONS = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O1", "-DPH_BUILD_EXAMPLES=OFF"]
@@ -45,18 +46,19 @@ def tests_pass(tree, tests):
     return run("ctest", "--test-dir", tree / "build", "-R", f"^{tests}$", "--no-tests=error").returncode == 0
 
 
-def try_mutant(tree, mutant, jobs):
-    _, file, old, new, targets, tests = mutant
-    if why_not := why_not_planted(tree, mutant):
-        return why_not
-    text = (tree / file).read_text()
-    (tree / file).write_text(text.replace(old, new))
+def try_mutant(tree, mutant, anchors, jobs):
     try:
-        if said := built(tree, targets, jobs):
+        file, text = plant(tree, mutant, anchors)
+    except NotPlanted as why:
+        return f"NOT PLANTED: {why}"
+    before = (tree / file).read_text()
+    (tree / file).write_text(text)
+    try:
+        if said := built(tree, mutant.targets, jobs):
             return f"DOES NOT COMPILE: {said}"
-        return f"SURVIVED {tests}" if tests_pass(tree, tests) else f"killed by {tests}"
+        return f"SURVIVED {mutant.test}" if tests_pass(tree, mutant.test) else f"killed by {mutant.test}"
     finally:
-        (tree / file).write_text(text)
+        (tree / file).write_text(before)
 
 
 def main():
@@ -64,25 +66,26 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
-    mutants = [m for m in MUTANTS if not arguments.names or m[0] in arguments.names]
+    mutants = [m for m in MUTANTS if not arguments.names or m.name in arguments.names]
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="ph-mutants-") as folder:
         tree = Path(folder) / "tree"
         copy_tracked(tree)
         run("cmake", "-S", tree, "-B", tree / "build", *OPTIONS, check=True)
-        if said := built(tree, sorted({t for m in mutants for t in m[4]}), arguments.jobs):
+        if said := built(tree, sorted({t for m in mutants for t in m.targets}), arguments.jobs):
             print(said)
             return 1
-        for tests in sorted({m[5] for m in mutants}):
+        for tests in sorted({m.test for m in mutants}):
             if not tests_pass(tree, tests):
                 print(f"{tests} fails without any mutant")
                 return 1
         print(f"built without mutants in {time.monotonic() - start:.0f} s", flush=True)
+        anchors = find_anchors(tree)
         killed = 0
         for mutant in mutants:
-            verdict = try_mutant(tree, mutant, arguments.jobs)
+            verdict = try_mutant(tree, mutant, anchors, arguments.jobs)
             killed += verdict.startswith("killed")
-            print(f"{mutant[0]:<60} {verdict}", flush=True)
+            print(f"{mutant.name:<60} {verdict}", flush=True)
     print(f"{killed} passed, {len(mutants) - killed} failed (mutants killed, {time.monotonic() - start:.0f} s)")
     return 0 if killed == len(mutants) and killed > 0 else 1
 

@@ -71,6 +71,7 @@ void add_input_options(app::Options& options, Arguments& a) {
         a.read.array = ArrayMeaning::distances;
       },
       std::span(names_of<Symmetrise>).subspan(1));
+  // mutant: scope-correlation
   options.flag({"--from-correlation", kOfDistances},
                "the matrix holds correlations r; distances are 1 - r", [&a] {
                  a.read.from_correlation = true;

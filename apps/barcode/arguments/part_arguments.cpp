@@ -18,6 +18,7 @@ void take_part(Arguments& a, const std::string& text) {
                 fmt::format("--part: found '{}', expected I/P, such as 1/8", text));
   constexpr std::int64_t most = std::int64_t{1} << 30;
   const std::int64_t parts = app::parse_integer("--part", text.substr(slash + 1), 1, most);
+  // mutant: part-number
   a.part = {static_cast<int>(app::parse_integer("--part", text.substr(0, slash), 1, parts)) - 1,
             static_cast<int>(parts)};
 }

@@ -25,6 +25,7 @@ CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
 void describe(const CubicalOptions& options, BarcodeInfo& info) {
   info.construction = name_of(options.construction);
   for (std::size_t axis = 0; axis < options.periodic.size(); ++axis)
+    // mutant: json-periodic
     if (options.periodic[axis]) info.periodic.push_back(static_cast<int>(axis));
   info.superlevel = options.superlevel;
 }

@@ -66,6 +66,7 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
   const app::BarHold results_are_written(session);
   // The program that converts the bars is not the one that computed them.
   const bool is_known = !origin.program.empty();
+  // mutant: stored-origin
   outputs.write(barcode, is_known ? origin : info, look_of(arguments.look, origin.superlevel), {},
                 session.context());
   if (!job.report.empty())

@@ -34,7 +34,7 @@ void InputsPart::join(InputsPart other) {
                 "parts of inputs: found other inputs, options or numbers of parts, expected parts "
                 "of one batch");
   for (const int number : other.numbers_)
-    if (std::ranges::binary_search(numbers_, number))
+    if (std::ranges::binary_search(numbers_, number))  // mutant: part-twice
       throw Error(ErrorKind::bad_data, fmt::format("parts of inputs: part {} of {} is there twice",
                                                    number + 1, whole_.parts));
   std::vector<int> numbers;

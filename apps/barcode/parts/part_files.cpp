@@ -55,7 +55,7 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
   }
   for (const std::string& input : inputs) {
     const auto changed = std::filesystem::last_write_time(files::path_of(input), error);
-    if (!error && changed <= written) continue;
+    if (!error && changed <= written) continue;  // mutant: part-age
     session.note(fmt::format("--resume: {} is older than {}: computed again", path, input));
     return std::nullopt;
   }
@@ -70,7 +70,7 @@ std::string write_part_file(app::Output& output, std::span<const std::byte> byte
 
 Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
                    app::Session& session) {
-  info.min_persistence = arguments.options.min_persistence;
+  info.min_persistence = arguments.options.min_persistence;  // mutant: json-min-persistence
   if (arguments.options.min_persistence > 0)
     bars = longer_than(arguments.options.min_persistence, bars);
   note_absent_dims(bars, arguments.look, session);

@@ -32,6 +32,7 @@ CLI::Option* Options::value(const OptionName& name, const std::string& placehold
 CLI::Option* Options::repeated(
     const OptionName& name, const std::string& placeholder, const std::string& description,
     const std::function<void(const std::vector<std::string>& values)>& take) {
+  // mutant: plot-arguments
   CLI::Option* option =
       cli_.add_option_function<std::vector<std::string>>(name.names, take, description)
           ->type_name(placeholder)

@@ -34,7 +34,7 @@ void add_diagonal(std::vector<std::pair<std::int64_t, std::int64_t>>& pairs, std
     if (!has_pair[0][i]) pairs.emplace_back(i, -1);
   std::ranges::sort(pairs);
   for (std::size_t j = 0; j < b; ++j)
-    if (!has_pair[1][j]) pairs.emplace_back(-1, j);
+    if (!has_pair[1][j]) pairs.emplace_back(-1, j);  // mutant: matching-second
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::string words_of(const DistanceChoice& choice) {
                                                           "sliced Wasserstein"};
   std::string more = choice.ground() ? "ground norm " + shortest(*choice.ground())
                                      : fmt::format("{} directions", choice.directions);
-  if (choice.limits.relative_error > 0)
+  if (choice.limits.relative_error > 0)  // mutant: distance-text
     more += ", relative error " + shortest(choice.limits.relative_error);
   return fmt::format("{} distance (order {}, {})", kWords[static_cast<std::size_t>(choice.kind)],
                      shortest(choice.order()), more);
@@ -66,6 +66,7 @@ DistanceBounds distance_of(std::span<const Bar> a, std::span<const Bar> b,
     case DistanceKind::bottleneck:
       return bottleneck_bounds(a, b, choice.limits, context);
     case DistanceKind::wasserstein:
+      // mutant: distance-ground
       return wasserstein_distance(
           a, b, {choice.wasserstein_order, choice.wasserstein_ground, choice.limits}, context);
     case DistanceKind::sliced:
@@ -102,7 +103,7 @@ std::string why_infinite(std::span<const Bar> a, std::span<const Bar> b) {
   const auto in_a = infinite_bars(a), in_b = infinite_bars(b);
   std::string text;
   for (std::size_t i = 0; i < kWhich.size(); ++i)
-    if (in_a[i] != in_b[i])
+    if (in_a[i] != in_b[i])  // mutant: distance-infinite
       text +=
           fmt::format("{}{} and {} bars {}", text.empty() ? "" : ", ", in_a[i], in_b[i], kWhich[i]);
   return text;
@@ -116,6 +117,7 @@ std::string text_of(const DistanceBounds& distance, const DistanceChoice& choice
     return fmt::format("more than {}: from {} to {}", shortest(choice.limits.at_most), lower,
                        value);
   // Without a relative error, the bounds differ by rounding only.
+  // mutant: distance-exact
   if (choice.limits.relative_error > 0 && distance.lower < distance.value)
     return fmt::format("{} (at least {})", value, lower);
   return value;

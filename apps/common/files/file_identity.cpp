@@ -29,6 +29,7 @@ std::optional<FileIdentity> identity(const std::optional<files::Status>& status,
   if (!status || status->kind == files::Kind::folder) return std::nullopt;
   const bool keeps = status->kind == files::Kind::regular;
   // Not all systems can tell other devices apart.
+  // mutant: output-pipes
   const bool mixes = harm == Harm::mixed && status->inode != 0 && !is_null_device(*status);
   if (!keeps && !mixes) return std::nullopt;
   return FileIdentity{status->device, status->inode, {}};
@@ -46,7 +47,7 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
   fs::path folder = place.parent_path();
   auto status = files::status_of(folder);
   while (!status) {
-    if (folder == folder.parent_path()) return std::nullopt;
+    if (folder == folder.parent_path()) return std::nullopt;  // mutant: file-folder
     folder = folder.parent_path();
     status = files::status_of(folder);
   }
@@ -57,6 +58,7 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
 
 void InputFiles::add(const std::string& path) {
   if (path.empty()) return;
+  // mutant: file-in-archive
   const std::string whole = split_member(files::path_of(path)).first.string();
   if (auto file = identity_of(whole, files::kStandardInput, Harm::lost); file && file->name.empty())
     paths_.emplace(std::move(*file), path);
@@ -118,7 +120,7 @@ bool require_separate(const InputFiles& inputs, std::span<const Written> outputs
   require_distinct(outputs);
   bool replaces = false;
   for (const Written& output : outputs) {
-    if (!force) inputs.require_other(output);
+    if (!force) inputs.require_other(output);  // mutant: file-overwrite
     replaces = replaces || inputs.replaced_by(output.path) != nullptr;
   }
   return replaces;

@@ -8,6 +8,7 @@
 namespace ph::app {
 namespace {
 
+// mutant: completion-bash
 constexpr std::string_view kFrame =
     R"(# SPDX-License-Identifier: MIT
 # bash completion of {command}: what {command} --help bash prints.

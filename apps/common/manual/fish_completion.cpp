@@ -27,7 +27,7 @@ std::string fish_line(std::string_view command, const OptionText& option) {
   for (const std::string& extension : values.extensions)
     choices += fmt::format("{}(__fish_complete_suffix {})", choices.empty() ? "" : " ", extension);
   if (!values.extensions.empty()) line += " -k";
-  if (!choices.empty()) line += " -a " + fish_quoted(choices);
+  if (!choices.empty()) line += " -a " + fish_quoted(choices);  // mutant: completion-fish
   return fmt::format("{} -d {}\n", line, fish_quoted(option.brief()));
 }
 

@@ -72,6 +72,7 @@ std::string topic_text(const Described& program, const Topic& topic) {
 
 std::string all_text(const Described& program) {
   std::string text = usage(program.manual);
+  // mutant: help-topics
   for (const Topic& topic : program.manual.topics) text += "\n" + topic_text(program, topic);
   return text;
 }

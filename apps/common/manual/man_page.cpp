@@ -41,7 +41,7 @@ std::string roff(std::string_view text, bool is_typed) {
     text.remove_prefix(1);
     if (c == '\\')
       escaped += "\\e";
-    else if (c == '-' && is_typed)
+    else if (c == '-' && is_typed)  // mutant: help-dash
       escaped += "\\-";
     else if (c == '^' || c == '~' || c == '`')  // the ASCII characters, not accents
       escaped += fmt::format("\\({}", c == '^' ? "ha" : c == '~' ? "ti" : "ga");

@@ -71,7 +71,7 @@ Values values_of(std::string_view placeholder) {
     else if (is_word(part))
       values.words.emplace_back(part);
     else if (colon != part.npos && is_word(part.substr(0, colon)))
-      values.words.emplace_back(part.substr(0, colon + 1));
+      values.words.emplace_back(part.substr(0, colon + 1));  // mutant: completion-word
   }
   return values;
 }

@@ -70,6 +70,7 @@ std::string zsh_spec(const OptionText& option) {
   }
   const std::string rest = shell_quoted(
       fmt::format("[{}]{}", with_backslashes(option.brief(), "[]:"), zsh_value(option)));
+  // mutant: completion-zsh
   std::string spec = option.is_repeatable ? "'*'" : "";
   if (!option.is_repeatable && !excluded.empty())
     spec = fmt::format("'({})'", fmt::join(excluded, " "));

@@ -78,7 +78,7 @@ int report_current_exception(const Program& program, std::string_view subject) {
 
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {
   prepare_process();
-  end_where_mapped_files_shrink(program.name);
+  end_where_mapped_files_shrink(program.name);  // mutant: file-shrinks
   try {
     const SignalWatch signals;
     try {

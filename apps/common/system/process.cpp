@@ -41,7 +41,7 @@ void prepare_process() {
 
 bool is_given(int descriptor) {
   const int flags = fcntl(descriptor, F_GETFD);
-  return flags >= 0 && (flags & FD_CLOEXEC) == 0;
+  return flags >= 0 && (flags & FD_CLOEXEC) == 0;  // mutant: output-descriptor
 }
 
 void give_back_freed_memory() { malloc_trim(0); }

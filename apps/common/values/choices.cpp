@@ -56,7 +56,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
     }
   }
   // At least two thirds of the typed letters must be right, and at most two wrong.
-  const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);
+  const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);  // mutant: hint-far
   if (best_distance > enough) return std::nullopt;
   return best;
 }

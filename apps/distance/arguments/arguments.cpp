@@ -89,6 +89,7 @@ void add_distance_options(app::Options& options, Arguments& a) {
                 [&a](const std::string& text) {
                   a.distance.limits.relative_error = parse_finite("--error", text, 0);
                 });
+  // mutant: scope-at-most
   options.value({"--at-most",
                  {kBottleneck | kWasserstein | kAnyNumber | kNoGroups,
                   "bottleneck and Wasserstein distances without --groups and --matching"}},
@@ -138,6 +139,7 @@ void add_output_options(app::Options& options, Arguments& a) {
                 });
   options.value({"--seed", kOfGroups}, "N", "of the shuffles (default 0)",
                 [&a](const std::string& text) {
+                  // mutant: group-seed
                   a.test.seed = static_cast<std::uint64_t>(parse_integer("--seed", text, 0));
                 });
 }
@@ -154,7 +156,7 @@ void require_format(const char* option, const std::string& path,
 
 /// @throws Error (usage) on a name with a format that cannot hold distances.
 void require_table_format(const Arguments& a) {
-  if (!a.output || a.output_format) return;
+  if (!a.output || a.output_format) return;  // mutant: text-as-array
   const auto format = barcode_format_of_path(*a.output);
   if (format && *format != BarcodeFormat::csv && *format != BarcodeFormat::json)
     reject(
@@ -192,6 +194,7 @@ void check_together(const Arguments& a) {
   else
     app::require_in_scope(a.given, a.groups.empty() ? kNoGroups : kGroups,
                           a.groups.empty() ? "no --groups" : "--groups");
+  // mutant: matching-error
   if (!a.matching.empty() && a.distance.kind == DistanceKind::bottleneck &&
       a.distance.limits.relative_error > 0)
     reject("--error: found with --matching, which is exact with --distance bottleneck");

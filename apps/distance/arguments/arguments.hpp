@@ -32,6 +32,7 @@ struct Arguments {
   std::vector<app::GivenOption> given;
 
   std::string output_path() const { return output.value_or("-"); }
+  // mutant: matrix-table
   /// True if distances or tests are written. A matrix replaces them, unless they are requested.
   bool writes_table() const { return matrix.empty() || !groups.empty() || output || output_format; }
   OutputFormat table_format() const;

@@ -16,6 +16,7 @@ Groups read_groups(const Input& input, std::size_t count) {
   TextLines lines(input);
   while (lines.next()) {
     const std::string_view word = lines.line();
+    // mutant: group-first-word
     if (const auto gap = std::ranges::find_if(
             word, [](char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; });
         gap != word.end())
@@ -30,7 +31,7 @@ Groups read_groups(const Input& input, std::size_t count) {
     ++groups.sizes[place->second];
     groups.of.push_back(static_cast<std::int64_t>(place->second));
   }
-  if (groups.of.size() != count)
+  if (groups.of.size() != count)  // mutant: group-words
     input.fail({"groups",
                 app::count_of(groups.of.size(), "word"),
                 fmt::format("{}, one for each barcode in their order", count),

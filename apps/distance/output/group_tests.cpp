@@ -19,7 +19,7 @@ void require_finite(const PairDistances& distances, std::size_t d,
   const int dim = distances.dims()[d];
   for (std::size_t a = 0; a < distances.count(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (std::isinf(distances.at(d, a, b).value))
+      if (std::isinf(distances.at(d, a, b).value))  // mutant: group-infinite
         throw Error(ErrorKind::bad_data,
                     fmt::format("--groups: {} and {}: found an infinite distance in H{} ({}), "
                                 "expected finite ones; leave such bars out",

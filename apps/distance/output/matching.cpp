@@ -22,7 +22,7 @@ struct Pair {
 };
 
 /// The difference; 0 if both are infinite.
-double difference(double x, double y) { return x == y ? 0 : x - y; }
+double difference(double x, double y) { return x == y ? 0 : x - y; }  // mutant: matching-infinite
 
 Pair pair_of(const DimMatching& m, std::size_t k, double ground) {
   const diagram::GroundCost cost(1, ground);
@@ -31,7 +31,7 @@ Pair pair_of(const DimMatching& m, std::size_t k, double ground) {
     const bool on_diagonal = pair.places[side] < 0;
     const std::size_t of = on_diagonal ? 1 - side : side;
     const Bar& bar = m.bars[of][static_cast<std::size_t>(pair.places[of])];
-    const double middle = std::midpoint(bar.birth, bar.death);
+    const double middle = std::midpoint(bar.birth, bar.death);  // mutant: matching-diagonal
     pair.ends[side] = on_diagonal ? std::array{middle, middle} : std::array{bar.birth, bar.death};
     if (on_diagonal) pair.cost = cost.distance_alone({bar.birth, bar.death});
   }
@@ -85,7 +85,7 @@ void write_matching(OutputFile& file, std::span<const DimMatching> matchings, bo
   std::string_view before = "\n    ";
   for (const DimMatching& m : matchings)
     for (std::size_t k = 0; k < m.matching.pairs.size(); ++k) {
-      const Pair pair = pair_of(m, k, *choice.ground());
+      const Pair pair = pair_of(m, k, *choice.ground());  // mutant: matching-cost
       if (!is_json) {
         file.write(csv_row(m.dim, cells, pair));
         continue;

@@ -195,6 +195,7 @@ std::string DepthInput::calibration_file() const {
 app::InputFiles inputs_of(const Arguments& a) {
   app::InputFiles files;
   for (const std::string& path : a.inputs) files.add(path);
+  // mutant: file-camera
   for (const std::string& path :
        {a.frames_from, a.image.depth, a.image.colour, a.image.calibration_file()})
     files.add(path);

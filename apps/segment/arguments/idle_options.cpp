@@ -9,7 +9,7 @@ namespace ph::segment {
 
 std::vector<std::string> idle_options(const Arguments& a) {
   std::vector<std::string> texts;
-  if (a.common.threads > 0 && !a.signatures)
+  if (a.common.threads > 0 && !a.signatures)  // mutant: idle-threads
     texts.emplace_back("--threads does nothing: all but --signatures runs on one thread");
   if (!a.image.colour.empty() && !a.files.show(&OutputOption::shows_colours)) {
     texts.emplace_back(

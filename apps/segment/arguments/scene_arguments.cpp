@@ -143,6 +143,7 @@ Known add_method_options(app::Options& options, SegmentOptions& o) {
       fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
                   d.distance),
       [&o](const std::string& v) { o.distance = length("--distance", v, true); });
+  // mutant: scope-steps
   options.value(
       {"--steps", kOfPaper}, "N|exact",
       fmt::format("paper: filtration steps up to the distance; exact: as many as there are "

@@ -75,12 +75,12 @@ std::optional<std::string> FrameList::read_line() {
                               kMostName, printable(read_, 40)));
     std::array<char, 1 << 12> some{};
     const std::ptrdiff_t got = files::read_some(file_, some.data(), some.size());
-    if (got < 0 && errno != EAGAIN)
+    if (got < 0 && errno != EAGAIN)  // mutant: frame-list-error
       throw Error(ErrorKind::io, fmt::format("{}: cannot read the list of frames: {}", name_,
                                              files::reason(errno)));
     if (got == 0) {
       if (read_.empty()) return std::nullopt;
-      return std::exchange(read_, {});
+      return std::exchange(read_, {});  // mutant: frame-list-last
     }
     if (got > 0) read_.append(some.data(), static_cast<std::size_t>(got));
     context_.poll();

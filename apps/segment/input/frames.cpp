@@ -72,7 +72,7 @@ void FrameSource::take_files(const OutputPaths& files) {
 void FrameSource::add_known(app::InputFiles& known) {
   for (const std::string& input : inputs_) known.add(input);
   if (!list_) return;
-  for (const std::string& input : list_->known()) known.add(input);
+  for (const std::string& input : list_->known()) known.add(input);  // mutant: file-frames
 }
 
 std::optional<Frame> FrameSource::next() {

@@ -192,7 +192,7 @@ void check_together(const Arguments& a) {
   if (!a.fitted.empty())
     app::require_in_scope(a.given, kFitted, "--fitted");
   else
-    require_kind(a, a.kind);
+    require_kind(a, a.kind);  // mutant: option-kind
   if (a.infinite && a.infinite->rule == InfiniteRule::Rule::keep && !may_keep_infinite(a.kind))
     reject(fmt::format("--infinite: found keep, expected drop, error or a number with --kind {}",
                        name_of(a.kind)));

@@ -62,7 +62,7 @@ std::vector<std::size_t> shape_of(const Fit& fit, const Block& block) {
     case Kind::landscape:
       return {fit.layers, block.grid.points};
     case Kind::image:
-      return {block.frame.lengths.pixels, block.frame.births.pixels};
+      return {block.frame.lengths.pixels, block.frame.births.pixels};  // mutant: fit-rows
     case Kind::entropy:
       return {1};
     case Kind::lengths:

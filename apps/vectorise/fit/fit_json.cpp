@@ -155,7 +155,7 @@ class Reader {
     if (json_.peek() == '"')
       fit_.infinite = {word<Rule>("infinite"), 0};
     else
-      fit_.infinite = {Rule::cap, json_.number()};
+      fit_.infinite = {Rule::cap, json_.number()};  // mutant: fit-infinite
   }
   /// The settings that affect the vectors of a kind, beside its blocks.
   static std::vector<const char*> parameters_of(Kind kind) {

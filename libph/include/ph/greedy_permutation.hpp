@@ -71,7 +71,7 @@ GreedyPermutation greedy_permutation(const M& metric, const GreedyLimits& limits
     for (Index i = 0; i < n; ++i) {
       double& of_i = nearest[static_cast<std::size_t>(i)];
       if (of_i > 0) of_i = std::min<double>(of_i, metric(i, next));
-      if (of_i > nearest[static_cast<std::size_t>(farthest)]) farthest = i;
+      if (of_i > nearest[static_cast<std::size_t>(farthest)]) farthest = i;  // mutant: greedy-tie
     }
     ticker.tick();
     ticker.work(static_cast<std::uint64_t>(n));

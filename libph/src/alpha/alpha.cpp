@@ -66,7 +66,7 @@ std::size_t Alpha::vertex_count() const {
 std::size_t Alpha::vertex_number(Cell vertex) const {
   std::vector<Index> point;
   append_input_cell(0, vertex, point);
-  return static_cast<std::size_t>(point[0]);
+  return static_cast<std::size_t>(point[0]);  // mutant: alpha-tree-vertex
 }
 
 }  // namespace ph

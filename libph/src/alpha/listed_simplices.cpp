@@ -67,7 +67,7 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
       for (std::size_t i = 0; i < size; ++i) numbers[i] = cells.sites.input[simplex.descending[i]];
       add(size, simplex.value);
     }
-    if (dim > 1 || !enters(0)) continue;
+    if (dim > 1 || !enters(0)) continue;  // mutant: alpha-copy-edges
     for (const auto& [copy, site] : cells.sites.copies) {
       numbers = {Index{copy}, Index{cells.sites.input[site]}};
       add(size, 0);
@@ -129,8 +129,9 @@ class CellList {
     const bool is_turned = sort_points(points);
     is_turned_.push_back(is_turned);
     vertices_.add(points, value);
-    const bool is_loop = boundary.size() == 2 && boundary[0] == boundary[1];
+    const bool is_loop = boundary.size() == 2 && boundary[0] == boundary[1];  // mutant: alpha-loop
     for (std::size_t k = 0; k < boundary.size() && !is_loop; ++k) {
+      // mutant: alpha-face-sign
       const bool is_against = is_turned != is_turned_[static_cast<std::size_t>(boundary[k])];
       matrix_.rows.push_back(boundary[k]);
       matrix_.incidences.push_back((k % 2 == 0) != is_against ? 1 : -1);

@@ -80,7 +80,7 @@ namespace {
 /// squares of their last places.
 void check_squares(int exponent) {
   constexpr int most = 511, least = -458;  // 2^-916, with room for 106 more binary places
-  if (exponent >= least && exponent <= most) return;
+  if (exponent >= least && exponent <= most) return;  // mutant: alpha-exponent
   throw Error(ErrorKind::bad_data,
               fmt::format("alpha complex: found coordinates of about 2^{}, expected 2^{} to 2^{} "
                           "for squared values; take radii",

@@ -26,7 +26,7 @@ double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& site
                ? spheres.triangle_radius(sites[0], sites[1], sites[2])
                : 0;
   const Sphere sphere = spheres.of_tetrahedron(sites);
-  return sphere.beyond == 0 ? sphere.squared_radius : 0;
+  return sphere.beyond == 0 ? sphere.squared_radius : 0;  // mutant: alpha-obtuse-ball
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   grid_.voxels = voxels_.data();
   grid_.is_in_file = voxels_.is_in_file();
   grid_.voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
-  grid_.superlevel = options.superlevel;
-  if (!image.masked) refuse_nan(grid_, context);
+  grid_.superlevel = options.superlevel;          // mutant: cubical-superlevel
+  if (!image.masked) refuse_nan(grid_, context);  // mutant: cubical-nan
 
   cells_ = 1;
   for (int k = dim_ - 1; k >= 0; --k) {
@@ -145,7 +145,7 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
   std::pmr::vector<Voxel> order(&context.memory);
   order.reserve(voxels_.size());
   for (std::size_t i = 0; i < voxels_.size(); ++i) {
-    if (const double value = grid_.value(i); value <= grid_.limit)
+    if (const double value = grid_.value(i); value <= grid_.limit)  // mutant: cubical-threshold
       order.push_back({value, static_cast<std::uint32_t>(i)});
     ticker.work();
   }
@@ -201,6 +201,7 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
       // The layers below and above along the axis; at the border of T there is only one.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
+      // mutant: cubical-wrap
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;
       std::uint32_t* layer = keys.data() + first + x * axis.stride;
       const std::uint32_t* lower = keys.data() + first + (has_lower ? below : above) * axis.stride;

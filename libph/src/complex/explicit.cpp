@@ -121,9 +121,9 @@ void SimplexList::check_layout() const {
 
 ExplicitComplex ExplicitComplex::from_simplices(SimplexList simplices, const CellNamer& name,
                                                 const RunContext& context) {
-  simplices.check_layout();
+  simplices.check_layout();  // mutant: explicit-layout
   check_size(simplices.size());
-  if (simplices.values.size() != simplices.size())
+  if (simplices.values.size() != simplices.size())  // mutant: explicit-values
     refuse("list of simplices",
            fmt::format("found {} values, expected {}", simplices.values.size(), simplices.size()));
   for (std::size_t i = 0; i < simplices.size(); ++i) {
@@ -184,7 +184,7 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix, con
              fmt::format("facet {}: found dimension {}, expected {}", row, matrix.dims[facet],
                          matrix.dims[i] - 1));
       }
-      if (values[facet] > values[i]) {
+      if (values[facet] > values[i]) {  // mutant: explicit-facet
         fail(name, i,
              fmt::format("the cell enters at {}, before its facet {} at {}", values[i], row,
                          values[facet]));
@@ -205,7 +205,7 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix, con
   }
   context.poll();
   complex.check(matrix.dims, name);
-  complex.leave_out_what_never_enters();
+  complex.leave_out_what_never_enters();  // mutant: explicit-infinite
   complex.sort_by_dimension(matrix.dims);
   complex.build_cofacets();
   return complex;

@@ -82,7 +82,7 @@ class Cubes {
   }
   double voxel_value(Index voxel) const {
     const double value = image_.values[static_cast<std::size_t>(voxel)];
-    if (std::isnan(value)) return kInfinity;
+    if (std::isnan(value)) return kInfinity;  // mutant: listed-cubes-absent
     return options_.superlevel ? -value : value;
   }
 

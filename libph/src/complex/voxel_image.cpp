@@ -174,6 +174,7 @@ PointImage voxel_image(PointsView points, double voxel, VoxelValue value, Index 
     if (value == VoxelValue::density) --found;
   }
   const bool masked = value != VoxelValue::distance;
+  // mutant: absent-voxels
   if (masked) std::ranges::replace(values, kInfinity, std::numeric_limits<double>::quiet_NaN());
   if (value == VoxelValue::distance) make_distances(grid, voxel, values, ticker, &context.memory);
   PointImage result{{}, grid.first(), voxel};

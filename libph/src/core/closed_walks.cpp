@@ -36,7 +36,7 @@ void append_ends(const InputCell& edge, std::span<const Index> periods,
     ends.insert(ends.end(), numbers.begin(), numbers.end());
     Index& x = ends[begin + axis];
     x += step;
-    if (axis < periods.size() && x == periods[axis]) x = 0;
+    if (axis < periods.size() && x == periods[axis]) x = 0;  // mutant: walk-period
   }
 }
 
@@ -221,7 +221,7 @@ class Decomposition {
     std::ranges::rotate(v, std::ranges::min_element(v));
     const bool turns = p_ == 2 ? v.size() > 2 && v[1] > v.back() : a > p_ / 2;
     if (turns) std::reverse(v.begin() + 1, v.end());
-    if (p_ > 2 && turns) walk.coefficient = p_ - a;
+    if (p_ > 2 && turns) walk.coefficient = p_ - a;  // mutant: walk-turns
     found_.push_back(std::move(walk));
   }
 

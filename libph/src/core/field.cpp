@@ -31,7 +31,7 @@ Zp::Element Zp::inverse(Element a) const {
     r0 = std::exchange(r1, r0 - q * r1);
     s0 = std::exchange(s1, s0 - q * s1);
   }
-  return static_cast<Element>(s0 < 0 ? s0 + p_ : s0);
+  return static_cast<Element>(s0 < 0 ? s0 + p_ : s0);  // mutant: inverse-sign
 }
 
 }  // namespace ph

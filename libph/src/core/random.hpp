@@ -12,6 +12,7 @@ namespace ph {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
+  // mutant: random-task
   /// One of many sequences of a seed, for tasks that threads share.
   Random(std::uint64_t seed, std::uint64_t task) : state_(mixed(mixed(seed + kStep) + task)) {}
 

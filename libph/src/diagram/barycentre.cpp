@@ -84,7 +84,7 @@ Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
     death += bar.death / n;
   }
   const double share = n / static_cast<double>(count);
-  if (share == 1) return {0, birth, death};
+  if (share == 1) return {0, birth, death};  // mutant: barycentre-diagonal
   const double middle = birth / 2 + death / 2, reach = (death / 2 - birth / 2) * share;
   return {0, middle - reach, middle + reach};
 }

@@ -37,7 +37,7 @@ std::vector<double> distances_of(std::size_t count, const DiagramDistance& dista
                      RunContext task;
                      contexts.prepare(task);
                      const auto& [a, b, place] = pairs[k];
-                     result[place] = distance(a, b, task);
+                     result[place] = distance(a, b, task);  // mutant: distance-place
                    }
                  });
   return result;

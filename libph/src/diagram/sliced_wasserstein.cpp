@@ -26,7 +26,7 @@ std::vector<Point> with_diagonal(const DiagramParts& own, const DiagramParts& ot
     points.push_back({std::ldexp(p[0], -exponent), std::ldexp(p[1], -exponent)});
   for (const Point& p : other.finite) {
     const double middle = (std::ldexp(p[0], -exponent) + std::ldexp(p[1], -exponent)) / 2;
-    points.push_back({middle, middle});
+    points.push_back({middle, middle});  // mutant: sliced-other
   }
   return points;
 }
@@ -68,6 +68,7 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
   for_each_piece("sliced Wasserstein distance", count, 1, context,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t k = begin; k < end; ++k) {
+                     // mutant: sliced-angle
                      const double angle =
                          std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
                      const std::vector<double> x = projections(points[0], angle),

@@ -26,21 +26,21 @@ std::string_view asked_beside(const Task& task) {
 
 void check(const Options& options) {
   const auto at_least_0 = [](std::string_view name, int dim) {
-    if (dim < 0)
+    if (dim < 0)  // mutant: negative-dimension
       throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected >= 0", name, dim));
   };
   at_least_0("highest dimension", options.max_dim.value_or(0));
   at_least_0("lowest dimension", options.min_dim);
-  if (std::isnan(options.min_persistence))
+  if (std::isnan(options.min_persistence))  // mutant: persistence-nan
     throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
-  require_field(options.field);
+  require_field(options.field);  // mutant: field-is-prime
 }
 
 void check_as_it_is(const Options& options, bool has_incidences) {
   check(options);
   if (options.collapse == Collapse::on)
     throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
-  if (!has_incidences && options.field != 2)
+  if (!has_incidences && options.field != 2)  // mutant: field-without-incidences
     throw Error(ErrorKind::usage,
                 fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
                             "field 2 only",

@@ -184,7 +184,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
     power = std::log(large.extra / small.extra) / std::log(large.listed / small.listed);
   power = std::clamp(power, 0.8, 1.6) + (graph.is_dense() ? kPowerMargin : kPowerMarginOfLocal);
   const double factor = listed / std::max(1.0, large.listed);
-  return {least, most + kMargin * large.extra * std::pow(factor, power)};
+  return {least, most + kMargin * large.extra * std::pow(factor, power)};  // mutant: estimate-parts
 }
 
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {

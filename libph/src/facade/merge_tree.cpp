@@ -38,10 +38,10 @@ MergeTree tree_of(const F& f, const RunContext& context) {
         tree.merges.push_back({f.value(graph.edges[edge]), graph.ends[edge].u, graph.ends[edge].v,
                                elder, younger, sizes[elder], sizes[younger], tree.births[elder],
                                tree.births[younger]});
-        sizes[elder] += sizes[younger];
+        sizes[elder] += sizes[younger];  // mutant: merge-sizes
       });
   // Vertices that never enter keep their numbers.
-  if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {
+  if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {  // mutant: merge-tree-numbers
     std::vector<Index> number;
     number.reserve(graph.vertices.size());
     for (const auto& v : graph.vertices) number.push_back(static_cast<Index>(f.vertex_number(v)));
@@ -57,6 +57,7 @@ std::vector<Index> MergeTree::components(double value) const {
   for (std::size_t v = 0; v < births.size(); ++v)
     parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
   for (const Merge& m : merges) {
+    // mutant: merges-at-value
     if (!(m.value <= value)) break;  // stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }

@@ -25,6 +25,7 @@ constexpr int kHighestByEdges = 3;
 
 /// The reason why a collapse would spoil the result; empty if it would not.
 std::string_view obstacle_to_collapse(const Options& options) {
+  // mutant: collapse-zero-length
   if (options.min_persistence < 0) return "bars of length zero are asked for";
   if (options.representatives == Representatives::cocycles)
     return "cocycles are asked for, and those of the remaining edges say nothing about the others";

@@ -127,7 +127,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     // Pictures may be black and label maps empty; points and distances are not.
     const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
                                      (kind == SquareKind::distances || npy.kind == 'f'));
-    if (has_zeros && is_sure) {
+    if (has_zeros && is_sure) {  // mutant: guess-damaged
       // The reader of distances refuses matrices that are asymmetric or have negative entries.
       return {ArrayMeaning::distances,
               fmt::format("{}{} with a zero diagonal: read as distances; {}", shape,
@@ -155,6 +155,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     }
   }
   if (is_rips) return otherwise;
+  // mutant: guess-slender
   const bool is_slender = columns <= kMostCoordinates && rows >= kSlender * columns;
   // Pictures and label maps have small integers; coordinates hardly ever do.
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';

@@ -40,6 +40,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   const detail::TextGuess guess = detail::guess_text(input, options);
   const bool is_table = guess.format == Format::points || guess.format == Format::distance;
   if (!is_table) return guess.format;
+  // mutant: guess-matrix-option
   if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
     // Points have no diagonal. A diagonal of any numbers asks for nothing, and births are refused

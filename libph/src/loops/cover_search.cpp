@@ -35,7 +35,7 @@ bool CoverSearch::add_step(Values& values, std::uint32_t from, std::uint32_t to,
   for (const auto [cocycle, value] : cocycles_.on(key)) {
     const std::uint32_t slot = slot_[cocycle];
     if (slot == kNone) continue;
-    const std::uint64_t step = from < to ? value : p_ - value;
+    const std::uint64_t step = from < to ? value : p_ - value;  // mutant: loops-cocycle-sign
     values[slot] = static_cast<std::uint32_t>((values[slot] + step) % p_);
     changed = true;
   }
@@ -118,7 +118,7 @@ Verdict CoverSearch::search_cover(std::uint32_t from, std::uint32_t to, const Ar
   const auto reach = [&](std::uint32_t v, std::uint32_t values, const Distance& d,
                          std::uint32_t parent) {
     if (!is_near(v)) return;
-    const double estimate = d.length + distance_[v].length;
+    const double estimate = d.length + distance_[v].length;  // mutant: loops-estimate
     if (estimate >= bound) return;
     const auto [it, is_new] = state_at.try_emplace(std::uint64_t{values} << 32 | v,
                                                    static_cast<std::uint32_t>(states.size()));
@@ -142,7 +142,7 @@ Verdict CoverSearch::search_cover(std::uint32_t from, std::uint32_t to, const Ar
     if (state.is_settled || state.from_start < entry.from_start) continue;
     state.is_settled = true;
     const auto [vertex, values_here, parent, d, settled] = state;
-    if (vertex == to && values_here == wanted) {
+    if (vertex == to && values_here == wanted) {  // mutant: loops-path
       path.clear();
       for (std::uint32_t s = entry.state; s != kNone; s = states[s].parent)
         path.push_back(states[s].vertex);

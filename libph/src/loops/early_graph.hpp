@@ -70,7 +70,7 @@ class EarlyGraph {
   template <class Use>
   void for_each_neighbour(std::uint32_t v, Key limit, Key except, Use&& use) const {
     for (const Neighbour& n : neighbours(v)) {
-      if (n.key > limit) return;
+      if (n.key > limit) return;  // mutant: loops-edge-age
       if (n.key != except) use(n.vertex, n.key);
     }
   }

@@ -24,7 +24,7 @@ class Elders {
   ///        elders of each other, and of themselves.
   explicit Elders(bool by_value) : by_value_(by_value) {}
   bool is_elder(const Lifetime& elder, const Lifetime& of) const {
-    if (elder.death < of.death) return false;
+    if (elder.death < of.death) return false;  // mutant: loops-elder
     return by_value_ ? elder.birth <= of.birth : elder.birth_key < of.birth_key;
   }
   /// True if `a` is born before `b` in the sense of elders.

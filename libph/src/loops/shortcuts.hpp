@@ -69,6 +69,7 @@ class Shortcuts {
     graph_.for_each_neighbour(last, around.limit, around.birth,
                               [&](std::uint32_t w, EarlyGraph::Key key) {
                                 budget.take();
+                                // mutant: loops-triangles
                                 if (!is_near(near_first_, w) || !is_near(near_middle_, w)) return;
                                 const double length = near_first_[w].value + graph_.value(key);
                                 if (length < best) {

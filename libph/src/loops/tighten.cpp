@@ -129,6 +129,7 @@ class Tightener {
         last_of_group = std::max(last_of_group, candidates[end].lifetime.death);
       for (std::size_t i = begin; i < end; ++i) {
         Candidate& c = candidates[i];
+        // mutant: loops-needs-cocycles
         c.needs_cocycles = last_death >= c.lifetime.death ||
                            (elders_.by_value() && shares_value(c.lifetime.birth_key));
       }
@@ -253,6 +254,7 @@ class Tightener {
       // do not.
       std::vector<Loop> parts = parts_of(path, graph_, coefficient, options_.field, context_);
       measure(parts);
+      // mutant: loops-taken-apart
       if (length_of(parts) < length_of(loops)) loops = std::move(parts);
       if (is_one || length_of(loops) < length_of(out.loops)) out.loops = std::move(loops);
     }

@@ -10,7 +10,7 @@ namespace ph {
 DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
     : size_(size) {
   constexpr Index most = Index{1} << 31;  // more points have too many pairs to count
-  if (size < 0 || size > most)
+  if (size < 0 || size > most)            // mutant: matrix-size
     throw Error(ErrorKind::bad_data,
                 fmt::format("distance matrix: found {} points, expected 0 to 2^31", size));
   const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;

@@ -56,6 +56,7 @@ class Squares {
     // Squares may differ although distances, their rounded roots, are equal.
     const double root = std::sqrt(largest), almost = largest * (1 - 1e-15);
     for (std::size_t i = 0; i < size_; ++i)
+      // mutant: greedy-root
       if (nearest_[i] >= almost && std::sqrt(nearest_[i]) == root) return {i, largest};
     return {0, largest};
   }

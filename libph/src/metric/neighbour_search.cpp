@@ -13,6 +13,7 @@ namespace {
 // A norm that is never larger than the distance searched for, and that is cheap to compute from the
 // gaps between two boxes, axis by axis. Both are rounded: `beyond` leaves room for the errors of
 // sums of `axes` terms, which keeps everything within reach.
+// mutant: search-slack
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
 struct EuclideanGaps {
@@ -119,7 +120,7 @@ class Search final : public NeighbourSearch {
       return;
     }
     visit_pairs(2 * a, 2 * b, pairs);
-    visit_pairs(2 * a, 2 * b + 1, pairs);
+    visit_pairs(2 * a, 2 * b + 1, pairs);  // mutant: search-siblings
     if (a != b) visit_pairs(2 * a + 1, 2 * b, pairs);
     visit_pairs(2 * a + 1, 2 * b + 1, pairs);
   }
@@ -130,7 +131,7 @@ class Search final : public NeighbourSearch {
         const double sum = gap_to_point(p, q);
         if (sum > pairs.reach) continue;
         const double d = distance(p, q, sum);
-        if (d > pairs.limit) continue;
+        if (d > pairs.limit) continue;  // mutant: search-radius
         const auto [i, j] = std::minmax(tree_.rows()[p], tree_.rows()[q]);
         pairs.visit(Index{i}, Index{j}, d);
       }
@@ -173,11 +174,12 @@ class Search final : public NeighbourSearch {
   /// The largest sum with which a point may still replace the worst neighbour.
   double reach_beside(const Neighbour& worst, Ties ties) const {
     constexpr double nothing = -1;
-    if (ties == Ties::any && worst.distance == 0) return nothing;
+    if (ties == Ties::any && worst.distance == 0) return nothing;  // mutant: search-any-tie
     return Gaps::reach(worst.distance, slack_);
   }
   bool is_nearer(const Neighbour& a, const Neighbour& b) const {
     if (a.distance != b.distance) return a.distance < b.distance;
+    // mutant: search-tie
     return b.position == kNone || tree_.rows()[a.position] < tree_.rows()[b.position];
   }
   /// Inserts it at its place and drops the last.

@@ -45,6 +45,7 @@ void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double 
         const double d = square >= PointMetric::kLeastPlainSquare && !space.is_scaled
                              ? std::sqrt(square)
                              : metric(p.number, q.number);
+        // mutant: cubes-radius
         if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
       },
       context);

@@ -122,7 +122,7 @@ class Boruvka {
       if (component_[q] != own) break;
     }
     if (last != point.first.position) point.first = {metric_(p, last), last};
-    if (point.place == kKnown) point.knows = Knows::lower_bound;
+    if (point.place == kKnown) point.knows = Knows::lower_bound;  // mutant: forest-known
   }
   void offer(Position p) {
     if (points_[p].knows == Knows::lower_bound) return;
@@ -170,7 +170,7 @@ class Boruvka {
     const double reach = reach_[component_[p]].load(std::memory_order_relaxed);
     if (position == kNone || distance != reach) return distance < reach;
     const Position best = best_[component_[p]];
-    return best == kNone || precedes(p, best);
+    return best == kNone || precedes(p, best);  // mutant: forest-bound-tie
   }
 
   /// Takes the best edge of each component. @return true if components are left that may join.
@@ -199,7 +199,7 @@ class Boruvka {
     }
     const std::uint32_t first = component_[tree_.begin(node)];
     for (Position p = tree_.begin(node) + 1; p < tree_.end(node); ++p)
-      if (component_[p] != first) return Parts::kMixed;
+      if (component_[p] != first) return Parts::kMixed;  // mutant: forest-leaf
     return first;
   }
 
@@ -236,7 +236,7 @@ FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, d
   // Each copy is joined to the first of its kind; no other edge of a copy precedes that of the
   // first.
   for (std::uint32_t i = 0; i < first_equal.size(); ++i)
-    if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});
+    if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});  // mutant: forest-copies
   const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);
   if (distinct.size() > 1) {
     const KdTree tree(points, distinct, context);

@@ -75,6 +75,7 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   // The ends are equal, or so close that few doubles lie between them: widens the axis so that a
   // class begins at the left and has room to go on.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
+  // mutant: plot-one-class
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
 }
 
@@ -90,7 +91,7 @@ double Axis::at(double value) const {
 }
 
 std::string Axis::label_of(double value, int decimals) const {
-  if (negated_ && !logarithmic_) value = -value;
+  if (negated_ && !logarithmic_) value = -value;  // mutant: plot-negated
   std::string label = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
   if (label.front() == '-') label.replace(0, 1, "−");
   return label;
@@ -190,7 +191,7 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
 
 PlotAxis limits_of(const PlotOptions& options) {
   PlotAxis limits = options.axis;
-  if (!options.negated) return limits;
+  if (!options.negated) return limits;  // mutant: plot-limits
   std::swap(limits.low, limits.high);
   for (std::optional<double>* limit : {&limits.low, &limits.high})
     if (*limit) *limit = -**limit;

@@ -65,7 +65,7 @@ Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t
     if (drawn)
       shown.add(bar, {}, {});
     else
-      ++beyond;
+      ++beyond;  // mutant: plot-beyond
   }
   return shown;
 }

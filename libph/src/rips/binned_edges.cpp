@@ -193,6 +193,7 @@ BinnedEdges EdgeBinner::finish() {
   // Not all edges of the last bin were within the limit: the workers' parts are moved together.
   auto to = edges_.begin() + static_cast<std::ptrdiff_t>(last == 0 ? 0 : ends[last - 1]);
   for (std::size_t w = 0; w < workers_; ++w)
+    // mutant: last-bin
     to = std::copy(edges_.begin() + static_cast<std::ptrdiff_t>(last_parts_[w]),
                    edges_.begin() + static_cast<std::ptrdiff_t>(counts_[begin_of(w) + last]), to);
   edges_.erase(to, edges_.end());

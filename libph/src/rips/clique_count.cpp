@@ -112,7 +112,7 @@ class CliqueCounter {
     }
     double orders = 1;
     for (std::size_t d = 2; d <= top_; ++d) {
-      orders *= static_cast<double>(std::max<std::size_t>(d - 1, 1));
+      orders *= static_cast<double>(std::max<std::size_t>(d - 1, 1));  // mutant: clique-orders
       sums[d] /= orders * static_cast<double>(d * (d + 1) / 2);
     }
     sums[0] = static_cast<double>(graph_.size());
@@ -129,7 +129,7 @@ class CliqueCounter {
       counts[d] += static_cast<double>(from.size());
       if (d == last) return;
       for (const Vertex v : from) {
-        intersect(from, neighbours_.above(v), sets[d]);
+        intersect(from, neighbours_.above(v), sets[d]);  // mutant: clique-above
         ticker.work(from.size() + 1);
         if (!sets[d].empty()) self(self, sets[d], d + 1);
       }

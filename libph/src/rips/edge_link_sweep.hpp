@@ -70,6 +70,7 @@ class EdgeLinkSweep {
  private:
   /// True if an edge matters only if its link is empty.
   bool can_skip_bins() const {
+    // mutant: bins-skipped
     return !surfaces_ && !wanted_.zero_length && loops_.living_count() == 0;
   }
   /// True if nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
@@ -134,6 +135,7 @@ bool EdgeLinkSweep<K>::can_skip_bin(std::size_t bin) {
 
 template <Field K>
 void EdgeLinkSweep<K>::add_bins_until(std::size_t bin) {
+  // mutant: bins-added
   edges_.with_bins(first_unadded_bin_, bin,
                    [&](std::span<const FlagEdge> edges) { graph_.add_all(edges, context_); });
   first_unadded_bin_ = bin;
@@ -176,7 +178,7 @@ template <Field K>
 void EdgeLinkSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   Vertex elder = sets_.find(e.u), younger = sets_.find(e.v);
   if (elder != younger) {
-    if (age_[younger] < age_[elder]) std::swap(elder, younger);
+    if (age_[younger] < age_[elder]) std::swap(elder, younger);  // mutant: weights-elder
     sets_.link(younger, elder);
     observer_.on_join(elder, younger, position);
     return;

@@ -17,13 +17,13 @@ std::uint64_t fill(std::span<const Key* const> rows, std::size_t begin, std::siz
   const Key *first_row = rows.front() + begin, *last_row = rows.back() + begin;
   for (std::size_t i = 0; i < size; ++i)
     keys[i] = std::max(key, std::max(first_row[i], last_row[i]));
-  for (std::size_t k = 1; k + 1 < rows.size(); k += 2) {
+  for (std::size_t k = 1; k + 1 < rows.size(); k += 2) {  // mutant: cofacet-rows
     const Key *a = rows[k] + begin, *b = rows[k + 1] + begin;
     for (std::size_t i = 0; i < size; ++i) keys[i] = std::max(keys[i], std::max(a[i], b[i]));
   }
   std::uint64_t within = 0;
   for (std::size_t i = 0; i < size; ++i)
-    within |= std::uint64_t{keys[i] - first <= last - first} << i;
+    within |= std::uint64_t{keys[i] - first <= last - first} << i;  // mutant: cofacet-range-last
   return within;
 }
 

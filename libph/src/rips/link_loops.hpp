@@ -137,11 +137,11 @@ void LinkLoops<K>::annotate(Position position, const FlagEdge& e,
   };
   const Vertex first = graph_.global(components_.root(0));
   Class value = around(first);
-  for (std::size_t i = 1; i < components_.count(); ++i) {
+  for (std::size_t i = 1; i < components_.count(); ++i) {  // mutant: link-components
     const Vertex root = graph_.global(components_.root(i));
     const Class difference = annotations_->sum(around(root), -value);
     if (difference.is_zero()) {
-      idle.push_back(i);
+      idle.push_back(i);  // mutant: idle-components
       continue;
     }
     kill(difference, {position, root}, value);

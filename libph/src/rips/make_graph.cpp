@@ -48,7 +48,7 @@ bool merges_equal_points(const RipsOptions& options, RipsForm form) {
 
 RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
                            const VertexWeights& weights, const RunContext& context) {
-  if (options.device == Device::gpu)
+  if (options.device == Device::gpu)  // mutant: device-gpu
     return RipsGraph::forest_on_gpu(points, options.threshold, context);
   const bool is_weighted = !weights.births().empty();
   if (!is_weighted && has_fast_spanning_forest(points, options.distance))
@@ -169,9 +169,9 @@ void check_device(const RipsData& data, const RipsOptions& options) {
     found = "some distances";
   else if (!std::holds_alternative<HeldPoints>(data))
     found = "distances";
-  else if (options.distance != PointDistance::euclidean)
+  else if (options.distance != PointDistance::euclidean)  // mutant: device-distance
     found = "another distance";
-  else if (!options.births.empty() || options.dtm_neighbours)
+  else if (!options.births.empty() || options.dtm_neighbours)  // mutant: device-births
     found = "births of vertices";
   if (!found.empty())
     throw Error(ErrorKind::usage,

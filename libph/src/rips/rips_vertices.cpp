@@ -36,6 +36,7 @@ RipsVertices::RipsVertices(Index size, std::span<const std::uint32_t> chosen,
           fmt::format("vertex {}: found birth {}, expected a finite number >= 0", v, births[v]));
     }
   }
+  // mutant: weights-late
   const auto is_late = [&](std::uint32_t v) { return threshold && births[v] > *threshold; };
   if (are_all_) {
     members_.resize(births.size());

@@ -10,10 +10,10 @@ namespace ph {
 double VertexWeights::meeting(double b, double c, double distance) const {
   const double born = std::max(b, c);
   if (std::isinf(distance)) return distance;
-  double value = std::max(born, distance);
+  double value = std::max(born, distance);  // mutant: weights-born
   switch (exponent_) {
     case WeightExponent::one:
-      value = std::max(born, distance + (b / 2 + c / 2));
+      value = std::max(born, distance + (b / 2 + c / 2));  // mutant: weights-ball
       break;
     case WeightExponent::two:
       // If 4 d^2 < |b^2 - c^2|, the younger point is born inside the elder's ball.

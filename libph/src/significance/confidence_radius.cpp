@@ -44,7 +44,7 @@ class Subsample {
 
  private:
   static std::uint32_t joined(std::uint32_t a, std::uint32_t b) {
-    return a == b ? a : NeighbourSearch::Parts::kMixed;
+    return a == b ? a : NeighbourSearch::Parts::kMixed;  // mutant: confidence-node
   }
   std::uint32_t part_of_leaf(KdTree::Node leaf) const {
     const KdTree::Position begin = tree_.begin(leaf), end = tree_.end(leaf);
@@ -110,7 +110,7 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
           distances[k] = farthest;
         }
       });
-  return 2 * significance::upper_quantile(distances, options.alpha);
+  return 2 * significance::upper_quantile(distances, options.alpha);  // mutant: confidence-doubled
 }
 
 }  // namespace ph

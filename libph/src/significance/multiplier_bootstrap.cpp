@@ -67,7 +67,7 @@ ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size
                      }
                      double largest = 0;
                      for (const double sum : sums) largest = std::max(largest, std::abs(sum));
-                     deviations[k] = largest / count;
+                     deviations[k] = largest / count;  // mutant: bootstrap-mean
                    }
                  });
   band.half_width = significance::upper_quantile(deviations, options.alpha);

@@ -64,6 +64,7 @@ double unit_of(const DistanceMatrix& distances, double power) {
     for (Index j = 0; j < i; ++j) largest = std::max(largest, distances(i, j));
   const double least = 1e-280, most = 1e280;  // also for sums
   const double of_largest = std::pow(largest, power);
+  // mutant: permutation-powers
   return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;
 }
 
@@ -97,7 +98,7 @@ double loss_of(std::span<const double> powers, std::span<const std::uint32_t> gr
       if (groups[i] == groups[j]) sums[groups[i]] += *power;
   double loss = 0;
   for (std::size_t g = 0; g < sizes.size(); ++g)
-    loss += sums[g] / static_cast<double>(sizes[g] * (sizes[g] - 1));
+    loss += sums[g] / static_cast<double>(sizes[g] * (sizes[g] - 1));  // mutant: permutation-itself
   return loss;
 }
 
@@ -131,6 +132,7 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
     }
     as_low_count += own_count;
   });
+  // mutant: permutation-observed
   result.p = (static_cast<double>(as_low_count) + 1) / (static_cast<double>(options.shuffles) + 1);
   return result;
 }

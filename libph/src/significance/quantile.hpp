@@ -22,6 +22,7 @@ inline void check_alpha(double alpha, std::string_view function) {
 /// Sorts the numbers and returns the least one that at most a share alpha of them exceeds.
 inline double upper_quantile(std::span<double> numbers, double alpha) {
   std::ranges::sort(numbers);
+  // mutant: quantile-side
   const auto may_exceed =
       static_cast<std::size_t>(std::floor(alpha * static_cast<double>(numbers.size())));
   return numbers[numbers.size() - 1 - std::min(may_exceed, numbers.size() - 1)];

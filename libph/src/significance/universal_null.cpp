@@ -46,11 +46,12 @@ BarPValues universal_p_values(std::span<const Bar> bars, DistanceFiltration filt
     sum += result.p.back();
     ++result.tested;
   }
-  const double a = filtration == DistanceFiltration::rips ? 1 : 0.5;
+  const double a = filtration == DistanceFiltration::rips ? 1 : 0.5;  // mutant: null-cech
   const double mean = sum / static_cast<double>(std::max<std::size_t>(result.tested, 1));
   for (std::size_t i = 0; i < bars.size(); ++i)
     // 1 - F for the left-skewed Gumbel law, F(x) = 1 - exp(-exp x), whose mean is -egamma.
     if (!bars[i].is_infinite() && bars[i].birth < bars[i].death)
+      // mutant: null-mean
       result.p[i] = std::exp(-std::exp(a * (result.p[i] - mean) - std::numbers::egamma));
   const auto tests = static_cast<double>(result.tested);
   for (const double p : result.p)

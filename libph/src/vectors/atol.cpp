@@ -34,11 +34,11 @@ std::vector<Heap> heaps_of(std::span<const std::span<const Bar>> diagrams) {
   for (const auto& bars : diagrams)
     for (const Bar& bar : checked_bars(bars, Ends::finite, "fit_atol"))
       places.push_back({bar.birth + 0.0, bar.death + 0.0});
-  std::ranges::sort(places);
+  std::ranges::sort(places);  // mutant: atol-order
   std::vector<Heap> heaps;
   for (const Place& place : places) {
     if (heaps.empty() || heaps.back().place != place) heaps.push_back({place});
-    ++heaps.back().count;
+    ++heaps.back().count;  // mutant: atol-copies
   }
   return heaps;
 }
@@ -52,7 +52,7 @@ class KMeans {
   }
 
   void run(int most_rounds) {
-    for (int round = 0; round < most_rounds && assign(); ++round) move();
+    for (int round = 0; round < most_rounds && assign(); ++round) move();  // mutant: atol-rounds
     std::ranges::sort(centres_);
   }
   const std::vector<Place>& centres() const { return centres_; }
@@ -74,6 +74,7 @@ class KMeans {
     }
     /// The mean of a single place is exactly this place, regardless of rounding.
     Place mean() const {
+      // mutant: atol-clamp
       return {std::clamp(x / count, low[0], high[0]), std::clamp(y / count, low[1], high[1])};
     }
   };
@@ -231,7 +232,7 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
     for (double& x : centre) x = std::ldexp(x, exponent);
   const bool has_no_unit = heaps.size() == 1;
   for (double& width : fitted.widths)
-    if (!has_no_unit)
+    if (!has_no_unit)  // mutant: atol-unit
       width = std::max(std::ldexp(width, exponent), std::numeric_limits<double>::min());
   return fitted;
 }

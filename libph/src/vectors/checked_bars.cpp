@@ -29,7 +29,7 @@ std::vector<Bar> checked_bars(std::span<const Bar> bars, Ends allowed, std::stri
   checked.reserve(bars.size());
   for (const Bar& bar : bars) {
     check_bar(bar, function);
-    if (bar.birth == bar.death) continue;
+    if (bar.birth == bar.death) continue;  // mutant: vector-length-zero
     const bool is_allowed =
         allowed == Ends::any ||
         (std::isfinite(bar.birth) && (allowed == Ends::any_death || std::isfinite(bar.death)));
@@ -92,7 +92,7 @@ FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule) {
                     fmt::format("{}: cap: found {}, expected at least {}, the birth of a bar that "
                                 "never dies",
                                 mark_place("finite_bars"), rule.cap, bar.birth));
-      bar.death = rule.cap;
+      bar.death = rule.cap;  // mutant: vector-capped
     }
     finite.bars.push_back(bar);
   }

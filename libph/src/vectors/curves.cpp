@@ -66,7 +66,7 @@ void life_entropy_curve(std::span<const Bar> given, const Grid& grid, std::span<
   for (const Bar& bar : bars) total.add(bar.persistence());
   vectors::LivingBars living(cells);
   for (const Bar& bar : bars) {
-    const double share = bar.persistence() / total.value();
+    const double share = bar.persistence() / total.value();  // mutant: entropy-share
     living.add(cells.first_from(bar.birth), cells.first_from(bar.death),
                share > 0 ? -share * std::log(share) : 0);
   }
@@ -93,7 +93,7 @@ void silhouette(std::span<const Bar> given, const Grid& grid, double power, std:
     const std::size_t top = std::clamp(cells.first_falling(bar), from, to);
     weights.add(weight);
     slopes.add(from, top, weight);
-    slopes.add(top, to, -weight);
+    slopes.add(top, to, -weight);  // mutant: silhouette-falls
     constants.add(from, top, -weight * (bar.birth - middle));
     constants.add(top, to, weight * (bar.death - middle));
   }

@@ -56,7 +56,7 @@ std::vector<double> Grid::values() const {
   std::vector<double> values(points);
   const double step = points > 1 ? (hi - lo) / static_cast<double>(points - 1) : 0;
   for (std::size_t i = 0; i < points; ++i) values[i] = static_cast<double>(i) * step + lo;
-  if (points > 1) values.back() = hi;
+  if (points > 1) values.back() = hi;  // mutant: grid-last
   return values;
 }
 

@@ -41,6 +41,7 @@ class GridCells {
     // Correct, or one too low, apart from rounding.
     for (int i = 0; i < 2 && guess < size() && !is_behind(values_[guess]); ++i) ++guess;
     const bool is_end = guess == size() || is_behind(values_[guess]);
+    // mutant: grid-place
     if (is_end && (guess == 0 || !is_behind(values_[guess - 1]))) return guess;
     return static_cast<std::size_t>(std::partition_point(values_.begin(), values_.end(),
                                                          [&](double t) { return !is_behind(t); }) -

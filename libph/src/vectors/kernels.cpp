@@ -21,7 +21,7 @@ template <class Factor>
 double sum_over_pairs(const std::vector<Bar>& a, std::vector<Bar> b, double width,
                       const RunContext& context, const Factor& factor) {
   std::ranges::sort(b, {}, &Bar::birth);
-  const double reach = std::sqrt(kLeastExponent) * width;
+  const double reach = std::sqrt(kLeastExponent) * width;  // mutant: kernel-reach
   Ticker ticker(context, "kernel", a.size());
   LongSum sum;
   for (const Bar& p : a) {
@@ -51,6 +51,7 @@ double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double
   // |p - q'|² is |p - q|² + 2 length(p) length(q): no difference of numbers that are nearly equal.
   const double sum = vectors::sum_over_pairs(
       first, std::move(second), width, context, [width](const Bar& p, const Bar& q) {
+        // mutant: kernel-mirror
         return -std::expm1(-2 * (p.persistence() / width) * (q.persistence() / width));
       });
   return sum / std::numbers::pi / 8 / sigma;

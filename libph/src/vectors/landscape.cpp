@@ -82,7 +82,7 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
   vectors::Best<std::greater<>> deaths(most);
   std::vector<double> growing(most);
   for (std::size_t i = 0; i < points; ++i) {
-    for (const Bar& bar : sorted.at(i)) deaths.offer(bar.death);
+    for (const Bar& bar : sorted.at(i)) deaths.offer(bar.death);  // mutant: landscape-deaths
     for (std::size_t layer = 0; layer < most; ++layer) growing[layer] = out[layer * points + i];
     std::size_t layer = 0, next = 0;
     for (const double death : deaths.numbers()) {
@@ -118,7 +118,7 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
     throw Error(ErrorKind::usage, "exact_landscape: layers: found 0, expected at least 1");
   std::vector<Bar> tents = vectors::checked_bars(given, vectors::Ends::finite, "exact_landscape");
   const auto precedes = [](const Bar& a, const Bar& b) {
-    return a.birth != b.birth ? a.birth < b.birth : a.death > b.death;
+    return a.birth != b.birth ? a.birth < b.birth : a.death > b.death;  // mutant: landscape-order
   };
   std::ranges::sort(tents, precedes);
   Ticker ticker(context, "landscape", std::min(layers, tents.size()));
@@ -158,7 +158,7 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
         add(next.birth, 0);
       } else {
         shared = {now.dim, next.birth, now.death};
-        has_shared = true;
+        has_shared = true;  // mutant: landscape-shared
         add_top(shared);
       }
       add_top(next);

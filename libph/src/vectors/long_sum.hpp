@@ -10,7 +10,7 @@ class LongSum {
  public:
   void add(double x) {
     const double sum = high_ + x, back = sum - high_;
-    low_ += (high_ - (sum - back)) + (x - back);
+    low_ += (high_ - (sum - back)) + (x - back);  // mutant: long-sum
     high_ = sum;
   }
   void add(const LongSum& other) {

@@ -14,6 +14,7 @@ namespace ph {
 namespace vectors {
 namespace {
 
+// mutant: image-window
 constexpr double kReach = 8;  // standard deviations
 
 /// The masses of normal distributions in the pixels of an interval.
@@ -34,7 +35,7 @@ class Masses {
     double before = std::erf((edges_[first_] - centre) / width_);
     for (std::size_t i = first_; i < end; ++i) {
       const double behind = std::erf((edges_[i + 1] - centre) / width_);
-      masses_[i] = (behind - before) / 2;
+      masses_[i] = (behind - before) / 2;  // mutant: image-integral
       before = behind;
     }
   }

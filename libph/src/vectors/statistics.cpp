@@ -25,6 +25,7 @@ double deviation_of(const std::vector<double>& numbers, double mean) {
   if (largest == 0) return 0;
   LongSum sum;  // for numbers in [0, 1], because squares of small numbers would be 0
   for (const double x : numbers) sum.add((x - mean) / largest * ((x - mean) / largest));
+  // mutant: deviation
   return largest * std::sqrt(sum.value() / static_cast<double>(numbers.size()));
 }
 
@@ -34,6 +35,7 @@ double percentile_of(const std::vector<double>& sorted, double percent) {
   const auto below = static_cast<std::size_t>(place);
   const double low = sorted[below], high = sorted[std::min(below + 1, sorted.size() - 1)];
   const double part = place - static_cast<double>(below);
+  // mutant: percentile
   return part < 0.5 ? low + (high - low) * part : high - (high - low) * (1 - part);
 }
 

@@ -11,7 +11,7 @@ namespace ph::report {
 namespace {
 
 // The number of cells that a page can draw: for edges the first ones, for a mesh all of them.
-constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 2'000'000;
+constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 2'000'000;  // mutant: report-triangles
 
 struct ValuedCell {
   double value;

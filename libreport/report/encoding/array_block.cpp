@@ -80,6 +80,7 @@ void put_numbers(const RawArray& array, std::size_t columns, bool delta, Deflate
     return word;
   };
   const auto give_back = [&](std::size_t begin, std::size_t end) {
+    // mutant: report-voxels
     forget_file_pages(bytes + begin * sizeof(Word), (end - begin) * sizeof(Word));
   };
   for (std::size_t plane = 0; plane < sizeof(Word); ++plane) {

@@ -95,6 +95,7 @@ std::string sha256_hex(std::span<const std::byte> bytes, const RunContext& conte
 }
 
 std::string sha256_hex(const Input& input, const RunContext& context) {
+  // mutant: report-sha256
   return hex_of(input.bytes(), context,
                 [&](std::size_t begin, std::size_t size) { input.done_with(begin, size); });
 }

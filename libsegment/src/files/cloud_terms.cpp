@@ -48,6 +48,7 @@ bool is_near(const Cloud& cloud) {
     const CloudField* const field = cloud.find(name);
     if (field == nullptr || !is_double(*field)) continue;
     for (std::size_t i = 0; i < static_cast<std::size_t>(cloud.size()); ++i)
+      // mutant: cloud-single
       if (std::abs(double_at(cloud, i, *field)) > kSinglePrecisionReach) return false;
   }
   return true;
@@ -97,7 +98,7 @@ class Terms {
   }
 
   void take(const CloudField& field) {
-    if (field.name == "_") return;
+    if (field.name == "_") return;  // mutant: cloud-padding
     if (colours_ && is_part_of_colour(field)) {
       if (!std::exchange(has_colours_, true)) add("rgba", FieldType::uint32, 1, nullptr);
       return;
@@ -113,6 +114,7 @@ class Terms {
     const Names& from = is_pcd ? kNormalsOfPly : kNormals;
     const Names& to = is_pcd ? kNormals : kNormalsOfPly;
     const auto place = place_in(from, field.name);
+    // mutant: cloud-normals
     if (!place || !has(cloud_, from) || cloud_.find(to[*place]) != nullptr) return field.name;
     return std::string(to[*place]);
   }
@@ -130,6 +132,7 @@ class Terms {
   void put(std::size_t point, std::size_t k, std::byte* to) const {
     const CloudField* const source = sources_[k];
     if (source == nullptr) {
+      // mutant: cloud-opacity
       const std::uint32_t colour = (*colours_)[point] | alpha(point) << 24;
       std::memcpy(to, &colour, sizeof(colour));
     } else if (fields_[k].type != source->type) {

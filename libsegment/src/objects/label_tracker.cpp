@@ -32,7 +32,7 @@ std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
 std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cut, std::size_t i) {
   if (cut.labels[i] != 0) return cut.labels[i] - 1;
   const std::uint32_t surface = cut.surface_labels[i];
-  if (std::cmp_less_equal(surface, scene.removed)) return std::nullopt;
+  if (std::cmp_less_equal(surface, scene.removed)) return std::nullopt;  // mutant: wall-number
   return static_cast<std::uint32_t>(cut.segments.size()) + surface - 1 -
          static_cast<std::uint32_t>(scene.removed);
 }
@@ -99,11 +99,12 @@ LabelTracker::Object& LabelTracker::object(std::uint32_t number) {
 /// The role of each thing from now on, as this frame and the frames before it decide.
 void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
                           const std::vector<std::uint32_t>& numbers) {
-  constexpr int frames = 3;
+  constexpr int frames = 3;  // mutant: role-frames
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     Standing now;
     if (i < cut.segments.size()) {
       now = {cut.segments[i].role, cut.segments[i].on};
+      // mutant: number-below
       if (now.on.segment != 0) now.on.segment = numbers[now.on.segment - 1];
     } else {
       now.role =
@@ -115,7 +116,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
       known.times = 0;
       continue;
     }
-    known.times = known.times > 0 && now == known.said ? known.times + 1 : 1;
+    known.times = known.times > 0 && now == known.said ? known.times + 1 : 1;  // mutant: role-times
     known.said = now;
     if (known.is_new || known.times == frames) {
       known.is = now;
@@ -202,6 +203,7 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   }
   const std::uint32_t first_new = next_;
   for (std::size_t i = 0; i < things; ++i)
+    // mutant: number-used
     if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
   // Remembers the segments, and objects that were seen recently and are not covered.

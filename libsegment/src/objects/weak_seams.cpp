@@ -33,6 +33,7 @@ class Seams {
     for (; !queue_.empty(); queue_.pop()) {
       const auto& [strength, both, size] = queue_.top();
       const auto seam = values_.find(both);
+      // mutant: seam-outdated
       if (seam == values_.end() || seam->second.size() != size) continue;  // it has changed
       return strength < least ? std::optional(both) : std::nullopt;
     }
@@ -49,7 +50,7 @@ class Seams {
       values.insert(values.end(), seam.mapped().begin(), seam.mapped().end());
       neighbours_[other].insert(kept);
       neighbours_[kept].insert(other);
-      push(both);
+      push(both);  // mutant: seam-grown
     }
     neighbours_.erase(gone);
   }
@@ -60,6 +61,7 @@ class Seams {
 
   void push(const Both& both) {
     Values& values = values_[both];
+    // mutant: seam-quartile
     const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
     std::ranges::nth_element(values, quartile);
     queue_.emplace(*quartile, both, values.size());
@@ -81,7 +83,7 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
   Seams seams;
   for (const VoxelPair& pair : pairs) {
     const Index a = basin_of[pair.u], b = basin_of[pair.v];
-    if (a != b && pair.distance < radius)
+    if (a != b && pair.distance < radius)  // mutant: seam-adjacent
       seams.add(static_cast<Basin>(a), static_cast<Basin>(b),
                 std::max(births[pair.u], births[pair.v]));
   }
@@ -94,6 +96,7 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
   }
   std::vector<Index> left = basin_of;
   for (auto& [gone, kept] : into)  // the smaller number stays, and is therefore already at its end
+    // mutant: seam-basin
     if (const auto further = into.find(kept); further != into.end()) kept = further->second;
   for (Index& basin : left)
     if (const auto gone = into.find(static_cast<Basin>(basin)); gone != into.end())

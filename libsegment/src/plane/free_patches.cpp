@@ -44,7 +44,7 @@ class SquaredPaper {
         if (run.points > 0) use(run);
         run = {square, 0, 0};
       }
-      run.parts |= std::uint64_t{1} << (y % kParts * kParts + x % kParts);
+      run.parts |= std::uint64_t{1} << (y % kParts * kParts + x % kParts);  // mutant: noise-twice
       ++run.points;
     }
     if (run.points > 0) use(run);
@@ -85,7 +85,7 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
                     [](std::size_t s) { return std::pair(SquaredPaper::farness(s), s); });
   const std::size_t count = std::min(most, squares.size());
   for (std::size_t k = 0; k < count; ++k)
-    squares[k] = squares[(2 * k + 1) * squares.size() / (2 * count)];
+    squares[k] = squares[(2 * k + 1) * squares.size() / (2 * count)];  // mutant: noise-squares
   squares.resize(count);
   return squares;
 }
@@ -108,6 +108,7 @@ std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>
   });
   std::vector<std::size_t> squares;
   for (std::size_t s = 0; s < on.size(); ++s)
+    // mutant: noise-free
     if (std::popcount(on[s]) >= fewest && std::popcount(above[s]) <= most_above)
       squares.push_back(s);
   std::vector<bool> chosen(SquaredPaper::kCount);

@@ -50,7 +50,7 @@ PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, 
   for (const float* p : on) covered.insert(squares.of({p[0], p[1], p[2]}));
   const auto hidden = std::ranges::count_if(
       through, [&](const Eigen::Vector3d& p) { return covered.contains(squares.of(p)); });
-  sight.hidden = static_cast<double>(hidden) / off;
+  sight.hidden = static_cast<double>(hidden) / off;  // mutant: viewpoint-hidden
   return sight;
 }
 

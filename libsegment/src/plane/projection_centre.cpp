@@ -219,7 +219,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   Projection projection = fit<4>(sightings, place_of);
   if (root_mean_square(errors_of(projection, sightings, place_of), 1) > good) {
     projection = robust_fit(sightings);
-    for (const double limit : {3 * outlier, outlier, outlier}) {
+    for (const double limit : {3 * outlier, outlier, outlier}) {  // mutant: viewpoint-outliers
       sightings = inliers_of(projection, sightings, limit);
       if (static_cast<double>(sightings.size()) < kFewestInliers * static_cast<double>(all))
         return std::nullopt;
@@ -227,6 +227,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
     }
   }
   const double error = root_mean_square(errors_of(projection, sightings, place_of), 1);
+  // mutant: viewpoint-bent
   if (error > good || error_of_viewpoint() < std::max(good, kTimesWorse * error) ||
       !sees_forward(projection, sightings))
     return std::nullopt;

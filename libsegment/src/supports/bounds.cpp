@@ -94,6 +94,7 @@ std::vector<std::uint32_t> voxels_on_surfaces(const SceneTree& scene,
   std::vector<std::uint32_t> counts;
   for (const Voxels& of_group : voxels)
     for (std::size_t s = first; s < scene.surfaces.size(); ++s)
+      // mutant: report-removed
       counts.push_back(static_cast<std::uint32_t>(
           count_on(scene.surfaces[s].plane, scene.vertices, of_group, scene.viewpoint)));
   return counts;

@@ -8,12 +8,15 @@ namespace ph::segment {
 
 ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
                                const std::vector<double>& values) {
+  // mutant: noise-fewest
   constexpr std::size_t fewest = 300;  // points needed for a reliable quantile
-  constexpr double quantile = 0.84;    // one standard deviation up in a normal distribution
-  constexpr std::size_t most = 8;      // ranges
+  // mutant: noise-quantile
+  constexpr double quantile = 0.84;  // one standard deviation up in a normal distribution
+  constexpr std::size_t most = 8;    // ranges
   std::vector<NoiseAt> of;
   for (std::size_t i = 0; i < ranges.size(); ++i) of.push_back({ranges[i], values[i]});
   std::ranges::sort(of, [](const NoiseAt& a, const NoiseAt& b) {
+    // mutant: noise-equal-ranges
     return std::pair(a.range, a.concavity) < std::pair(b.range, b.concavity);
   });
   const std::size_t count = std::min(most, of.size() / fewest);
@@ -37,13 +40,13 @@ double ConcavityNoise::at(double range) const {
     noise = next->concavity;
   } else if (next == measured_.end()) {
     const NoiseAt& last = measured_.back();  // from there on it grows like the noise of depth
-    noise = last.concavity * (range / last.range) * (range / last.range);
+    noise = last.concavity * (range / last.range) * (range / last.range);  // mutant: noise-range
   } else {
     const NoiseAt& before = *(next - 1);
     const double t = (range - before.range) / (next->range - before.range);
     noise = before.concavity + t * (next->concavity - before.concavity);
   }
-  return std::clamp(noise, least, most);
+  return std::clamp(noise, least, most);  // mutant: noise-limits
 }
 
 }  // namespace ph::segment

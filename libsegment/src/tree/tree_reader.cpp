@@ -321,6 +321,7 @@ class TreeReader {
 
   /// True if the point may belong to the bottom of the vessel whose lowest voxel this is.
   bool may_be_bottom(const Vec3& point, std::uint32_t v) const {
+    // mutant: opening-supervoxels
     return scene_.plane && scene_.method == Method::surface &&
            may_be_in_opening(*scene_.plane, point, centroid(v));
   }

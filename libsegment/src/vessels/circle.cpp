@@ -12,7 +12,7 @@ Circle fit_circle(std::initializer_list<const std::vector<Eigen::Vector2d>*> set
   Eigen::Matrix3d left = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto* points : sets) {
-    const double weight = 1.0 / static_cast<double>(points->size());
+    const double weight = 1.0 / static_cast<double>(points->size());  // mutant: circle-weight
     for (const Eigen::Vector2d& point : *points) {
       const Eigen::Vector2d p = point - origin;
       const Eigen::Vector3d row(p.x(), p.y(), 1);

@@ -28,7 +28,7 @@ double median(std::vector<double> values) {
 
 /// A circle, and the points without outliers.
 Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
-  constexpr int times = 3;
+  constexpr int times = 3;  // mutant: opening-handles
   constexpr double medians = 2;
   Circle circle{};
   for (int i = 0; i < times; ++i) {
@@ -52,8 +52,9 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
   constexpr double depth = 3;                         // voxels
   constexpr double of_voxel = 1.6, of_radius = 0.12;  // how far a rim may deviate from its circle
   constexpr double least_radius = 0.02, most_radius = 0.25;
-  constexpr std::size_t fewest_sectors = 20;  // of 36
-  constexpr double middle = 0.6, most_in_middle = 0.03;
+  // mutant: opening-sectors
+  constexpr std::size_t fewest_sectors = 20;             // of 36
+  constexpr double middle = 0.6, most_in_middle = 0.03;  // mutant: opening-middle
   const auto [top, upper] = upper_end_of(object, depth * voxel);
   if (upper.size() < fewest) return std::nullopt;
   std::vector<Eigen::Vector2d> rim = upper;
@@ -72,13 +73,14 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
     return object[k].z() + (object[k].head<2>() - circle.centre).norm();
   };
   for (std::size_t k = 1; k < object.size(); ++k)
-    if (cost(k) < cost(lowest)) lowest = k;
+    if (cost(k) < cost(lowest)) lowest = k;  // mutant: opening-lowest
   return Opening{circle, top, numbers[lowest]};
 }
 
 }  // namespace
 
 bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel) {
+  // mutant: opening-bottom
   constexpr double below = 0.05, reach = 0.5;  // metres
   const double height = plane.signed_distance(point[0], point[1], point[2]);
   return height >= -below && height <= plane.signed_distance(voxel[0], voxel[1], voxel[2]) &&
@@ -126,6 +128,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
         return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();
       };
       // The ray enters through the opening and does not leave through a gap in the wall.
+      // mutant: opening-gaps
       if (from_axis(opening.height) >= of_radius * opening.circle.radius ||
           from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||
           !may_be_in_opening(plane, {q[0], q[1], q[2]}, place_of(opening.voxel)))

@@ -71,6 +71,7 @@ class CloudPart {
   /// The parts that it contains, ascending, and the parts that are still missing.
   const std::vector<int>& present() const;
   std::vector<int> missing() const;
+  // mutant: cloud-whole
   bool is_whole() const { return present().size() == static_cast<std::size_t>(parts()); }
   /// The number of points of the entire cloud, and the number of coordinates of each.
   Index points() const;

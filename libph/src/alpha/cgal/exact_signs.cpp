@@ -28,7 +28,7 @@ bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site) {
     const CGAL::Bounded_side found = others.size() == 1   ? CGAL::ON_UNBOUNDED_SIDE
                                      : others.size() == 2 ? side(p(0), p(1), q)
                                                           : side(p(0), p(1), p(2), q);
-    return found == CGAL::ON_BOUNDED_SIDE;
+    return found == CGAL::ON_BOUNDED_SIDE;  // mutant: alpha-on-sphere
   }
   const auto weighted = [](const WeightedSite& s) {
     return Kernel::Weighted_point_3(point_of(s.point), s.weight);
@@ -39,7 +39,7 @@ bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site) {
   const CGAL::Bounded_side found = others.size() == 1   ? side(p(0), q)
                                    : others.size() == 2 ? side(p(0), p(1), q)
                                                         : side(p(0), p(1), p(2), q);
-  return found == CGAL::ON_BOUNDED_SIDE;
+  return found == CGAL::ON_BOUNDED_SIDE;  // mutant: alpha-on-orthosphere
 }
 
 bool are_collinear(const std::array<Vector<double>, 3>& points) {
@@ -59,7 +59,7 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
       squared_radius<Number>(std::span(points).first(sites.size()), std::span(weights));
   // An infinite value would never enter.
   constexpr double largest = std::numeric_limits<double>::max();
-  if (radius > Number(largest)) return largest;
+  if (radius > Number(largest)) return largest;  // mutant: alpha-infinite-radius
   return CGAL::to_double(radius);
 }
 

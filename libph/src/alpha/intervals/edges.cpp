@@ -48,6 +48,7 @@ std::size_t keep_first(std::span<Found> of_vertex, const Images* images) {
   std::size_t kept = 0;
   for (const Found found : of_vertex) {
     const auto is_same = [&](Found other) {
+      // mutant: alpha-same-edge
       return images == nullptr ||
              translation_of(*images, frame_of(*images, cell_of(other), edge_of(other))) ==
                  translation_of(*images, frame_of(*images, cell_of(found), edge_of(found)));
@@ -55,7 +56,7 @@ std::size_t keep_first(std::span<Found> of_vertex, const Images* images) {
     bool is_new = true;
     for (std::size_t i = kept; is_new && i-- > 0 && larger_end(of_vertex[i]) == larger_end(found);)
       is_new = !is_same(of_vertex[i]);
-    if (is_new) of_vertex[kept++] = found;
+    if (is_new) of_vertex[kept++] = found;  // mutant: alpha-new-edge
   }
   return kept;
 }

@@ -56,7 +56,7 @@ struct NumberedEdges {
     constexpr std::uint32_t few = 16;
     while (last - first > few) {
       const std::uint32_t middle = first + (last - first) / 2;
-      (ends[middle][1] < larger ? first : last) = middle;
+      (ends[middle][1] < larger ? first : last) = middle;  // mutant: alpha-find-edge
     }
     while (ends[first][1] < larger) ++first;
     return first;

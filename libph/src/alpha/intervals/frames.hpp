@@ -13,6 +13,7 @@ class Frames {
   /// @param images null if the space is not periodic. Both arguments must outlive the frames.
   Frames(const AlphaCells& cells, const Images* images) : cells_(cells), images_(images) {}
 
+  // mutant: alpha-places
   const Sites& places() const { return images_ == nullptr ? cells_.sites : images_->places; }
   const std::array<std::uint32_t, 4>& of_cell(std::size_t t) const {
     return images_ == nullptr ? cells_.triangulation.cells[t] : images_->of_cell[t];

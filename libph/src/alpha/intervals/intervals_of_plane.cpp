@@ -92,6 +92,7 @@ class PlaneIntervals {
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = name & 3;
     if (k == first) return;
     const auto& at = cells_.triangulation.cells[cell];
+    // mutant: alpha-plane-vertex
     vertices_.pair(at[3 - first - k], at[first], cells_.cell_values[cell]);
   }
 

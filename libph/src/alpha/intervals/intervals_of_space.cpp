@@ -79,7 +79,7 @@ class SpaceIntervals {
     const bool is_in_second = other != kNone && cells_.belongs_to(other);
     assert(!(is_in_first && is_in_second));  // the centres lie on one side
     if (is_in_first || is_in_second) return give_to_tetrahedron(is_in_first ? code : other);
-    if (beyond == 0) {
+    if (beyond == 0) {  // mutant: alpha-obtuse
       critical_[cell].push_back({spheres_.triangle_radius(a, b, c), code});
       return;
     }
@@ -89,7 +89,7 @@ class SpaceIntervals {
     pair_edge(cells_.edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code,
               value);
     if (const unsigned rest = beyond & (beyond - 1); rest != 0) {
-      const unsigned vertex = 3 - first - lowest(rest);
+      const unsigned vertex = 3 - first - lowest(rest);  // mutant: alpha-triangle-vertex
       pair_vertex(cells_.triangulation.cells[cell][places[vertex]],
                   cells_.edge_between(cell, places[vertex], places[first]), value, code);
     }
@@ -98,6 +98,7 @@ class SpaceIntervals {
   // @param code a facet in the interval of the tetrahedron that names it.
   void give_to_tetrahedron(uint32_t code) {
     const uint32_t cell = code >> 2;
+    // mutant: alpha-facet-of-edge
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
     const double value = cells_.cell_values[cell];
     if (k != first) {  // paired with the edge that lacks both vertices
@@ -105,7 +106,7 @@ class SpaceIntervals {
       pair_edge(cells_.edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
       return;
     }
-    if (std::popcount(beyond) < 3) return;
+    if (std::popcount(beyond) < 3) return;  // mutant: alpha-tetrahedron-vertex
     const unsigned vertex = lowest(0b1111U & ~beyond);
     pair_vertex(cells_.triangulation.cells[cell][vertex], cells_.edge_between(cell, vertex, first),
                 value, code);
@@ -131,7 +132,7 @@ class SpaceIntervals {
       state = {sphere.squared_radius, kCritical};
       return;
     }
-    pair_vertex(sphere.beyond == 1 ? b : a, e, sphere.squared_radius);
+    pair_vertex(sphere.beyond == 1 ? b : a, e, sphere.squared_radius);  // mutant: alpha-edge-vertex
   }
 
   AlphaCells& cells_;

@@ -69,7 +69,7 @@ class VertexIntervals {
   void finish() {
     for (std::size_t v = 0; v < cells_.vertex_values.size(); ++v) {
       assert(is_late_[v] == (cells_.vertex_up[v] != kCritical));
-      if (cells_.vertex_up[v] == kCritical)
+      if (cells_.vertex_up[v] == kCritical)  // mutant: alpha-late-vertex
         cells_.vertex_values[v] = -cells_.sites.weights[v] + 0.0;
     }
   }

@@ -24,7 +24,7 @@ class PlaneRepair {
       if (cells_.dim() == 1)
         look_at_edges();
       else
-        look_at_triangles();
+        look_at_triangles();  // mutant: alpha-repair-plane
     } while (is_changed_);
   }
 
@@ -96,7 +96,8 @@ class SpaceRepair {
   void run() {
     do {
       is_vertex_raised_ = false;
-      if (cells_.sites.is_weighted()) look_at_vertices();
+      if (cells_.sites.is_weighted()) look_at_vertices();  // mutant: alpha-repair-vertices
+      // mutant: alpha-repair
       for (const uint32_t code : facets_out_of_order()) look_at_facet(code);
       follow();
     } while (is_vertex_raised_);
@@ -253,7 +254,7 @@ class SpaceRepair {
         is_vertex_raised_ = true;
       }
     });
-    raised_.push_back(interval);
+    raised_.push_back(interval);  // mutant: alpha-repair-raised
   }
   void set_critical(uint32_t code, double value) {
     const auto at = critical_facet(cells_, code) - cells_.facets.data();

@@ -36,7 +36,7 @@ std::uint8_t Spheres::signs(const std::array<double, N>& values, double bound,
   std::uint8_t negative = 0;
   for (std::size_t k = 0; k < N; ++k) {
     if (values[k] > bound) continue;
-    if (values[k] < -bound || lies_inside(face, N, k))
+    if (values[k] < -bound || lies_inside(face, N, k))  // mutant: alpha-beyond-facet
       negative = static_cast<std::uint8_t>(negative | 1U << k);
   }
   return negative;
@@ -68,11 +68,12 @@ double Spheres::careful_radius(const Faces& face, std::size_t count) const {
   // A tetrahedron may be flat, or small compared with its weights; enough of the 106 bits must be
   // left for a double.
   const Vector<DoubleDouble> u = points[0], v = points[1], normal = cross(u, v);
+  // mutant: alpha-edge-size
   const double size = count == 4   ? std::abs(dot(normal, points[2]).high())
                       : count == 3 ? std::sqrt(dot(normal, normal).high())
                                    : std::sqrt(dot(u, u).high());
   constexpr double flattest = 0x1p-40;
-  if (size > flattest) {
+  if (size > flattest) {  // mutant: alpha-very-flat
     const DoubleDouble radius = squared_radius<DoubleDouble>(
         std::span(points).first(count), std::span<const DoubleDouble>(weights));
     return std::ldexp(radius.high(), 2 * exponent);
@@ -96,6 +97,7 @@ Sphere Spheres::of_edge(uint32_t a, uint32_t b) const {
   const double bound = 1e-15 * (squared + std::abs(difference)) + kTiny;
   Sphere sphere;
   sphere.beyond = signs<2>({at_a, at_b}, bound, {a, b});
+  // mutant: alpha-underflow
   sphere.squared_radius = squared > kSmall ? at_b * at_b / (4 * squared) - sites_.weights[a]
                                            : careful_radius({a, b}, 2);
   return sphere;
@@ -108,7 +110,7 @@ std::uint8_t Spheres::beyond_triangle(uint32_t a, uint32_t b, uint32_t c) const 
     // One angle is obtuse.
     const P w = r - q;
     const double at_a = dot(u, v), at_b = -dot(u, w), at_c = dot(v, w);
-    const double bound = 2e-15 * (dot(u, u) + dot(v, v)) + kTiny;
+    const double bound = 2e-15 * (dot(u, u) + dot(v, v)) + kTiny;  // mutant: alpha-angle-bound
     return signs<3>({at_a, at_b, at_c}, bound, {a, b, c});
   }
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
@@ -119,6 +121,7 @@ std::uint8_t Spheres::beyond_triangle(uint32_t a, uint32_t b, uint32_t c) const 
   const double at_a = 2 * (uu * vv - uv * uv) - at_b - at_c;
   const double longest = std::max(uu, vv);
   const double lifted = longest + std::max(std::abs(from_b), std::abs(from_c));
+  // mutant: alpha-triangle-bound
   return signs<3>({at_a, at_b, at_c}, 4e-14 * longest * lifted + kTiny, {a, b, c});
 }
 
@@ -166,12 +169,13 @@ Sphere Spheres::of_tetrahedron(const std::array<uint32_t, 4>& cell) const {
             uu * vw.z + vv * wu.z + ww * uv.z};
   const double at_a = dot(n, vw), at_b = dot(n, wu), at_c = dot(n, uv);
   const double det2 = det * det;
-  const double at_d = 2 * det2 - (at_a + at_b + at_c);
+  const double at_d = 2 * det2 - (at_a + at_b + at_c);  // mutant: alpha-last-vertex
+  // mutant: alpha-tetrahedron-bound
   const double bound = 8e-14 * lifted * longest * longest + kTiny;
   Sphere sphere;
   sphere.beyond = signs<4>({at_a, at_b, at_c, at_d}, bound, cell);
   constexpr double flat = 0x1p-20;
-  if (det2 < flat * longest * longest * longest || det2 < kSmall)
+  if (det2 < flat * longest * longest * longest || det2 < kSmall)  // mutant: alpha-flat
     sphere.squared_radius = careful_radius(cell, 4);
   else
     sphere.squared_radius = dot(n, n) / (4 * det2) - weight;

@@ -73,7 +73,7 @@ class AlphaBars {
     if (birth == death) return false;
     Bar bar{dim, alpha_.to_value(birth), alpha_.to_value(death)};
     if (bar.birth > alpha_.threshold()) return false;
-    if (bar.death > alpha_.threshold()) bar.death = kInfinity;
+    if (bar.death > alpha_.threshold()) bar.death = kInfinity;  // mutant: alpha-death-limit
     return add(bar, born, killer);
   }
   template <class Born>
@@ -85,7 +85,7 @@ class AlphaBars {
   /// Adds a term to the cycle of the bar that was kept last.
   void add_term(const Simplex& simplex, std::int64_t coefficient) {
     const bool is_odd = append(simplex, numbers_);
-    coefficients_.push_back(is_odd ? -coefficient : coefficient);
+    coefficients_.push_back(is_odd ? -coefficient : coefficient);  // mutant: alpha-input-sign
   }
   /// @param is_z2 true if coefficients have no sign.
   void finish_cycle(bool is_z2) {

@@ -22,11 +22,11 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
         const auto& ends = cells.edges.ends[up];
         up = ends[0] == v ? ends[1] : ends[0];
       }
-      sets.link(v, sets.find(up));
+      sets.link(v, sets.find(up));  // mutant: alpha-late-component
     }
   const auto is_older = [&](std::uint32_t u, std::uint32_t v) {
     const double a = cells.vertex_value(u), b = cells.vertex_value(v);
-    return a != b ? a < b : u < v;
+    return a != b ? a < b : u < v;  // mutant: alpha-elder
   };
   std::size_t left = sites;  // number of components
   for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;

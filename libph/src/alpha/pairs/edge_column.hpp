@@ -106,7 +106,7 @@ class EdgeColumn {
     const std::array<std::uint32_t, 3> edges = cells_.facet_edges(facet);
     // The incidences are 1, -1 and 1.
     bool is_negative = false;
-    if (without != kNone) is_negative = edges[1] != without;
+    if (without != kNone) is_negative = edges[1] != without;  // mutant: alpha-step-sign
     for (std::size_t i = 0; i < 3; ++i)
       if (edges[i] != without)
         add(edges[i], is_negative != (i == 1) ? field_.negate(coefficient) : coefficient);

@@ -86,6 +86,7 @@ class EdgeForest {
       if (field_.is_zero(sum.amount) || e == kNone) continue;
       // Moves the boundary at this vertex to the other end of the edge.
       const bool goes_up = cells_.edges.ends[e][0] == sum.vertex;
+      // mutant: alpha-cycle-sign
       chain.push_back({e, goes_up ? sum.amount : field_.negate(sum.amount)});
       heap_.push_back(at(other_end(e, sum.vertex), sum.amount));
       std::ranges::push_heap(heap_, before);

@@ -32,7 +32,7 @@ class Hollows {
       rings_.emplace(outside_ + std::size_t{1}, &context.memory);
     for (std::uint32_t t = 0; t < outside_; ++t)
       if (const unsigned beyond = cells.beyond[t]; beyond != 0)
-        link(t, sets_.find(node_across(4 * t + lowest(beyond))));
+        link(t, sets_.find(node_across(4 * t + lowest(beyond))));  // mutant: alpha-dual-interval
   }
 
   /// @param facets critical facets, by their position in AlphaCells::facets.
@@ -49,7 +49,7 @@ class Hollows {
       if (i >= 3 * ahead)
         prefetch(facets[i - 3 * ahead].code, facets[i - 2 * ahead].code, facets[i - ahead].code);
       if (!is_free(i)) continue;
-      const std::uint32_t code = facets[i].code;
+      const std::uint32_t code = facets[i].code;  // mutant: alpha-dual-order
       std::uint32_t elder = sets_.find(code >> 2), younger = sets_.find(node_across(code));
       if (elder == younger) continue;
       if (enters_later(younger, elder)) std::swap(elder, younger);
@@ -58,18 +58,19 @@ class Hollows {
       link(younger, elder);
     }
     const std::uint32_t last = sets_.find(0);
-    if (last != sets_.find(outside_) && bars_.wants(cells_.dim()))
+    if (last != sets_.find(outside_) && bars_.wants(cells_.dim()))  // mutant: alpha-torus
       bars_.essential(cells_.dim(), value(last), [&] { return cell_simplex(cells_, last); });
   }
 
  private:
   double value(std::uint32_t node) const {
+    // mutant: alpha-dual-outside
     return node == outside_ ? std::numeric_limits<double>::infinity() : cells_.cell_values[node];
   }
   // The dual filtration goes from young to old.
   bool enters_later(std::uint32_t a, std::uint32_t b) const {
     const double x = value(a), y = value(b);
-    return x != y ? x > y : a > b;
+    return x != y ? x > y : a > b;  // mutant: alpha-dual-elder
   }
   std::uint32_t node_across(std::uint32_t code) const {
     const std::uint32_t other = cells_.across(code);
@@ -110,7 +111,7 @@ class Hollows {
     return is_negative ? -sign(facet >> 2) : sign(facet >> 2);
   }
   std::int64_t sign(std::uint32_t cell) const {
-    return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;
+    return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;  // mutant: alpha-hollow-sign
   }
   /// The sign that gives the facet of the birth the coefficient 1.
   std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {

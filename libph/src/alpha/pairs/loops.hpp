@@ -87,7 +87,7 @@ class Loops {
     while (const std::optional<Term> pivot = chain.take_pivot()) {
       const std::atomic_ref owner(owners_[pivot->cell.edge]);
       const KeptColumn* other = owner.load(std::memory_order_acquire);
-      if (other == nullptr || column < other->number()) {
+      if (other == nullptr || column < other->number()) {  // mutant: alpha-pivot-taken
         const KeptColumn* const kept =
             worker.kept.keep(column, facet, pivot->coefficient(), chain.terms());
         while ((other == nullptr || column < other->number()) &&
@@ -104,7 +104,7 @@ class Loops {
           other->below());
     }
     const std::lock_guard lock(mutex_);
-    essential_.push_back(facet);
+    essential_.push_back(facet);  // mutant: alpha-essential-facet
   }
   /// By edge: the critical facet that kills its class, or kNone.
   std::pmr::vector<std::uint32_t> killers() const {
@@ -127,7 +127,7 @@ class Loops {
     for (std::uint32_t e = 0; e < killer_of.size(); ++e) {
       ticker.tick();
       if (killer_of[e] == kNone) {
-        if (cells_.is_periodic) report_essential_edge(e, bars);
+        if (cells_.is_periodic) report_essential_edge(e, bars);  // mutant: alpha-essential-edge
         continue;
       }
       const CriticalFacet& killer = cells_.facets[killer_of[e]];

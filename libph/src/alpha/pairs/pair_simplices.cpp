@@ -22,6 +22,7 @@ void pair_plane(const AlphaCells& cells, const K& field, const RunContext& conte
   SimplexSet is_paired(edges.size(), false, &context.memory);
   pair_components(cells, edges, field, context, bars, [&](std::size_t i) { is_paired[i] = true; });
   if (wants_hollows)
+    // mutant: alpha-plane-loops
     Hollows<K>(cells, field, context, bars)
         .run(
             edges, [&](std::size_t i) { return !is_paired[i]; },

@@ -68,7 +68,7 @@ Folded fold_points(PointsView points, std::span<const double> weights,
   const double unit = unit_of(box.size);
   for (std::size_t axis = 0; axis < axes; ++axis) {
     if (period[axis] == 0) continue;
-    const double length = box.period[axis] = rounded(period[axis], unit);
+    const double length = box.period[axis] = rounded(period[axis], unit);  // mutant: alpha-period
     if (length == 0)
       throw Error(ErrorKind::bad_data,
                   fmt::format("period of axis {}: found {:g} in a box of size {:g}, expected one "
@@ -78,7 +78,7 @@ Folded fold_points(PointsView points, std::span<const double> weights,
       double& x = folded.points(i, static_cast<Index>(axis));
       if (!std::isfinite(x)) continue;
       x = rounded(std::fmod(x, length), unit);  // std::fmod is exact
-      if (x < 0) x += length;
+      if (x < 0) x += length;                   // mutant: alpha-fold
       if (x >= length) x -= length;
     }
   }

@@ -74,7 +74,7 @@ class Quotient {
     result_.dim = unrolled_.dim;
     for (uint32_t t = 0; t < unrolled_.size(); ++t) {
       const Cell& cell = unrolled_.cells[t];
-      if (home(cell) != 0) continue;
+      if (home(cell) != 0) continue;  // mutant: alpha-home
       number_[t] = static_cast<uint32_t>(kept_.size());
       kept_.push_back(t);
       Cell sites{kNone, kNone, kNone, kNone};
@@ -96,6 +96,7 @@ class Quotient {
     for (uint32_t n = begin_[site]; n < begin_[site + 1]; ++n) {
       bool is_same = true;
       for (std::size_t i = 0; i < size_; ++i)
+        // mutant: alpha-same-cell
         is_same = is_same && result_.cells[n][i] == images_.site[cell[i]] &&
                   translation(of_cell_[n][i]) == translation(cell[i]) - from;
       if (is_same) return n;
@@ -132,7 +133,7 @@ class Quotient {
       for (std::size_t k = 0; k < size_; ++k) {
         const uint32_t code = unrolled_.across[kept_[n]][k];
         if (code == kNone) {
-          if (!is_along_closed_axes(kept_[n], k)) return false;
+          if (!is_along_closed_axes(kept_[n], k)) return false;  // mutant: alpha-closed-axes
           continue;
         }
         const uint32_t other = number_of(code >> 2);

@@ -35,7 +35,7 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   std::vector<std::array<Index, 3>> singular;
   const auto triangle_of = [&](uint32_t a, uint32_t b, uint32_t c, bool is_turned) {
     const auto& input = cells.sites.input;
-    if (is_turned) std::swap(b, c);
+    if (is_turned) std::swap(b, c);  // mutant: alpha-turned
     return std::array<Index, 3>{input[a], input[b], input[c]};
   };
   const auto count = static_cast<uint32_t>(cells.triangulation.size());
@@ -115,7 +115,7 @@ class Wrap {
     if (has_edge_[e]) return;
     has_edge_[e] = true;
     const uint32_t up = cells_.edge_states[e].up;
-    if (up < kUnknown) return add_facet(up);
+    if (up < kUnknown) return add_facet(up);  // mutant: alpha-wrap
     if (up != kJoins) return;
     for (const uint32_t v : cells_.edges.ends[e])
       if (cells_.vertex_up[v] == e && cells_.vertex_facet[v] != kNone)

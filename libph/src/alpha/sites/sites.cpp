@@ -59,7 +59,7 @@ double largest_magnitude(PointsView points, std::span<const double> weights) {
 /// Multiplies by 2^-exponent. @throws Error (bad_data) unless the result is exact.
 double scaled(double x, int exponent, Index point) {
   const double result = times_power_of_two(x, -exponent) + 0.0;  // turns -0 into 0
-  if (times_power_of_two(result, exponent) != x)
+  if (times_power_of_two(result, exponent) != x)                 // mutant: alpha-bits-lost
     throw Error(ErrorKind::bad_data,
                 fmt::format("point {}: found {:g} beside numbers about as large as 2^{}, expected "
                             "magnitudes that doubles can square",
@@ -141,9 +141,9 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
   const auto precedes = [&](const Placed& a, const Placed& b) {
     if (a.place != b.place) return a.place < b.place;
     const Vector<double>&p = scaled_points[a.point], &q = scaled_points[b.point];
-    if (p != q) return lexicographically_before(p, q);
+    if (p != q) return lexicographically_before(p, q);  // mutant: alpha-curve-tie
     const double v = weight_of(a.point), w = weight_of(b.point);
-    return v != w ? v > w : a.point < b.point;
+    return v != w ? v > w : a.point < b.point;  // mutant: alpha-lightest
   };
   for (std::size_t begin = 0, end; begin < count; begin = end) {
     const std::uint64_t place = order[begin].place >> 11;
@@ -158,7 +158,7 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
   if (!weights.empty()) sites.weights.reserve(count);
   for (const Placed& placed : order) {
     const Vector<double>& p = scaled_points[placed.point];
-    if (!sites.points.empty() && sites.points.back() == p) {
+    if (!sites.points.empty() && sites.points.back() == p) {  // mutant: alpha-copies
       sites.copies.push_back({placed.point, static_cast<std::uint32_t>(sites.size() - 1)});
       continue;
     }

@@ -15,7 +15,7 @@ T squared_radius(std::span<const Vector<T>> points, std::span<const T> weights) 
   const Vector<T>& origin = points.back();
   const T& weight = weights[points.size() - 1];
   const auto lifted = [&](std::size_t i, const Vector<T>& to) -> T {
-    return dot(to, to) - weights[i] + weight;
+    return dot(to, to) - weights[i] + weight;  // mutant: alpha-lift
   };
   const Vector<T> u = points[0] - origin;
   const T a = lifted(0, u);

@@ -16,6 +16,7 @@ Triangulation triangulate(const Sites& sites, const RunContext& context) {
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden) {
   // Among copies, the heaviest one hides the others.
+  // mutant: alpha-hidden-copies
   for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
   sites.copies.clear();
   std::pmr::vector<std::uint32_t> number(sites.size(), kNone, hidden.get_allocator());
@@ -25,7 +26,7 @@ void remove_hidden(Sites& sites, Triangulation& triangulation,
   std::uint32_t kept = 0;
   for (std::uint32_t site = 0; site < number.size(); ++site) {
     if (number[site] == kNone) {
-      hidden.push_back(sites.input[site]);
+      hidden.push_back(sites.input[site]);  // mutant: alpha-hidden
       continue;
     }
     number[site] = kept;

@@ -63,6 +63,7 @@ std::string_view kind_of_part(std::span<const std::byte> bytes) {
     refuse(fmt::format("found {} bytes of content, expected {}: it is incomplete", rest, size));
   ByteReader end(bytes.last(kChecksumSize), "part");
   const auto expected = end.get<std::uint32_t>("checksum");
+  // mutant: part-checksum
   if (const std::uint32_t found = crc32(bytes.first(bytes.size() - kChecksumSize));
       found != expected)
     refuse(fmt::format("found checksum {:08x}, expected {:08x}: it is damaged", found, expected));

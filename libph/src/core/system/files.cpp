@@ -43,7 +43,7 @@ std::filesystem::path fresh_name(const std::filesystem::path& folder) {
 
 std::optional<Status> status_of(const std::filesystem::path& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;  // mutant: file-link
   return from(status);
 }
 
@@ -166,6 +166,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
 bool take_mode(int file, const std::filesystem::path& of) {
   struct stat status {};
   // Excludes the bits that set an ID, because they were granted to the old content.
+  // mutant: output-mode
   if (::stat(of.c_str(), &status) != 0 || ::fchmod(file, status.st_mode & 0777) != 0) return false;
   if (::fchown(file, status.st_uid, status.st_gid) != 0)
     static_cast<void>(!::fchown(file, static_cast<uid_t>(-1), status.st_gid));

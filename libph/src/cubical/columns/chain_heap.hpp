@@ -35,7 +35,7 @@ class ChainHeap {
     std::size_t place = terms_.size();
     append(terms_);
     if (terms_.size() > most_) {
-      consolidate();
+      consolidate();  // mutant: chain-long
       return;
     }
     for (; place < terms_.size(); ++place) sift_up(place);
@@ -67,7 +67,7 @@ class ChainHeap {
   /// @return the pivot; all other cells are older.
   template <class Replace>
   std::optional<Term> follow(const Term& pivot, std::size_t most, Replace&& replace) {
-    stay_.assign(1, pivot);
+    stay_.assign(1, pivot);  // mutant: chain-pivot-stays
     while (most > 0) {
       const std::optional<Term> youngest = take();
       if (!youngest) break;
@@ -77,7 +77,7 @@ class ChainHeap {
         stay_.push_back(*youngest);
     }
     add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
-    return take_pivot(replace);
+    return take_pivot(replace);  // mutant: chain-replace
   }
   /// The terms that it holds, each cell once, from young to old; this order is also a heap.
   std::span<const Term> consolidate() {

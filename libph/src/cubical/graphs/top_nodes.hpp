@@ -170,7 +170,7 @@ bool TopNodes<Grid, most>::is_cell(std::uint32_t node) const {
 template <class Grid, std::size_t most>
 std::optional<double> TopNodes<Grid, most>::seam_value(std::uint32_t node) const {
   std::optional<double> youngest;
-  if (!is_cell(node)) return youngest;
+  if (!is_cell(node)) return youngest;  // mutant: seam-cell
   for_each_corner(node, [&](std::uint32_t v, const Way&) {
     // In the T-construction, cells that never enter were always there.
     if (grid_.enters(v) || !grid_.is_t_construction())

@@ -29,6 +29,7 @@ class LayerGrid : public SlabFrame {
   /// @param u kOutside stands for a voxel of the border, which exists only in the T-construction.
   bool is_older(std::uint32_t u, std::uint32_t v) const {
     if (u == kOutside) return is_t_construction();
+    // mutant: many-axes-tie
     return comes_before(u, v) ? values_[u] <= values_[v] : values_[u] < values_[v];
   }
 
@@ -45,7 +46,7 @@ class LayerGrid : public SlabFrame {
     /// Orders the steps along an axis like the cells that they lead to in the grid.
     /// @param step 0 (none), 1 (down), 2 (up).
     unsigned order(int axis, unsigned step) const {
-      constexpr std::array<unsigned, 3> plain{1, 0, 2}, wrapped{1, 3, 2};
+      constexpr std::array<unsigned, 3> plain{1, 0, 2}, wrapped{1, 3, 2};  // mutant: many-axes-ring
       return (wrapped_ >> axis & 1U) != 0 ? wrapped[step] : plain[step];
     }
 

@@ -79,7 +79,7 @@ void TopStar::find_cells(std::uint32_t v, const LayerGrid::Steps& steps) {
         bool is_in = true;
         for (std::size_t j = 0; j < shape.steps; ++j)
           is_in = is_in && is_in_[shape.without[j]] != 0;
-        if (!is_in) continue;
+        if (!is_in) continue;  // mutant: many-axes-faces
         const std::uint32_t far = steps.from(cells_[i].far, a, up);
         if (!grid_.is_older(far, v)) continue;
         is_in_[code] = 1;
@@ -111,6 +111,7 @@ void TopStar::join_by_facet(std::uint32_t v, std::uint32_t code, FoundLinks& fou
   std::uint32_t side = low, other = low | 1U << normal;
   std::uint32_t dies = find(side), stays = find(other);
   if (dies == stays) return;
+  // mutant: many-axes-stays
   if (is_new_[dies] == 0 || (is_new_[stays] != 0 && age_[dies] > age_[stays])) {
     std::swap(dies, stays);
     std::swap(side, other);

@@ -191,7 +191,7 @@ class Representing {
       add_merge(tree, merge, [&](Rep& rep) {
         if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
         // All existing voxels are in the way, and none lies towards an end.
-        if (rep.voxels.begin != rep.voxels.end) return;
+        if (rep.voxels.begin != rep.voxels.end) return;  // mutant: voxels-of-hollow
         separating().append(merge.dies, rep.chain);
       });
     }

@@ -37,6 +37,7 @@ class RepresentedPairs {
   RepresentedPairs& operator=(const RepresentedPairs&) = delete;
 
   bool wants_sets() const { return kind_ == Representatives::voxels; }
+  // mutant: voxels-of-circle
   /// True if hollows are wanted as sets. If an axis with one voxel closes up, a surface around
   /// something also goes around that axis, which a set could not express.
   bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }

@@ -47,6 +47,7 @@ class PartLayout {
   int part_of(std::uint64_t layer) const {
     const std::uint64_t of_input = from_end_ ? layers_ - 1 - layer : layer;
     if (first_layers_.empty()) return static_cast<int>(((of_input + 1) * parts_ - 1) / layers_);
+    // mutant: part-first-layer
     return static_cast<int>(std::ranges::upper_bound(first_layers_, of_input) -
                             first_layers_.begin()) -
            1;

@@ -164,6 +164,7 @@ bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& c
   // Expanding visible cells costs about as much as sending the rest, but no column may take
   // forever. An edge whose pair was invisible may be replaced by an edge of this part.
   constexpr std::size_t few = 64, times = 4;
+  // mutant: column-goes
   if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));
   if (is_here()) return false;
   const std::span<const Term> below = pivot ? chain.consolidate() : std::span<const Term>();

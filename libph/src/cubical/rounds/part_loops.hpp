@@ -30,7 +30,7 @@ class PartLoops {
   struct Ages {
     const std::pmr::vector<LoopSquare>* squares;
     bool is_older(std::uint32_t a, std::uint32_t b) const {
-      return LoopSquare::precedes((*squares)[a], (*squares)[b]);
+      return LoopSquare::precedes((*squares)[a], (*squares)[b]);  // mutant: square-order
     }
   };
   using Reduction = ParallelReduction<K, Chain, Ages>;
@@ -70,6 +70,7 @@ class PartLoops {
   std::uint64_t columns_sent = 0, columns_received = 0;
 
  private:
+  // mutant: ghosts-ready
   bool is_ready() const { return reduction_.has_value() && layers_missing_ == 0; }
   void take_edges(std::pmr::vector<GridCell>& edges);
   void take_squares(const std::pmr::vector<GridCell>& squares);

@@ -37,7 +37,7 @@ class PartStars : public StarGrid {
   bool sees_square(std::uint32_t v, int square) const {
     if (!is_ghost(v)) return true;
     const int away = kSquares[square][layer_axis()];
-    return is_before(v) ? away >= 0 : away <= 0;
+    return is_before(v) ? away >= 0 : away <= 0;  // mutant: ghost-squares
   }
   std::uint64_t in_whole(std::uint32_t v) const {
     const std::uint64_t voxel = first_ + v;  // modulo 2^64
@@ -46,7 +46,7 @@ class PartStars : public StarGrid {
   }
   const StarTables& tables(std::uint32_t v) const {
     // The first layer of a ring may be a ghost here.
-    if (slab().is_in_ring && is_ghost(v) && in_whole(v) < layer_size())
+    if (slab().is_in_ring && is_ghost(v) && in_whole(v) < layer_size())  // mutant: ghost-of-ring
       return star_tables(wrapped(v) | 1U << layer_axis());
     return StarGrid::tables(v);
   }

@@ -28,7 +28,7 @@ void LayerPairs::take(std::optional<Forest>& all, Forest next, bool comes_before
   } else {
     all.emplace(std::move(next));
   }
-  if (is_ring() && has_begin && has_end) all->close_ring();
+  if (is_ring() && has_begin && has_end) all->close_ring();  // mutant: part-ring
 }
 
 template <class Forest, class Grid, class Graph>
@@ -92,7 +92,7 @@ void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs, Free
   check_seams(others, come_before);
   has_begin = has_begin || others.has_begin;
   has_end = has_end || others.has_end;
-  around.join(others.around);
+  around.join(others.around);  // mutant: part-edges-left
   if (graphs_.vertices) {
     take(vertices, std::move(*others.vertices), come_before);
     settle_vertices(pairs, free);
@@ -118,6 +118,7 @@ void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
           pairs.pair(0, voxel(*dies), edge(bridge));
       },
       [&](const SeamBridge& bridge) {
+        // mutant: slab-circle
         if (grid_.top_dim() == 1) pairs.essential(1, edge(bridge));  // around a circle
         if (free != nullptr) free->add_edge(bridge.cell);
         if (may_have_neither_) around.meet(bridge.value, bridge.cell);

@@ -72,6 +72,7 @@ class SeamForest {
   /// True if `next` may come right after: both seams agree about their nodes.
   bool is_before(const SeamForest& next) const {
     const auto counts = [](std::uint32_t root) { return root != Seam::kNone; };
+    // mutant: seam-compared
     return after.is_open() && after.values == next.before.values &&
            std::ranges::equal(after.roots, next.before.roots, {}, counts, counts);
   }
@@ -205,7 +206,7 @@ class SeamForest {
 
   static int age_of(const SeamRoot& root) {
     if (root.kind == Kind::outer) return 0;
-    return (root.kind == Kind::critical) == backwards ? 2 : 1;
+    return (root.kind == Kind::critical) == backwards ? 2 : 1;  // mutant: seam-age
   }
   // kNever is not a value of a cell.
   static double finite(double value) {
@@ -273,7 +274,7 @@ class SeamForest {
   // By root: the value from which on it is connected to a node that other layers share.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
-    for (const Seam* const seam : {&before, &after})
+    for (const Seam* const seam : {&before, &after})  // mutant: seam-before
       for (std::size_t k = 0; k < seam->roots.size(); ++k) {
         const std::uint32_t root = seam->roots[k];
         if (root == Seam::kNone) continue;

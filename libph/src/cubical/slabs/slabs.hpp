@@ -79,7 +79,7 @@ class Slabs {
     if (part.is_in_file) {
       // The system also maps the surroundings of a page that is read, including pages of finished
       // slabs.
-      constexpr std::ptrdiff_t kMappedAround = 64 << 10;
+      constexpr std::ptrdiff_t kMappedAround = 64 << 10;  // mutant: slab-mapped
       const CubicalImage& all = image_.all();
       const auto* const begin_of_all = static_cast<const char*>(all.voxels);
       const auto* const voxels = static_cast<const char*>(part.voxels);

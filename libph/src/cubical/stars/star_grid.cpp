@@ -21,6 +21,7 @@ template <bool descending, bool absent_is_older>
 struct VoxelAges {
   template <class T>
   static bool is_older(T u, T v) {
+    // mutant: star-absent
     if constexpr (absent_is_older) return descending ? !(u <= v) : !(u >= v);
     return descending ? u > v : u < v;
   }
@@ -155,7 +156,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
   find(0);
   find(n - 1);
   // With one axis, ghosts are in the row, and may come from the other end.
-  if (layer_size() == 1 && slab().is_in_ring && n > 2) {
+  if (layer_size() == 1 && slab().is_in_ring && n > 2) {  // mutant: slab-one-axis
     find(1);
     find(n - 2);
   }
@@ -194,6 +195,7 @@ void StarGrid::find_stars(const T* voxels) {
   const double limit = grid_.limit;
   const bool some_may_not = std::is_floating_point_v<T> || limit < std::numeric_limits<int>::max();
   const auto enters = [&](T x) {
+    // mutant: star-threshold
     return (superlevel ? -static_cast<double>(x) : static_cast<double>(x)) <= limit;
   };
   struct Piece {
@@ -220,7 +222,7 @@ void StarGrid::find_stars(const T* voxels) {
             find_block<Ages>(voxels, block, stars);
           if (is_line)
             for (const std::uint32_t k : {0U, count - 1})
-              if (this->is_ghost(first + k)) stars[k] = 0;
+              if (this->is_ghost(first + k)) stars[k] = 0;  // mutant: slab-ghosts
           if (some_may_not) {
             const T* there = is_t_construction_ ? voxels + (size_ - first - count) : voxels + first;
             bool block_enters = true;

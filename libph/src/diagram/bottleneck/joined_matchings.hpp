@@ -64,6 +64,7 @@ class JoinedMatchings {
       at_matching = 1 - at_matching;
     }
     // A path with equally many pairs of each matching ends on the side where it began.
+    // mutant: bottleneck-pairs
     const std::size_t better =
         pairs[0].size() != pairs[1].size() ? (pairs[0].size() > pairs[1].size() ? 0U : 1U) : side;
     for (const auto& [a, b] : pairs[better]) partners_[a] = b;

@@ -193,10 +193,11 @@ void OneSidedMatching::pair_along(Number root, Number last, Position free) {
 
 double OneSidedMatching::least_way_out() {
   double bound = kInfinity;
+  // mutant: bottleneck-alone
   for (const Number a : nodes_) bound = std::min(bound, candidates_[a].to_diagonal);
   for (const Number a : nodes_) {
     ticker_.work();
-    bound = unseen_->nearest(candidates_[a].point, bound).distance;
+    bound = unseen_->nearest(candidates_[a].point, bound).distance;  // mutant: bottleneck-unseen
   }
   return bound;
 }

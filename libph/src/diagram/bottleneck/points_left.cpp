@@ -40,7 +40,7 @@ PointsLeft::Position PointsLeft::take_below(Node node, const Point& p, double ra
     const Position begin = tree_.begin(node);
     for (unsigned left = left_[node]; left != 0; left &= left - 1) {
       const Position q = begin + static_cast<Position>(std::countr_zero(left));
-      if (distance(p, tree_.point(q)) > radius) continue;
+      if (distance(p, tree_.point(q)) > radius) continue;  // mutant: bottleneck-radius
       left_[node] &= static_cast<std::uint8_t>(~(left & -left));
       return q;
     }
@@ -50,7 +50,7 @@ PointsLeft::Position PointsLeft::take_below(Node node, const Point& p, double ra
     if (left_[child] == 0 || tree_.distance_to_box(p, child) > radius) continue;
     const Position q = take_below(child, p, radius);
     if (q == kNone) continue;
-    left_[node] = left_[2 * node] | left_[2 * node + 1];
+    left_[node] = left_[2 * node] | left_[2 * node + 1];  // mutant: bottleneck-node
     return q;
   }
   return kNone;

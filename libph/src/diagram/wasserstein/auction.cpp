@@ -69,6 +69,7 @@ bool Auction::round(std::uint64_t most_bids) {
     if (y == kNone) continue;
     const double cost = assignment_.pair_cost(0, x, y);
     const double slack = cost - mine.prices.weight(x) - other.prices.weight(y);
+    // mutant: auction-part
     if (slack > increment_ + rounding_of(cost, mine.prices.weight(x))) assignment_.part(0, x);
   }
   for (const std::size_t k : {0U, 1U}) {
@@ -95,7 +96,7 @@ bool Auction::settle(std::size_t k, Position x) {
       mine.prices.set(x, alone);
       return true;
     }
-    const double price = std::min(second, alone);
+    const double price = std::min(second, alone);  // mutant: auction-alone
     const Position outbid = other.partner[y];
     mine.prices.set(x, price);
     const double cost = assignment_.pair_cost(k, x, y);

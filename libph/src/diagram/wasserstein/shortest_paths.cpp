@@ -52,7 +52,7 @@ class ShortestPaths {
     for (const Node& node : nodes_) {
       const double rise = step.length - node.length;
       mine_.prices.set(node.x, mine_.prices.weight(node.x) + rise);
-      if (node.y != kNone) other_.prices.set(node.y, node.price - rise);
+      if (node.y != kNone) other_.prices.set(node.y, node.price - rise);  // mutant: path-prices
     }
     change_pairs(step);
   }

@@ -117,7 +117,7 @@ class Comparison {
     const DistanceBounds found = bounds(costs);
     const bool is_enough =
         has_digits(costs) && (is_sure(costs) || diagram::is_enough(found, options_.limits));
-    return is_enough ? found : refined(unit.largest, found);
+    return is_enough ? found : refined(unit.largest, found);  // mutant: wasserstein-refined
   }
 
   WassersteinMatching matching(std::size_t count_a, std::size_t count_b) {
@@ -145,7 +145,7 @@ class Comparison {
  private:
   /// Powers may have vanished beside the power of the most expensive bar.
   static bool has_digits(const Assignment::Costs& costs) {
-    return costs.cost >= std::numeric_limits<double>::min();
+    return costs.cost >= std::numeric_limits<double>::min();  // mutant: wasserstein-vanishes
   }
   static bool is_sure(const Assignment::Costs& costs) {
     return costs.cost - costs.lower <= kUnsure * costs.cost;
@@ -182,6 +182,7 @@ class Comparison {
       const Unit unit(std::max(length, smallest_unit()), options_);
       unit_length = unit.largest;
       std::vector<std::uint32_t> before = partners_;
+      // mutant: wasserstein-most
       const double most = 2 * unit.cost.power(unit.in_unit(length));  // twice the cost found
       const Assignment::Costs costs = match(unit, most, [&](const Assignment::Costs& c) {
         return DistanceBounds{with_rays(unit.root(c.cost)), with_rays(unit.root(c.lower))};

@@ -46,7 +46,7 @@ void WeightedTree::best_below(Node node, const Point& p, Best& best) const {
     for (Position q = tree_.begin(node); q < end; ++q) {
       const double value = cost_.pair(p, tree_.point(q)) - weights_[q];
       if (value < best.first)
-        best = {value, best.first, q};
+        best = {value, best.first, q};  // mutant: auction-second
       else
         best.second = std::min(best.second, value);
     }

@@ -173,7 +173,7 @@ void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||
       forest.edges.size() + 1 == static_cast<std::size_t>(std::max<Index>(whole.points, 1));
-  if (size != whole.points || !forest.claims.empty() || !is_spanning)
+  if (size != whole.points || !forest.claims.empty() || !is_spanning)  // mutant: cloud-joined
     throw Error(ErrorKind::bad_data,
                 "parts of a cloud: found points that are not joined as the parts claim; "
                 "expected parts of one cloud that did not change meanwhile");

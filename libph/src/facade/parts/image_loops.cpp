@@ -79,7 +79,7 @@ void ImageLoops::begin(std::span<const std::byte> told) {
   get(free.edges, cubical::kEdges.size());
   get(free.squares, cubical::kSquares.size());
   from.expect_end();
-  free.add(state_->own.free);
+  free.add(state_->own.free);  // mutant: join-free
   state_->own.free = FreeCells(&state_->context.memory);
   state_->with_loops([&](auto& loops) { loops.begin(std::move(free)); });
 }

@@ -224,7 +224,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
   // The T-construction counts from the other end.
-  const bool come_before = state_->shape.is_t_construction();
+  const bool come_before = state_->shape.is_t_construction();  // mutant: part-turned
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
   state_->pairs.join(std::move(next.state_->pairs), come_before, pairs,

@@ -47,6 +47,7 @@ class LayerSample {
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
     // Reads at least one row of a layer with few rows.
+    // mutant: forecast-few-rows
     for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
         if (is_minimum(layer, y, x)) ++found;
@@ -96,7 +97,7 @@ std::vector<Index> cut(const std::vector<double>& costs, int parts) {
     const bool is_enough = before >= all * next / parts;
     // Only one item per piece is left.
     const bool must = size - (i + 1) == static_cast<Index>(parts - next);
-    if (is_enough || must) begins.push_back(i + 1);
+    if (is_enough || must) begins.push_back(i + 1);  // mutant: part-last-layers
   }
   return begins;
 }

@@ -79,6 +79,7 @@ struct WholeImage {
   /// True if each part has layers of its own and the parts together have all layers.
   bool has_layers(const GridShape& shape) const {
     if (first_layers.empty()) return true;
+    // mutant: part-layer-order
     return static_cast<std::uint64_t>(parts) == first_layers.size() && first_layers.front() == 0 &&
            std::ranges::adjacent_find(first_layers, std::greater_equal<>()) == first_layers.end() &&
            static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;

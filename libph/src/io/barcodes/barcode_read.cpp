@@ -59,6 +59,7 @@ StoredBarcode read_npy(const Input& input) {
   }
   const auto value = [&](double stored) {
     constexpr double kLargest = std::numeric_limits<double>::max();
+    // mutant: bars-infinite
     return has_places && std::abs(stored) == kLargest ? std::copysign(kInfinity, stored) : stored;
   };
   StoredBarcode stored;

@@ -67,9 +67,10 @@ std::optional<Columns> columns_by_name(const TextLines& lines) {
   columns.expected = fmt::format("{}", fmt::join(names, ","));
   for (const std::string& name : names) {
     const Column* const known = column_of(name);
-    const bool is_index = name.empty() && columns.roles.empty();
+    const bool is_index = name.empty() && columns.roles.empty();  // mutant: bars-index
     if (known == nullptr && !is_index) return std::nullopt;
     const Column role = known == nullptr ? Column::other : *known;
+    // mutant: bars-column-twice
     if (role != Column::other && columns.has(role)) return std::nullopt;
     if (known != nullptr && role > Column::death) columns.left_out.push_back(name);
     columns.roles.push_back(role);
@@ -81,6 +82,7 @@ std::optional<Columns> columns_by_name(const TextLines& lines) {
 
 // R's write.table gives no name to its index column, whose cells are quoted.
 void find_index(const TextLines& lines, Columns& columns) {
+  // mutant: bars-cell-too-many
   if (lines.line().starts_with('"') && detail::count_cells(lines) == columns.roles.size() + 1)
     columns.roles.insert(columns.roles.begin(), Column::other);
 }

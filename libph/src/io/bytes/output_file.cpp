@@ -43,6 +43,7 @@ std::optional<int> descriptor_of(const std::string& path) {
   if (const auto named = files::descriptor_named(files::path_of(path))) return named;
   const auto file = files::status_of(files::path_of(path));
   if (!file || file->kind != files::Kind::regular) return std::nullopt;
+  // mutant: output-log
   for (const int standard : {files::kStandardOutput, files::kStandardError}) {
     const auto open = files::status_of(standard);
     if (open && open->device == file->device && open->inode == file->inode &&
@@ -57,7 +58,7 @@ std::optional<int> descriptor_of(const std::string& path) {
 void require_unpacked(const std::string& path) {
   constexpr std::array<std::string_view, 6> kPacked{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z"};
   for (const std::string_view packed : kPacked)
-    if (ends_in(path, packed))
+    if (ends_in(path, packed))  // mutant: output-packed
       throw Error(
           ErrorKind::usage,
           fmt::format("{}: found {}, expected a name without it: outputs are not compressed",

@@ -20,8 +20,8 @@ struct Bent {
 };
 
 Bent bent_polynomial(const std::array<double, 8>& c, double x, double y) {
-  const auto [k1, k2, p1, p2, k3, k4, k5, k6] = c;
-  const double r = x * x + y * y;  // the squared radius
+  const auto [k1, k2, p1, p2, k3, k4, k5, k6] = c;  // mutant: camera-tangential
+  const double r = x * x + y * y;                   // the squared radius
   const double above = 1 + r * (k1 + r * (k2 + r * k3)), below = 1 + r * (k4 + r * (k5 + r * k6));
   const double radial = above / below;
   // d radial / d r
@@ -97,6 +97,7 @@ std::optional<std::array<double, 2>> Lens::straightened(double u, double v, doub
   for (int i = 0; i < kSteps; ++i) {
     const Bent b = bent_polynomial(coefficients, x, y);
     const double determinant = b.ux * b.vy - b.uy * b.vx;
+    // mutant: camera-edge
     if (!(determinant > 0)) return std::nullopt;  // the image folds over
     const double du = b.u - u, dv = b.v - v;
     const double dx = (b.vy * du - b.uy * dv) / determinant;
@@ -127,6 +128,7 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
   k.fx *= factor;
   k.fy *= factor;
   // Centres of pixels are at integers; the edge of the image is half a pixel before the first one.
+  // mutant: camera-centre
   k.cx = same_shape ? (k.cx + 0.5) * factor - 0.5 : static_cast<double>(new_width - 1) / 2;
   k.cy = (k.cy + 0.5) * factor - 0.5;
   return result;

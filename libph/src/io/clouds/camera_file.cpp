@@ -179,7 +179,7 @@ class CameraYaml {
     }
     // OpenCV writes up to 14 coefficients, for thin prisms and tilted sensors, which most lenses do
     // not have.
-    while (d.size() > most && d.back() == 0) d.pop_back();
+    while (d.size() > most && d.back() == 0) d.pop_back();  // mutant: camera-coefficients
     if (d.size() < least || d.size() > most) {
       fail(*value, {fmt::format("coefficients of {}", name),
                     fmt::format("{}", d.size()),

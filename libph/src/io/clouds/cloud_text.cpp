@@ -100,7 +100,7 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
     return name == "red" || name == "green" || name == "blue";
   };
   // Colours of an array may be shares of full brightness; black and white are 0 and 1 then.
-  bool shares = source == RowSource::array;
+  bool shares = source == RowSource::array;  // mutant: cloud-colours
   for (std::size_t k = 0; k < names.size(); ++k)
     if (is_colour(names[k])) shares = shares && all_in_column(table.rows, k, is_share);
   std::vector<bool> is_coordinate;

@@ -34,7 +34,7 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
                 "two axes: rows, columns",
                 {}});
   }
-  if (is_npy && detail::is_npy_of_floats(input)) result.scale = 1;
+  if (is_npy && detail::is_npy_of_floats(input)) result.scale = 1;  // mutant: depth-scale
   return result;
 }
 

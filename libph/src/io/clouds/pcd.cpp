@@ -20,7 +20,7 @@ using detail::PcdHeader;
 // PCL maps the files that it writes, and leaves zeros after the data up to a page boundary.
 void expect_padding(BinaryCursor& cursor) {
   constexpr std::size_t kLargestPage = std::size_t{1} << 16;
-  if (cursor.remaining() >= kLargestPage) cursor.expect_end();
+  if (cursor.remaining() >= kLargestPage) cursor.expect_end();  // mutant: pcd-padding
   const BinaryCursor at_padding = cursor;
   const auto padding = cursor.take(cursor.remaining(), "padding");
   if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {

@@ -150,7 +150,7 @@ PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
                 fmt::format("at most {}", most), "coordinates count from 0"});
   }
   input.require_memory(*count * sizeof(double));
-  std::vector<double> values(*count, kAbsent);
+  std::vector<double> values(*count, kAbsent);  // mutant: perseus-absent
   for (std::size_t i = 0; i < cubes.values.size(); ++i) {
     std::size_t place = 0;
     for (std::size_t axis = 0; axis < axes; ++axis) {

@@ -14,6 +14,7 @@ constexpr std::array<std::string_view, 5> kKinds{"", "grey", "grey + alpha", "RG
 
 // Luma of ITU-R BT.601, to the nearest integer, halves up.
 std::uint16_t luma(const std::uint16_t* pixel) {
+  // mutant: picture-luma
   return static_cast<std::uint16_t>((299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2] + 500U) /
                                     1000U);
 }
@@ -65,7 +66,7 @@ Image image_of(Raster raster, const Input& input, const ReadOptions& options) {
   const std::size_t count = raster.samples.size() / channels;
   std::optional<std::size_t> place = place_of(options.channel, raster, input);
   if (options.channel == Channel::automatic && channels > 1) {
-    if (!is_grey(raster)) {
+    if (!is_grey(raster)) {  // mutant: picture-grey
       input.fail({"not a grey picture", fmt::format("{} channels, {}", channels, kKinds[channels]),
                   "1",
                   mark(Setting::channel, channels == 2   ? "grey|alpha"

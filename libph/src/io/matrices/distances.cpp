@@ -19,6 +19,7 @@ using detail::triangle;
 class RowNames {
  public:
   explicit RowNames(const detail::TableLayout& layout) : header_(layout.header) {
+    // mutant: table-name-order
     is_known_ = layout.names_rows && layout.header.size() == layout.width;
   }
   void check(const TextLines& lines, std::size_t row, std::string_view cell) {

@@ -28,6 +28,7 @@ void MatrixEntries::doubt(Kind kind, const Doubt& doubt) {
 }
 
 double MatrixEntries::rounding() const {
+  // mutant: matrix-rounding
   return kRounding * (options_.from_correlation ? 1 : largest_);  // for r, not for 1 - r
 }
 
@@ -97,7 +98,7 @@ void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fau
     return worst_[kind].size <= rounding() ||
            (kind == kDiagonal && options_.diagonal == Diagonal::any);
   };
-  for (const Kind kind : {kNegative, kAsymmetric, kDiagonal})
+  for (const Kind kind : {kNegative, kAsymmetric, kDiagonal})  // mutant: matrix-negative
     if (!is_accepted(kind)) fail(worst_[kind].place, fault_of(kind, worst_[kind]));
   const auto tell = [&](Kind kind, std::string_view what) {
     if (worst_[kind].size > 0)

@@ -27,6 +27,7 @@ class MatrixEntries {
   template <class Fail>
   double distance(double raw, const EntryPlace& place, Fail&& fail) {
     const bool on_diagonal = place.row == place.column;
+    // mutant: guess-sparse
     if (raw >= 0 && !options_.from_correlation && !on_diagonal) {  // the usual case
       look_at(raw);
       return raw;

@@ -34,6 +34,7 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
         continue;
       }
       positive = positive && value >= -rounding;
+      // mutant: guess-rounding
       if (value == other || std::abs(value - other) <= rounding) continue;
       ++uneven;
       most_apart = std::isnan(other) ? kInfinity : std::max(most_apart, std::abs(value - other));
@@ -45,11 +46,11 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
     const double value = block[i * side + i];
     if (std::isnan(value)) continue;
     known = true;
-    zeros = zeros && std::abs(value) <= rounding;
+    zeros = zeros && std::abs(value) <= rounding;  // mutant: guess-zeros
     ones = ones && std::abs(value - 1) <= kRounding;
   }
   if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
-  const bool is_of_ones = known && ones && in_one;
+  const bool is_of_ones = known && ones && in_one;  // mutant: guess-ones
   if (symmetric) return is_of_ones ? SquareKind::correlations : SquareKind::symmetric;
   // Zeros are symmetric in any picture with few objects.
   if (is_mostly_zero(block, side)) return SquareKind::nothing;

@@ -152,7 +152,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
-  const std::size_t most = std::min(by_lines, rest.size() / width + 2);
+  const std::size_t most = std::min(by_lines, rest.size() / width + 2);  // mutant: table-row-bytes
   input.require_memory(most * columns * sizeof(double));
   table.rows = Points(static_cast<Index>(most), static_cast<Index>(columns));
   double* value = table.rows.data();

@@ -39,7 +39,7 @@ std::vector<std::string> unnamed_header(std::string_view line, std::string_view 
   const bool has_name = !first_of_next.empty() && !number_in(first_of_next);
   const bool are_names =
       !has_numbers || counts || (are_whole && (has_name || first_of_next == names[1]));
-  if (!is_named || !are_names) names.clear();
+  if (!is_named || !are_names) names.clear();  // mutant: guess-names
   return names;
 }
 
@@ -112,7 +112,7 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
     TableLayout rest = layout;
     rest.header = std::move(names);
     rest.columns = range(0, n);
-    if (is_matrix(rest)) {
+    if (is_matrix(rest)) {  // mutant: guess-header
       layout.header = std::move(rest.header);
       layout.notes.push_back(fmt::format(
           "line {} counts the columns of a symmetric matrix: a header, skipped", first.number()));
@@ -133,7 +133,7 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
 // if one of the next rows has a cell there: it is a missing value.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
-  if (!ends_empty(row.line())) return count;
+  if (!ends_empty(row.line())) return count;  // mutant: guess-empty-cell
   std::size_t cells = layout.header.size() == count + 1 ? count + 1 : count;
   TextLines next(row);
   for (std::size_t k = 0; k < kMostLookedAt && cells == count && next.next(); ++k)
@@ -287,7 +287,7 @@ void TableLayout::tell(const ReadOptions& options) const {
 
 TableLayout table_layout(const Input& input, const ReadOptions& options) {
   TableLayout layout;
-  layout.keeps_tabs = has_tabs_between_cells(input);
+  layout.keeps_tabs = has_tabs_between_cells(input);  // mutant: guess-tabs
   TextLines lines = layout.lines(input);
   if (!lines.next()) return layout;
   TextLines next(lines);
@@ -330,7 +330,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   }
   if (has_header) layout.names_rows = leads_with_names(input, layout, first_cell(row, layout));
   const std::size_t index = std::max<std::size_t>(layout.unnamed(), 1);
-  layout.columns = range(layout.names_rows ? index : 0, layout.width);
+  layout.columns = range(layout.names_rows ? index : 0, layout.width);  // mutant: guess-index
   return layout;
 }
 

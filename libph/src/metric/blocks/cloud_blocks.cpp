@@ -153,6 +153,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
                 fmt::format("block of a cloud: found {} points in it and near it, expected fewer "
                             "than 2^32 - 1; with more blocks, each has fewer",
                             size));
+  // mutant: cloud-largest
   result.edges = spanning_forest(
       PointsView(members.coordinates.data(), static_cast<Index>(size), points_.cols()),
       PointDistance::euclidean, 2, limit, context, largest_);

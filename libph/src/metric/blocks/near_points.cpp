@@ -45,7 +45,7 @@ void CellRegions::add(const SampleTree& tree, SampleTree::Node node, std::vector
       double& end = box[side + (is_right ? 0 : 1)];
       const double before = std::exchange(end, tree.value(node));
       add(tree, child, box);
-      end = before;
+      end = before;  // mutant: cloud-region-end
     }
     boxes_.add(node, boxes_, child);
   }
@@ -83,7 +83,7 @@ bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32
   if (block == other) return false;
   const std::uint64_t ahead = (std::uint64_t{other} + blocks - block) % blocks;
   if (2 * ahead != blocks) return 2 * ahead < blocks;
-  return (std::min(block, other) % 2 == 0) == (block < other);
+  return (std::min(block, other) % 2 == 0) == (block < other);  // mutant: cloud-opposite
 }
 
 /// @return true if something below the node is not hopeless.
@@ -117,7 +117,7 @@ double NearPoints::reach(Node own, double square, double within, SampleTree::Cel
       std::min(limit_, std::max({square, squared(within), squared(bottlenecks_.within(own))})));
   if (gap <= least || gap > reach_of(longest_)) return least;
   const double between = bottlenecks_.between(tree_.cells(own).begin, cell);
-  return std::max(least, reach_of(std::min(limit_, squared(between))));
+  return std::max(least, reach_of(std::min(limit_, squared(between))));  // mutant: cloud-hop
 }
 
 bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
@@ -144,6 +144,7 @@ bool NearPoints::is_near(const double* x, Node leaf) const {
   bool is_nearest = false;
   const auto is_beyond = [&](Node own, const CellBoxes& boxes, std::size_t i) {
     const double gap = boxes.gap(i, x, x, 1);
+    // mutant: cloud-near-sample
     return gap > reach(own, std::max(boxes.square(i), sample.square), 0, sample.cell, gap);
   };
   std::array<Node, 64> stack;  // at most as deep as the tree

@@ -94,7 +94,7 @@ void NumberedForest::reduce(const RunContext& context) {
   Ticker ticker(context, "spanning forest", edges.size());
   auto next = claims.begin(), kept = claims.begin();
   const auto look_at_claims = [&](double below) {
-    for (; next != claims.end() && next->value < below; ++next)
+    for (; next != claims.end() && next->value < below; ++next)  // mutant: cloud-claims
       if (sets.find(next->u) != sets.find(next->v)) *kept++ = *next;
   };
   std::size_t taken = 0;

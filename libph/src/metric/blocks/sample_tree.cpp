@@ -170,7 +170,7 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
     if (tree.cells(node).size() == 0) continue;
     const SampleTree::Cell cell = tree.cells(node).begin;
     const double square = squared_distance(x, tree.points().row(Index{cell}), tree.points().cols());
-    if (square < known.square) known = {cell, square};
+    if (square < known.square) known = {cell, square};  // mutant: cloud-nearer
   }
   return known;
 }

@@ -65,6 +65,7 @@ class SampleTree {
   Node child(Node node, const double* x) const {
     const Split& split = splits_[node];
     const double at = x[split.axis];
+    // mutant: cloud-tie
     const bool is_left = at != split.value ? at < split.value : precedes(x, split);
     return is_left ? node + 1 : split.right;
   }

@@ -138,6 +138,7 @@ class Annotations {
     for (const Term& t : vectors_[a.id])
       visit(t.cell, a.negated ? field_.negate(t.coefficient()) : t.coefficient());
   }
+  // mutant: youngest-generator
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
   /// Makes a class zero: its youngest generator becomes a combination of the others.
@@ -245,7 +246,7 @@ void Annotations<K>::for_each_edge(Visit&& visit) {
 template <Field K>
 auto Annotations<K>::resolve(Class a) -> Class {
   a = follow(a);
-  if (seen_[a.id] == dead_.count() || a.is_zero()) return a;
+  if (seen_[a.id] == dead_.count() || a.is_zero()) return a;  // mutant: class-cleaned
   update(a.id);
   return follow(a);
 }
@@ -294,11 +295,11 @@ void Annotations<K>::add_class() {
 template <Field K>
 void Annotations<K>::forget_fresh() {
   for (const std::uint32_t id : fresh_) {
-    if (links_[id].id != id || !members_[id].empty()) continue;
+    if (links_[id].id != id || !members_[id].empty()) continue;  // mutant: sums-in-use
     known_.erase(id);
     scratch_.assign(vectors_[id].begin(), vectors_[id].end());
     vectors_[id].clear();
-    change_occurrences(id, scratch_);
+    change_occurrences(id, scratch_);  // mutant: sums-unused
     unused_.push_back(id);
   }
   fresh_.clear();
@@ -333,7 +334,7 @@ void Annotations<K>::erase(std::uint32_t id) {
 
 template <Field K>
 void Annotations<K>::join(std::uint32_t id, std::uint32_t other) {
-  links_[id] = {other, are_opposite(id, other)};
+  links_[id] = {other, are_opposite(id, other)};  // mutant: equal-classes
   auto &from = members_[id], &to = members_[other];
   if (to.size() < from.size()) to.swap(from);
   to.insert(to.end(), from.begin(), from.end());
@@ -356,7 +357,7 @@ void Annotations<K>::change_occurrences(std::uint32_t id, const Vector& before) 
   };
   differ(now, before, [&](Generator g) { occurrences_[g].insert(id); });
   differ(before, now, [&](Generator g) {
-    if (!dead_.contains(g)) occurrences_[g].erase(id);
+    if (!dead_.contains(g)) occurrences_[g].erase(id);  // mutant: occurrence-erased
   });
 }
 
@@ -398,7 +399,7 @@ void Annotations<K>::kill(Class relation) {
   const NumberSet occurrences = std::move(occurrences_[g]);
   if constexpr (std::same_as<K, Z2>) {
     for (const Term& t : scratch_)
-      if (t.cell != g) occurrences_[t.cell].add(occurrences);
+      if (t.cell != g) occurrences_[t.cell].add(occurrences);  // mutant: occurrence-added
   } else {
     change_occurrences(id, scratch_);
   }

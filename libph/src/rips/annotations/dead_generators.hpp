@@ -102,6 +102,7 @@ class DeadGenerators {
     }
     void add(const Bits& other) {
       begin = std::min(begin, other.begin);
+      // mutant: dead-bits
       bits::add(met.data() + other.begin, other.words.data(), other.words.size());
     }
     /// The value of a generator that was met; it may be zero.
@@ -152,7 +153,7 @@ class DeadGenerators {
 template <Field K>
 void DeadGenerators<K>::add(std::span<const Term> relation) {
   const Term youngest = relation.back();
-  const auto scale = field_.negate(field_.inverse(youngest.coefficient()));
+  const auto scale = field_.negate(field_.inverse(youngest.coefficient()));  // mutant: dead-sign
   const Generator g = youngest.cell;
   if (combinations_.size() <= g) {
     combinations_.resize(g + 1);
@@ -203,7 +204,7 @@ void DeadGenerators<K>::eliminate(Accumulator& sum, Find&& combination_of) {
   Word* const met = sum.met.data();
   // Goes from the youngest down, because substituted terms are older.
   for (std::size_t k = std::min(sum.end, dead_.size()); k-- > sum.begin;)
-    while (const Word dead = met[k] & dead_[k]) {
+    while (const Word dead = met[k] & dead_[k]) {  // mutant: dead-by-dead
       const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;
       met[k] ^= Word{1} << bit;
       const auto g = static_cast<Generator>(k * 64 + bit);
@@ -234,7 +235,7 @@ void DeadGenerators<K>::take(Accumulator& sum, Combination& c) {
   }
   if (!kIsZ2 || c.bits == kNone) return take_terms(sum, c.terms);
   bits_[c.bits].words.assign(words.begin(), words.end());
-  bits_[c.bits].begin = sum.begin;
+  bits_[c.bits].begin = sum.begin;  // mutant: dead-bits-begin
   sum.clear();
 }
 

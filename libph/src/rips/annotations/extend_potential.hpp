@@ -33,9 +33,10 @@ PotentialStep extend_potential(typename VertexFunction<K>::Unit* p,
   const Element value = asked_at(meetings.front().at);
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     const Element here = asked_at(meetings[i].at);
+    // mutant: surface-mismatch
     step.mismatched |=
         Function::difference(mismatch, p, asked, here, forest.neighbours(i), field, words);
-    if (here == value) continue;
+    if (here == value) continue;  // mutant: surface-constant
     Function::shift(p, forest.part(meetings[i]), field.add(value, field.negate(here)), field,
                     words);
     step.changed = true;

@@ -79,6 +79,7 @@ void LivingCocycles<Cochain>::for_each_at(Vertex u, Vertex v, Visit&& visit) con
   const auto end_i = at_[u].end(), end_j = at_[v].end();
   while (i != end_i || j != end_j) {
     const bool is_at_u = i != end_i && (j == end_j || i->generator <= j->generator);
+    // mutant: surface-ends
     const bool is_at_v = j != end_j && (i == end_i || j->generator <= i->generator);
     const At* at_u = is_at_u ? &*i++ : nullptr;
     const At* at_v = is_at_v ? &*j++ : nullptr;

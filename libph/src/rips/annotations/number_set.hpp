@@ -42,6 +42,7 @@ class NumberSet {
   }
   /// Inserts the numbers of another set that are absent and erases those that are present.
   void add(const NumberSet& other) {
+    // mutant: number-set-grows
     if (bits_.size() < other.bits_.size() && !bits_.empty()) bits_.resize(other.bits_.size());
     if (!bits_.empty() && !other.bits_.empty()) {
       for (std::size_t k = 0; k < other.bits_.size(); ++k) bits_[k] ^= other.bits_[k];

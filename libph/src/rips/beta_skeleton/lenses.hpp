@@ -62,9 +62,9 @@ class Lenses {
     if (square < e.certainly_before) return true;
     if (square > e.certainly_after) return false;
     const double value = std::sqrt(square);
-    if (value != e.value) return value < e.value;
+    if (value != e.value) return value < e.value;  // mutant: beta-distances
     const auto [smaller, larger] = std::minmax({tree_.row(x), tree_.row(y)});
-    return larger < e.larger || (larger == e.larger && smaller < e.smaller);
+    return larger < e.larger || (larger == e.larger && smaller < e.smaller);  // mutant: beta-tie
   }
   bool contains(const Edge& e, Position w) const {
     return w != e.u && w != e.v && precedes(w, e.u, e) && precedes(w, e.v, e);
@@ -73,6 +73,7 @@ class Lenses {
   /// The squared radius of a ball around the computed middle of an edge that contains its lens: a
   /// point at distance at most |uv| from both ends is within sqrt(3/4) |uv| of the middle.
   double reach(double square) const {
+    // mutant: beta-lens-radius
     const double radius = std::sqrt(0.75 * square) * (1 + 1e-9) + tree_.midpoint_error();
     return radius * radius;
   }
@@ -167,7 +168,7 @@ class Lenses {
       });
     std::uint32_t smallest = UINT32_MAX;
     for (const Position p : part_) {
-      if (has_bridge(e, found.first, p, holder)) return;
+      if (has_bridge(e, found.first, p, holder)) return;  // mutant: beta-bridge
       smallest = std::min(smallest, tree_.row(p));
     }
     found.others.push_back({part_.front(), smallest});

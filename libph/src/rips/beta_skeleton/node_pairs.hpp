@@ -61,6 +61,7 @@ class NodePairQueue {
   /// Once the open bin is empty: all pairs at a smaller distance have been taken.
   double bound() const {
     const Level& level = levels_.back();
+    // mutant: beta-swept-to
     return std::bit_cast<double>((level.first + level.next) << level.shift);
   }
   bool can_narrow() const { return levels_.back().shift >= kPartBits && !open_bin().empty(); }

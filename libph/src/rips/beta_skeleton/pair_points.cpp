@@ -66,7 +66,7 @@ class Pairing {
     double largest = 0;
     for (Position p = 0; p < tree_.size(); ++p)
       largest = std::max(largest, tree_.square(middle, p));
-    return std::sqrt(largest);
+    return std::sqrt(largest);  // mutant: beta-cone
   }
 
   /// Computes H0 by the elder rule, and the births of H1.
@@ -90,6 +90,7 @@ class Pairing {
       }
     }
     for (Position p = 0; p < tree_.size(); ++p)
+      // mutant: beta-components
       if (sets.find(tree_.row(p)) == tree_.row(p)) observer_.on_component(tree_.row(p));
   }
 
@@ -105,6 +106,7 @@ class Pairing {
     if (wanted_.apexes && others.size() > 1) {
       smallest = lenses_.smallest_of_first(e, holder, components_);
       others.push_back({base, smallest});
+      // mutant: beta-component-order
       std::sort(others.begin(), others.end(),
                 [](const auto& a, const auto& b) { return a.smallest < b.smallest; });
       base = others.front().any;
@@ -124,6 +126,7 @@ class Pairing {
         std::uint32_t apex = 0;
         if (wanted_.apexes) {
           if (others.size() == 1) smallest = lenses_.smallest_of_first(e, holder, components_);
+          // mutant: beta-apex
           apex = others.size() == 1 ? std::max(smallest, other.smallest) : other.smallest;
         }
         observer_.on_death(generators_[*dead], {e.value, e.larger, e.smaller}, apex);

@@ -219,7 +219,7 @@ class PointTree {
       // The cell extends to the first point of the other side.
       for (int k = 0; k < D; ++k) {
         if (below[2 * k + 1] > above[2 * k]) continue;
-        left[2 * k + 1] = above[2 * k];
+        left[2 * k + 1] = above[2 * k];  // mutant: beta-cell-end
         right[2 * k] = below[2 * k + 1];
         break;
       }

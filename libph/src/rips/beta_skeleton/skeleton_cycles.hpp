@@ -55,6 +55,7 @@ class SkeletonCycles {
       if (const End* const end = find(from, to)) {
         // Generators are directed from the smaller vertex to the larger one.
         if (end->generator != kNoGenerator)
+          // mutant: beta-sign
           visit(end->generator, lenses_.tree().row(from) < lenses_.tree().row(to));
         continue;
       }

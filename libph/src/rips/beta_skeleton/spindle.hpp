@@ -33,7 +33,7 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
     b += y * y;
   }
   const double inside = -dot - kSpindleMargin * square;
-  return inside > 0 && inside * inside > 0.75 * (a * b);
+  return inside > 0 && inside * inside > 0.75 * (a * b);  // mutant: beta-spindle
 }
 
 /// True if p is certainly in the spindle of all pairs of a point in one ball and a point in
@@ -52,6 +52,7 @@ bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
   for (int k = 0; k < D; ++k) dot += (centre_u[k] - p[k]) * (centre_v[k] - p[k]);
   const double cosine = dot / (a * b);
   if (cosine > -0.86) return false;
+  // mutant: beta-box-size
   const double angle =
       std::acos(std::max(-1.0, cosine)) - std::asin(radius_u / a) - std::asin(radius_v / b);
   return angle > std::numbers::pi * 5 / 6 + 1e-6;

@@ -18,9 +18,9 @@ struct Classes {
 
   /// True if no class lives from now on up to a value.
   bool are_none_up_to(double value) const {
-    return living == 0 && (born == births.size() || births[born] > value);
+    return living == 0 && (born == births.size() || births[born] > value);  // mutant: beta-pairs-go
   }
-  bool are_over() const { return living == 0 && born == births.size(); }
+  bool are_over() const { return living == 0 && born == births.size(); }  // mutant: beta-over
 };
 
 /// Finds the edges whose lens has several components, in their order, as long as there are classes.

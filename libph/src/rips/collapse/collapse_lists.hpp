@@ -50,7 +50,7 @@ class ListGraph {
   void find_link(const FlagEdge& e, Key now, Set& link) const {
     link.clear();
     for_each_common(e, [&](Vertex x, Key key) {
-      if (key <= now) link.push_back(x);
+      if (key <= now) link.push_back(x);  // mutant: collapse-list-link
     });
   }
   void find_arrivals(const FlagEdge& e, Key now, std::pmr::vector<Arrival>& arrivals) const {

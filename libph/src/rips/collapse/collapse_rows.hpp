@@ -53,6 +53,7 @@ class RowGraph {
       for (; other != of_v.end() && other->vertex < x.vertex; ++other)
         if (present_.test(e.u, other->vertex)) arrivals.push_back({other->key, other->vertex});
       if (other != of_v.end() && other->vertex == x.vertex) {
+        // mutant: collapse-row-arrival
         arrivals.push_back({std::max(x.key, other->key), x.vertex});
         ++other;
       } else if (present_.test(e.v, x.vertex)) {
@@ -67,6 +68,7 @@ class RowGraph {
     if (present_.test(a, b)) return true;
     if (now == present_key_) return false;
     const auto it = std::ranges::lower_bound(later_[a], b, {}, &Neighbour::vertex);
+    // mutant: collapse-row-later
     return it != later_[a].end() && it->vertex == b && it->key <= now;
   }
 
@@ -100,7 +102,7 @@ class RowGraph {
     }
     const auto* row = present_.row(w);
     for (std::size_t k = 0; k < set.size(); ++k) set[k] &= row[k];
-    for (const Vertex x : also_) insert(set, x);
+    for (const Vertex x : also_) insert(set, x);  // mutant: collapse-row-also
   }
 
   void move(const FlagEdge& e, Key to) {

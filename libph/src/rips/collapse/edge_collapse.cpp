@@ -42,6 +42,7 @@ class EdgeCollapse {
         ticker.tick();
       }
       for (std::size_t i = kept_before; i < kept.size(); ++i)
+        // mutant: collapse-leave
         if (kept[i].to == last) graph_.leave(input_.edge(kept[i].edge), last);
       last = key;
     }
@@ -90,6 +91,7 @@ class EdgeCollapse {
         std::ranges::pop_heap(arrivals_, std::greater{});
         arrivals_.pop_back();
         graph_.insert(link_, x);
+        // mutant: collapse-dominator
         dominates = dominates && graph_.are_joined(dominator, x, now);
       }
       if (dominates) continue;
@@ -117,12 +119,13 @@ class EdgeCollapse {
   }
 
   RipsGraph collapsed(std::pmr::vector<Move>&& kept) const {
+    // mutant: collapse-equal-edges
     std::ranges::sort(kept);  // among edges of equal value, edges that were moved there come first
     FlagEdges edges(&context_.memory);
     edges.reserve(kept.size());
     for (const auto& [to, key] : kept) {
       const FlagEdge& e = input_.edge(key);
-      edges.push_back({input_.value(to), e.u, e.v});
+      edges.push_back({input_.value(to), e.u, e.v});  // mutant: collapse-moved
     }
     return RipsGraph::with_edges(input_, std::move(edges), context_);
   }
@@ -170,7 +173,7 @@ RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context, Coll
   };
   std::size_t before = graph.edge_count();
   RipsGraph collapsed = pass(graph);
-  while (is_next_worth(before, collapsed.edge_count())) {
+  while (is_next_worth(before, collapsed.edge_count())) {  // mutant: collapse-passes
     before = collapsed.edge_count();
     collapsed = pass(collapsed);
   }

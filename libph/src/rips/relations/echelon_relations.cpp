@@ -46,6 +46,7 @@ auto EchelonRelations::eliminate(Word* row, std::size_t words, Relation* of) -> 
         row[i] ^= other[i];
       }
       if (count >= relation.count) continue;
+      // mutant: relation-sparser
       for (std::size_t i = 0; i <= k; ++i) other[i] ^= row[i];  // the former content of the row
       relation.count = static_cast<std::uint32_t>(count);
     }

@@ -29,7 +29,7 @@ class PairLabels {
       if (long_.empty())
         short_[i] = static_cast<std::uint16_t>(label);
       else
-        long_[i] = label;
+        long_[i] = label;  // mutant: long-labels
   }
   /// Prefetches a label that will be needed soon.
   void prefetch(Vertex u, Vertex v) const {

@@ -72,6 +72,7 @@ auto RelationMatrix::reduce(std::size_t rows, std::size_t columns, const Word* r
   const std::size_t row_words = lines_ * 8;
   for (std::size_t s = 0; s < steps_.size(); ++s)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
+      // mutant: relation-block
       bits::add(row_begin(steps_[s].to), row_begin(added_[i]), row_words);
   more_.resize(row_of_.size());
   for (auto row = static_cast<Row>(row_count()); row-- > 0;) {
@@ -109,6 +110,7 @@ void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
   // A living row is zero as a sum of rows; its vector is passed on to each of these rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
+      // mutant: relation-dead
       bits::add(vectors + added_[i] * words, vectors + steps_[s].to * words, words);
 }
 

@@ -84,7 +84,7 @@ bool RelationSolver::annotate(const Edge& edge, std::span<const Vertex> roots) {
         for (std::size_t k = 0; k < rows_->words(); k += line) __builtin_prefetch((*rows_)[a] + k);
   }
   const Sum a = sums_(edge.u, roots.front()), b = sums_(edge.v, roots.front());
-  for (const Vertex w : roots.subspan(1)) {
+  for (const Vertex w : roots.subspan(1)) {  // mutant: formal-relations
     const std::array<Sum, 4> relation{sums_(edge.u, w), sums_(edge.v, w), a, b};
     const Triangle death{edge.position, w};
     if (has_rows()) {
@@ -183,6 +183,7 @@ void RelationSolver::hand_over(Annotations<Z2>& annotations) {
     bits::for_each((*rows_)[sums_(edge.u, edge.v)], 0, rows_->words(), [&](std::size_t g) {
       terms.emplace_back(static_cast<Generator>(g), Z2::from_int(1));
     });
+    // mutant: formal-classes
     if (!terms.empty()) annotations.assign(edge, annotations.class_of(terms));
   }
 }

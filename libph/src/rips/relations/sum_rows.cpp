@@ -49,6 +49,7 @@ void SumRows::widen() {
   for (auto* rows : {&rows_, &values_}) {
     std::pmr::vector<Word> widened(rows->size() / words_ * words, 0, rows->get_allocator());
     for (std::size_t i = 0; i * words_ < rows->size(); ++i)
+      // mutant: sum-rows-grow
       std::copy_n(rows->data() + i * words_, words_, widened.data() + i * words);
     *rows = std::move(widened);
   }

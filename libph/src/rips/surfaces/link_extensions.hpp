@@ -208,7 +208,7 @@ void LinkExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex
         add_row(p, row, field_.from_int(at_v == (end < own) ? -1 : 1), graph_.words());
       continue;
     }
-    for (const Term& t : at_v ? x.at_v : x.at_u) {
+    for (const Term& t : at_v ? x.at_v : x.at_u) {  // mutant: surface-cone-end
       const bool is_larger = Cochain::larger(t) == own;
       if (!is_larger && Cochain::smaller(t) != own) continue;
       const Vertex w = graph_.local(is_larger ? Cochain::smaller(t) : Cochain::larger(t));
@@ -303,6 +303,7 @@ bool LinkExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LinkC
     if (is_zero) std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
     const std::size_t w = bits::first_common(neighbours, neighbours, words);
     const Element value = field_.add(Function::value(p, w), Function::value(gamma_.data(), w));
+    // mutant: surface-potential
     if (!Function::is_sum(value, p, gamma_.data(), neighbours, field_, words)) return false;
     if (field_.is_zero(value)) continue;
     Function::add_at(p, y, value, field_);

@@ -213,14 +213,14 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
     const typename Observer::Tetrahedron tetrahedron{position, graph_.global(y), graph_.global(w)};
     const auto place = static_cast<std::size_t>(dying - all.begin());
     if (dying->loop != nullptr) {
-      births_above_.push_back({tetrahedron, dying->loop});
+      births_above_.push_back({tetrahedron, dying->loop});  // mutant: volume-birth-above
       correct_others(place, e, w, words);
     } else {
       const Generator h = dying->generator;
       find_cocycle(h);
       if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
       observer_.on_death(births_[h], tetrahedron, cocycle_);
-      births_[h].edge = kDead;
+      births_[h].edge = kDead;  // mutant: surface-dead
       correct_others(place, e, w, words);
       cocycles_.erase(h);
     }
@@ -244,15 +244,15 @@ void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Verte
     if (all[i].loop != nullptr) continue;
     if (!field_.is_zero(mismatch_of(all[i], w)) && size_of(i) < size_of(partner)) partner = i;
   }
-  for (std::size_t i = 0; i < dying; ++i) {
+  for (std::size_t i = 0; i < dying; ++i) {  // mutant: surface-dying
     Extension &x = all[i], &y = all[partners_[i]];
     const Element a = mismatch_of(x, w);
     if (field_.is_zero(a)) continue;
     const Element scale = field_.negate(field_.multiply(a, field_.inverse(mismatch_of(y, w))));
     if (x.loop != nullptr)
-      extensions_.add_gamma(*x.loop, y, e, scale);
+      extensions_.add_gamma(*x.loop, y, e, scale);  // mutant: volume-loop-gamma
     else
-      cocycles_.add(x.generator, y.generator, scale);
+      cocycles_.add(x.generator, y.generator, scale);  // mutant: surface-corrected
     Function::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
     Function::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
     x.is_flat = false;

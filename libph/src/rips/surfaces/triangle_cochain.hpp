@@ -224,6 +224,7 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
   });
   Function::for_each(star, shared.blocks, [&](std::size_t w, Element a) {
     const Element opposite = shared.field.negate(a);
+    // mutant: surface-star-row
     Function::add_at(shared.rows[of_u[w]], v, w < u ? a : opposite, shared.field);
     Function::add_at(shared.rows[of_v[w]], u, v < w ? a : opposite, shared.field);
   });
@@ -244,6 +245,7 @@ void TriangleCochain<K>::add_star(Vertex u, Vertex v, const Unit* star, Shared& 
     terms.clear();
     Function::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
       const auto w = static_cast<Vertex>(apex);
+      // mutant: surface-star-sign
       terms.emplace_back(pair(std::max(other, w), std::min(other, w)),
                          (end == u) == (other < w) ? a : field.negate(a));
     });

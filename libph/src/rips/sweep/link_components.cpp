@@ -61,7 +61,7 @@ void LinkComponents::find_roots(const FlagEdge& e) {
   apex_ = kNone;
   // Bits mark vertices that have been met, and vertices whose neighbours are still to be visited.
   for (std::uint32_t met = 0, left = 0, i = 0; i < count; ++i) {
-    if ((met >> i & 1) != 0) continue;
+    if ((met >> i & 1) != 0) continue;  // mutant: formal-components
     roots_.push_back(vertices[i]);
     for (left = 1U << i; left != 0;) {
       const Word* row = graph_.row(vertices[static_cast<std::size_t>(std::countr_zero(left))]);
@@ -125,7 +125,7 @@ bool LinkComponents::find_apex(const FlagEdge& e) {
     if (candidate == bits::kNone) return false;
     const auto v = static_cast<Vertex>(candidate);
     const std::size_t missed = bits::first_missing(graph_.link(), graph_.row(v), v, words);
-    if (missed == bits::kNone) {
+    if (missed == bits::kNone) {  // mutant: surface-apex
       set_apex(e, v);
       return true;
     }

@@ -36,6 +36,7 @@ bool LinkCover::cover(const Word* set, Vertex hub) {
   reached_.assign(around, around + words);
   reached_[hub / 64] |= Word{1} << (hub % 64);
   Word left = 0;
+  // mutant: surface-hub
   for (std::size_t k = 0; k < words; ++k) left |= rest_[k] = set[k] & ~reached_[k];
   for (bool grows = true; left != 0 && grows;) {
     left = 0;

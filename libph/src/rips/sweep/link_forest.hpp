@@ -78,7 +78,7 @@ void LinkForest::join(Vertex y, OnJoin&& on_join) {
   start_part(y);
   std::size_t all = roots_.size() - 1;
   for (const auto& [part, at] : meetings_) {
-    const bool is_elder = roots_[part] < roots_[all];
+    const bool is_elder = roots_[part] < roots_[all];  // mutant: surface-elder-part
     const std::size_t younger = is_elder ? all : part, elder = is_elder ? part : all;
     on_join(roots_[younger], set_of(younger), at);
     unite(younger, elder);

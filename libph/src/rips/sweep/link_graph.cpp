@@ -144,6 +144,7 @@ LinkGraph::Link LinkGraph::find_link(const FlagEdge& e, bool wants_graph) {
 
 template <class InLink>
 bool LinkGraph::touches_active(const FlagEdge& e, InLink&& in_link) const {
+  // mutant: active-ends
   return std::ranges::any_of(active_.neighbours(e.u), [&](Vertex w) { return in_link(e.v, w); }) ||
          std::ranges::any_of(active_.neighbours(e.v), [&](Vertex w) { return in_link(e.u, w); });
 }
@@ -181,7 +182,7 @@ LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_grap
     vertices_.resize(few.size() + 1);
     if (is_hub) {
       for (const Vertex w : few) {
-        if (!std::ranges::binary_search(many, w)) continue;
+        if (!std::ranges::binary_search(many, w)) continue;  // mutant: hub-neighbours
         vertices_[count++] = w;
         marks_[w] = of_both;
       }
@@ -193,6 +194,7 @@ LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_grap
         marks_[w] *= of_both;
       }
     }
+    // mutant: active-of-both
     const bool found = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
     for (const Vertex w : few) marks_[w] = 0;
     return found;

@@ -49,7 +49,7 @@ class NeighbourLists {
   void insert(std::size_t u, Vertex v) {
     Vertex* const begin = vertices_.data() + begins_[u];
     Vertex* const end = begin + sizes_[u]++;
-    Vertex* const place = std::lower_bound(begin, end, v);
+    Vertex* const place = std::lower_bound(begin, end, v);  // mutant: neighbour-place
     std::copy_backward(place, end, end + 1);
     *place = v;
   }

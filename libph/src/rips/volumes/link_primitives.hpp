@@ -216,6 +216,7 @@ void LinkPrimitives<K>::search(const LinkCover& cover) {
         if (row == nullptr) return;
         std::copy_n(row, words * Function::kUnitsPerBlock, asked_.begin());
         if (Function::restrict(asked_.data(), around, words))
+          // mutant: volume-cone-sign
           s->psi.add_half(static_cast<Vertex>(x), asked_.data(), field_.from_int(hub < x ? 1 : -1),
                           words);
       });
@@ -242,7 +243,7 @@ void LinkPrimitives<K>::add_over(Vertex z, const Word* around) {
     const auto [y, is_hub] = cover_[i];
     const Word* joined = cover_.neighbours(i);
     if (!is_hub) {
-      if (extend_to(z, y, joined)) settle_mismatches();
+      if (extend_to(z, y, joined)) settle_mismatches();  // mutant: volume-mismatch
     } else {
       for (Search* s : used_) {
         if (!s->is_active || !find_asked(*s, z, y, joined, words)) continue;
@@ -251,7 +252,7 @@ void LinkPrimitives<K>::add_over(Vertex z, const Word* around) {
                          words);
         s->is_flat = false;
       }
-      if (i > 0) loop_vertices_.resize(loop_vertices_.size() + words);
+      if (i > 0) loop_vertices_.resize(loop_vertices_.size() + words);  // mutant: volume-link-parts
     }
     if (loop_vertices_.empty()) continue;
     Word* row = loop_vertices_.data() + loop_vertices_.size() - words;
@@ -314,11 +315,11 @@ void LinkPrimitives<K>::correct_others(Search& by, Vertex w, OnAdd&& on_add) {
     Function::add(rows_[s->mismatch], rows_[by.mismatch], scale, field_, words);
     s->is_flat = false;
     if (!by.is_loop()) {
-      s->gamma.add(by.gamma, scale, words);
+      s->gamma.add(by.gamma, scale, words);  // mutant: volume-other-gamma
       on_add(*s, by, scale);
     }
   }
-  by.is_active = by.is_mismatched = false;
+  by.is_active = by.is_mismatched = false;  // mutant: volume-used-loop
   rows_.give(by.potential);
   rows_.give(by.mismatch);
 }

@@ -32,6 +32,7 @@ void LinkPrimitives<K>::find_loops_over_parts() {
     for (std::size_t i = 0; i < parts_of_star_.part_count(); ++i) {
       const Word* part = parts_of_star_.part(i);
       if (!bits::any_common(part, parts_.part(meeting), words)) continue;
+      // mutant: volume-ordered-loops
       if (!is_first) loop_vertices_.insert(loop_vertices_.end(), part, part + words);
       is_first = false;
     }
@@ -48,6 +49,7 @@ void LinkPrimitives<K>::search_in_order(OnObstruction&& on_obstruction, OnAdd&& 
       Search* by = mismatched_loop(at);
       if (by == nullptr) {
         for (Search* s : used_)
+          // mutant: volume-youngest
           if (!field_.is_zero(mismatch_of(*s, at)) &&
               (by == nullptr || by->generator < s->generator))
             by = s;

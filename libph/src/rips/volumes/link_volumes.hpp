@@ -96,7 +96,7 @@ void LinkVolumes<K>::look(const FlagEdge& e, LinkComponents& components) {
   cover_.find(components);
   primitives_.search(cover_);
   for (Search* s : primitives_.all())
-    if (s->is_loop() && s->is_active) loops_.push_back(&s->psi);
+    if (s->is_loop() && s->is_active) loops_.push_back(&s->psi);  // mutant: volume-loop-active
 }
 
 template <Field K>
@@ -105,6 +105,7 @@ void LinkVolumes<K>::find_classes(const FlagEdge& e) {
   cocycles_.for_each_at(e.u, e.v, [&](Generator h, const At* at_u, const At* at_v) {
     Search& s = primitives_.add(h);
     if (at_u != nullptr) add_terms(s.gamma, cocycles_.terms(*at_u), field_.from_int(1));
+    // mutant: volume-gamma
     if (at_v != nullptr) add_terms(s.gamma, cocycles_.terms(*at_v), field_.from_int(-1));
     if (s.gamma.is_zero(graph_.words())) primitives_.drop_last();
   });
@@ -151,9 +152,9 @@ void LinkVolumes<K>::extend(Position position, const FlagEdge& e) {
           dead_.push_back(s.generator);
         },
         [&](const Search& s, const Search& other, Element scale) {
-          cocycles_.add(s.generator, other.generator, scale);
+          cocycles_.add(s.generator, other.generator, scale);  // mutant: volume-corrected
         });
-    for (const Generator h : dead_) cocycles_.erase(h);
+    for (const Generator h : dead_) cocycles_.erase(h);  // mutant: volume-dead
   }
   for (const Search* s : primitives_.all())
     if (s->is_found) store(s->generator, e, s->psi);

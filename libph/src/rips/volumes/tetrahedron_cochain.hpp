@@ -85,6 +85,7 @@ void TetrahedronCochain<K>::add_star(Vertex u, Vertex v, std::span<const PairVal
     const bool is_odd = ((b > c) != (b > d)) != (c > d);
     const Vertex low = std::min({b, c, d}), high = std::max({b, c, d});
     const Others middle = b ^ c ^ d ^ low ^ high;
+    // mutant: volume-star-sign
     return Term(Others{high} << 32 | middle << 16 | low, is_odd ? field.negate(value) : value);
   };
   auto &at_u = shared.at_u, &at_v = shared.at_v, &at_x = shared.at_x;

@@ -36,7 +36,7 @@ class CurveBuilder {
  public:
   explicit CurveBuilder(double limit) : limit_(limit) {}
   void add(double value, std::int64_t change) {
-    if (change == 0 || value > limit_) return;
+    if (change == 0 || value > limit_) return;  // mutant: euler-threshold
     curve_.at.push_back(value);
     curve_.value.push_back(now_ += change);
   }

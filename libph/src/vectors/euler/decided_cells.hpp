@@ -67,14 +67,16 @@ class DecidedCells {
       if (const T* row = rows[number / 3]) {
         const std::size_t along = number % 3;
         const T* neighbours = row + begin + (along == 2 ? 1 : 0) - (along == 1 ? 1 : 0);
+        // mutant: euler-equal
         find_preceding(neighbours, voxels, size, direction.is_down, outside_, masks);
         if (along == 1 && begin == 0 && !is_circle_) masks[0] = outside_;
+        // mutant: euler-circle
         if (along == 2 && end == length_ && !is_circle_) masks[size - 1] = outside_;
       } else {
         std::memset(masks, outside_, size);
       }
       const auto& facets = direction.facets;
-      for (std::size_t i = 3; i < facets.size(); ++i) {
+      for (std::size_t i = 3; i < facets.size(); ++i) {  // mutant: euler-facets
         const Mask* facet = masks_of(facets[i]);
         for (std::size_t x = 0; x < size; ++x) masks[x] &= facet[x];
       }

@@ -88,7 +88,7 @@ class ThreeLayers {
 
   std::size_t wrapped(std::size_t layer) const {
     if (layer < of_.layers()) return layer;
-    if (!of_.periodic.front()) return kNone;
+    if (!of_.periodic.front()) return kNone;       // mutant: euler-first-axis
     return layer == kNone ? of_.layers() - 1 : 0;  // before the first layer, or after the last
   }
   void load(std::size_t layer, int to) {

@@ -46,7 +46,7 @@ StepFunction euler_curve(std::span<const Bar> bars) {
   changes.reserve(2 * bars.size());
   for (const Bar& bar : bars) {
     vectors::check_bar(bar, "euler_curve");
-    const std::int64_t sign = bar.dim % 2 == 0 ? 1 : -1;
+    const std::int64_t sign = bar.dim % 2 == 0 ? 1 : -1;  // mutant: euler-sign
     changes.emplace_back(bar.birth, sign);
     if (!bar.is_infinite()) changes.emplace_back(bar.death, -sign);
   }

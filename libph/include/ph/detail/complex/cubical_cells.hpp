@@ -83,9 +83,9 @@ void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
       const std::uint64_t upper =
           x + 1 < axis.length ? cell.index + axis.stride : cell.index - x * axis.stride;
       visit(Cell{keys[upper], upper}, sign);
-      visit(Cell{keys[lower], lower}, -sign);
+      visit(Cell{keys[lower], lower}, -sign);  // mutant: cubical-edge-sign
     }
-    sign = -sign;
+    sign = -sign;  // mutant: cubical-axis-sign
   }
 }
 
@@ -122,7 +122,7 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
   }
   int count = down;
   for (; up < 2 * kMaxDim; ++up) cofacets[count++] = cofacets[up];
-  if (wrapped) {
+  if (wrapped) {                     // mutant: cubical-wrapped
     for (int i = 1; i < count; ++i)  // insertion sort: the array is short and nearly sorted
       for (int j = i; j > 0 && cofacets[j].index < cofacets[j - 1].index; --j)
         std::swap(cofacets[j], cofacets[j - 1]);

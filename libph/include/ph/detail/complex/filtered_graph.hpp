@@ -58,6 +58,7 @@ class FilteredGraph {
     const auto cells = static_cast<Cell>(slot_count());
     if (dim == 0)
       for (Cell v = 0; v < vertices; ++v)
+        // mutant: graph-infinite
         if (births_[v] < std::numeric_limits<double>::infinity()) visit(v);
     if (dim == 1)
       for (Cell e = vertices; e < cells; ++e) visit(e);

@@ -69,7 +69,7 @@ void join_by_elder_rule(std::span<const std::uint32_t> age, std::span<const Grap
     ticker.tick();
     std::uint32_t elder = sets.find(edges[i].u), younger = sets.find(edges[i].v);
     if (elder == younger) continue;
-    if (age[younger] < age[elder]) std::swap(elder, younger);
+    if (age[younger] < age[elder]) std::swap(elder, younger);  // mutant: elder-rule
     sets.link(younger, elder);
     --components;
     on_merge(i, elder, younger);

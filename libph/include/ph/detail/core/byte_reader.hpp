@@ -40,7 +40,7 @@ class ByteReader {
   /// Reads a filtration value; refuses NaN, because NaN has no place in any order.
   double value(std::string_view what) {
     const auto value = get<double>(what);
-    if (std::isnan(value)) refuse(what);
+    if (std::isnan(value)) refuse(what);  // mutant: part-nan
     return value;
   }
   std::uint64_t get_short(std::string_view what) {

@@ -19,7 +19,7 @@ using FlagEdges = RawVector<FlagEdge>;
 /// The order of edges in a flag filtration: (value, u, v).
 inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
   if (a.value != b.value) return a.value < b.value;
-  return a.u != b.u ? a.u < b.u : a.v < b.v;
+  return a.u != b.u ? a.u < b.u : a.v < b.v;  // mutant: edge-order
 }
 
 class BinnedEdges;

@@ -31,7 +31,7 @@ class FlatMap {
   /// Returns null if the key is absent. The result is valid until the next insertion. Several
   /// threads may call it.
   Value* find(Key key) {
-    if (key == kFree) [[unlikely]]
+    if (key == kFree) [[unlikely]]  // mutant: map-free-key
       return has_last_ ? &last_ : nullptr;
     if (size_ == 0) return nullptr;
     Slot& slot = slot_of(key);
@@ -52,7 +52,7 @@ class FlatMap {
   }
   /// Keeps a small array, which makes frequent clearing cheap.
   void clear() {
-    last_ = Value{};
+    last_ = Value{};  // mutant: map-last-value
     has_last_ = false;
     if (size_ == 0) return;
     size_ = 0;

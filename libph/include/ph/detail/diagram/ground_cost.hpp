@@ -19,7 +19,7 @@ class GroundCost {
 
   /// The distance of a bar from the diagonal, as a multiple of half its length.
   static double to_diagonal(double ground) {
-    return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);
+    return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);  // mutant: diagonal-norm
   }
   /// The same before it is raised to the power, in any unit: squares neither overflow nor
   /// underflow.

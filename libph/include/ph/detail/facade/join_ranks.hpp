@@ -38,7 +38,7 @@ std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunCon
       post.send(rank - width, own->bytes());
       return std::nullopt;
     }
-    if (rank + width < parts) {
+    if (rank + width < parts) {  // mutant: join-odd
       const std::vector<std::byte> bytes = post.receive(rank + width);
       own->join(Part::of_bytes(bytes, context), context);
     }

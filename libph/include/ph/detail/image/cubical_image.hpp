@@ -57,7 +57,7 @@ struct CubicalImage {
   double value(std::size_t i) const {
     const double v =
         with_voxels(type, voxels, [i](const auto* all) { return static_cast<double>(all[i]); });
-    if (v != v) return std::numeric_limits<double>::infinity();
+    if (v != v) return std::numeric_limits<double>::infinity();  // mutant: cubical-absent
     return (superlevel ? -v : v) + 0.0;
   }
 };

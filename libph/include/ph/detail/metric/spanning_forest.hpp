@@ -41,6 +41,7 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
   std::size_t left = outside.size(), next = 0;  // `next` is the vertex that enters the tree
   while (left > 0) {
     const FlagEdge& first = outside[next].edge;  // if it is too long, another tree begins
+    // mutant: forest-threshold
     if (first.value <= limit && first.value < never) forest.push_back(first);
     const std::uint32_t entered = outside[next].vertex;
     // The other vertices keep their order, which is the order of a matrix in memory.

@@ -27,7 +27,7 @@ class ApparentPairs {
       const auto cofacet = oldest_equal_cofacet(dim, cell);
       if (!cofacet) return std::nullopt;
       const auto facet = youngest_equal_facet(dim + 1, *cofacet);
-      if (facet && *facet == cell) return cofacet;
+      if (facet && *facet == cell) return cofacet;  // mutant: apparent-both
     }
     return std::nullopt;
   }

@@ -55,7 +55,7 @@ class CoboundaryColumn {
   /// Removes the oldest term; false if nothing is left.
   bool pop_pivot(Term& pivot) {
     while (!terms_.pop_pivot(pivot))
-      if (!raise_limit()) return false;
+      if (!raise_limit()) return false;  // mutant: limit-rises
     return true;
   }
   /// Puts back `pivot`, the term that was removed, and adds `scale` times another column, given by
@@ -99,7 +99,7 @@ class CoboundaryColumn {
   }
   bool raise_limit() {
     if (limit_ == kNoLimit) return false;
-    const Key first = limit_ + 1;
+    const Key first = limit_ + 1;  // mutant: limit-first
     set_limit(first);
     terms_.clear();
     chain();  // cells that cancel need not be listed
@@ -116,7 +116,7 @@ class CoboundaryColumn {
       });
     };
     append(cell_, field_.from_int(1));
-    for (const Term& term : chain_) append(term.cell, term.coefficient());
+    for (const Term& term : chain_) append(term.cell, term.coefficient());  // mutant: limit-chain
     terms_.heapify();
   }
   /// Lists cofacets up to the limit. Nobody needs those before `first`.

@@ -245,7 +245,7 @@ void CohomologyReduction<F, K>::report_pairs() {
     bool is_kept;
     if (column && !field_.is_zero(column->coefficient)) {
       death_cells_.push_back(column->pivot);
-      cleared_.insert(column->pivot, 0);
+      cleared_.insert(column->pivot, 0);  // mutant: cohomology-clearing
       is_kept = bars_.add_pair(dim_, cell, column->pivot);
     } else {
       essential_.push_back(cell);
@@ -272,6 +272,7 @@ bool CohomologyReduction<F, K>::start_column(std::uint32_t number, Worker& worke
   worker.working.start(dim_, cell, [&](const Cell& cofacet, typename K::Element a) {
     if (looks_for_pivot && f_.key(cofacet) == f_.key(cell)) {
       looks_for_pivot = false;
+      // mutant: emergent-apparent
       found = pivots_->owner_of(cofacet).number >= number &&
               !apparent_.birth_cell_of(dim_ + 1, cofacet);
       if (found) pivot = Term(cofacet, a);
@@ -328,7 +329,7 @@ void CohomologyReduction<F, K>::reduce(std::uint32_t number, Worker& worker) {
     is_new = false;
     const Column* column = keep(&pivot, worker);
     const std::uint32_t other = pivots_->claim(number, column);
-    if (other == PivotTable<F, K>::kNone) return;
+    if (other == PivotTable<F, K>::kNone) return;  // mutant: column-driven-out
     if (other != number) {
       number = other;
       column = pivots_->column(number);

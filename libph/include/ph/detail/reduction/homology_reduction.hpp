@@ -82,8 +82,8 @@ class HomologyReduction {
       reduce_column(cell, ticker);
       ticker.tick();
     }
-    previous_pivots_ = std::move(pivots_);
-    pivots_ = CellMap<F>(f_, &context_.memory);
+    previous_pivots_ = std::move(pivots_);       // mutant: homology-clearing
+    pivots_ = CellMap<F>(f_, &context_.memory);  // mutant: homology-pivots
   }
 
   struct Range {

@@ -69,7 +69,7 @@ class PivotTable {
     publish(i, column);
     for (;;) {
       Found found = find(column->pivot);
-      if (found.owner.number != kNone && found.owner.number < i) return i;
+      if (found.owner.number != kNone && found.owner.number < i) return i;  // mutant: pivot-first
       if (slots_[found.slot].compare_exchange_weak(found.content, content(column->pivot, i),
                                                    std::memory_order_acq_rel))
         return found.owner.number;

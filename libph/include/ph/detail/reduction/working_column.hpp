@@ -93,7 +93,7 @@ std::size_t add_up(std::span<Entry<typename F::Cell, K>> chain, const F& filtrat
     auto sum = chain[i].coefficient();
     for (++i; i < chain.size() && chain[i].cell == cell; ++i)
       sum = field.add(sum, chain[i].coefficient());
-    if (!field.is_zero(sum)) chain[kept++] = Term(cell, sum);
+    if (!field.is_zero(sum)) chain[kept++] = Term(cell, sum);  // mutant: zero-coefficient
   }
   return kept;
 }

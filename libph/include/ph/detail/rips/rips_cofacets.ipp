@@ -35,6 +35,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
       rows[static_cast<std::size_t>(i)] = adjacent.row(vertices[static_cast<std::size_t>(i)]);
     const std::span<const Key* const> used(rows.data(), static_cast<std::size_t>(count));
     const auto size = static_cast<std::uint32_t>(graph_.size());
+    // mutant: cofacet-blocks
     for (std::uint32_t begin = 0; begin < size; begin += KeyBlock::kSize) {
       const KeyBlock keys(used, begin, std::min(size - begin, KeyBlock::kSize), cell.key, first,
                           std::min(last, RipsAdjacency::kNever - 1));
@@ -66,7 +67,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
         common = list.front().vertex == lead.vertex;
         if (common) key = std::max(key, list.front().key);
       }
-      if (!common || key < first || key > last) continue;
+      if (!common || key < first || key > last) continue;  // mutant: cofacet-range-list
       if (vertices[static_cast<std::size_t>(slot)] < lead.vertex) {
         while (vertices[static_cast<std::size_t>(slot)] < lead.vertex) ++slot;
         open_slot();

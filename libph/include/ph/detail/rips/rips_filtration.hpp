@@ -67,8 +67,9 @@ class RipsFiltration {
   }
   bool precedes(const Cell& a, const Cell& b) const {
     if (a.key != b.key) return a.key < b.key;
+    // mutant: weights-vertex-order
     if (a.key == 0 && value(a) != value(b)) return value(a) < value(b);
-    return a.vertices < b.vertices;
+    return a.vertices < b.vertices;  // mutant: rips-tie-break
   }
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::vertices; }
@@ -284,7 +285,7 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
   for (int slot = 0; slot <= dim; ++slot) {
     const std::uint32_t gone = vertices[static_cast<std::size_t>(slot)];
     Key key = cell.key;
-    if (gone == longest.u || gone == longest.v) {
+    if (gone == longest.u || gone == longest.v) {  // mutant: rips-facet-key
       key = 0;
       for (std::size_t i = 1; i <= static_cast<std::size_t>(dim); ++i) {
         if (vertices[i] == gone) continue;
@@ -292,6 +293,7 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
           if (vertices[j] != gone) key = std::max(key, adjacent.key_of(vertices[i], vertices[j]));
       }
     }
+    // mutant: rips-facet-sign
     visit(Cell{key, without(cell.vertices, slot)}, slot % 2 == 0 ? 1 : -1);
   }
 }

@@ -59,7 +59,7 @@ std::uint32_t RipsFiltration<Layout, Words>::first_common_neighbour(int dim, con
       ++count;
     }
     for (const Neighbour& lead : lists[0]) {
-      if (lead.vertex >= below) break;
+      if (lead.vertex >= below) break;  // mutant: rips-apparent
       if (lead.key >= cell.key) continue;
       std::size_t i = 1;
       for (; i < count; ++i) {

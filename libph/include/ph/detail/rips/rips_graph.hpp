@@ -221,7 +221,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   };
   EdgeBinner binner(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, ranges, context);
   Row farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
-  std::ranges::copy(weights.births(), farthest.begin());
+  std::ranges::copy(weights.births(), farthest.begin());  // mutant: weights-enclosing
   std::mutex farthest_mutex;
   for_each_row("enclosing radius", [&](std::size_t range, auto&& for_each) {
     Row of_range(farthest.size(), 0.0, &context.memory);
@@ -238,14 +238,14 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
       farthest[i] = std::max(farthest[i], of_range[i]);
   });
   const double radius = n == 0 ? kNoLimit : *std::ranges::min_element(farthest);
-  const double limit = threshold.value_or(radius);
+  const double limit = threshold.value_or(radius);  // mutant: rips-enclosing
   // An infinite distance is not an edge.
   const double last = std::min(limit, std::numeric_limits<double>::max());
   binner.allocate(last);
   for_each_row("edges", [&](std::size_t range, auto&& for_each) {
     for_each([&](Index i, const double* row) {
       for (Index j = 0; j < i; ++j)
-        if (row[j] <= last)
+        if (row[j] <= last)  // mutant: rips-threshold
           binner.add({row[j] + 0.0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)},
                      range);
     });

@@ -57,7 +57,7 @@ class RipsGroups {
     Word missed = set[first] & ~joined[link_words_[first]] & ~(Word{1} << (a % 64));
     for (std::size_t i = first + 1; missed == 0 && i < words; ++i)
       missed = set[i] & ~joined[link_words_[i]];
-    return missed == 0;
+    return missed == 0;  // mutant: rips-cone
   }
 
   std::span<const FlagEdge> edges_;
@@ -88,7 +88,7 @@ void RipsGroups::extend(int missing, std::size_t depth, std::size_t words, Visit
       const int bit = 63 - std::countl_zero(rest);
       rest ^= Word{1} << bit;
       const auto x = static_cast<Vertex>(link_words_[k] * 64 + static_cast<Vertex>(bit));
-      if (x == lowest) return;
+      if (x == lowest) return;  // mutant: rips-lowest
       const Word* joined = present_.row(x);
       const Word last = common[k] & joined[link_words_[k]] & ((Word{1} << bit) - 1);
       chosen_.push_back(x);

@@ -37,7 +37,7 @@ class SparseRips {
   double edge_value(Index u, Index v, double distance) const {
     const double of_u = largest_ball(u), of_v = largest_ball(v), small = std::min(of_u, of_v);
     const double value = meeting(small, std::max(of_u, of_v), distance);
-    return value <= (1 + epsilon_) * small ? value : RipsGraph::kNoLimit;
+    return value <= (1 + epsilon_) * small ? value : RipsGraph::kNoLimit;  // mutant: sparse-gone
   }
   /// From this value on there is a single component and nothing else: point 0, whose ball grows
   /// forever, has met all other points.
@@ -50,7 +50,7 @@ class SparseRips {
   /// The value at which two balls with these largest diameters meet.
   static double meeting(double small, double large, double distance) {
     if (distance <= small) return distance;
-    const double value = distance + (distance - small);
+    const double value = distance + (distance - small);  // mutant: sparse-value
     return value <= large ? value : RipsGraph::kNoLimit;
   }
 
