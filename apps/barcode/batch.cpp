@@ -25,120 +25,123 @@ namespace {
 
 /// Only JSON and the report have room for representatives, and only JSON has room for loops.
 /// @throws Error (usage).
-void require_room(BarcodeFormat format, const Arguments& arguments) {
-  if (!arguments.dry_run) require_significance(format, arguments);
-  if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
-  if (arguments.loops && format != BarcodeFormat::json)
+void require_room(BarcodeFormat format, const Job& job) {
+  if (!job.results.dry_run) require_significance(format, job);
+  if (job.question.options.representatives == Representatives::none || job.results.dry_run) return;
+  if (job.results.loops && format != BarcodeFormat::json)
     throw Error(
         ErrorKind::usage,
         fmt::format("--loops: found output format {}, expected json; --output-format json or "
                     "-o FILE.json holds them",
                     barcode_format_name(format)));
-  if (!arguments.report.empty() || format == BarcodeFormat::json) return;
+  if (!job.places.report.empty() || format == BarcodeFormat::json) return;
   throw Error(ErrorKind::usage,
               fmt::format("--representatives: found output format {}, expected json; "
                           "--output-format json or -o FILE.json holds them",
                           barcode_format_name(format)));
 }
 
-/// The options that give each input of a batch its own output, instead of folders and `*`.
-Job job_of(const std::string& input, const std::string& name, const Arguments& arguments,
-           BarcodeFormat format) {
-  Job job{input, arguments.output, format};
+/// The places of one input of a batch, in the folders and patterns of the job.
+Places places_of(const std::string& input, const std::string& name, const Job& job,
+                 BarcodeFormat format) {
+  Places places = job.places;
+  places.input = input;
+  places.format = format;
   if (format != BarcodeFormat::none)
-    job.output =
-        app::filled(arguments.output, name, fmt::format(".{}", barcode_format_name(format)));
-  job.plots = arguments.plots;
-  for (app::Plot& plot : job.plots) plot.path = app::filled(plot.path, name, ".svg");
-  job.report = app::filled(arguments.report, name, ".html");
-  job.surfaces = arguments.surfaces;
-  for (Surface& surface : job.surfaces) surface.path = app::filled(surface.path, name, ".ply");
-  return job;
+    places.output =
+        app::filled(places.output, name, fmt::format(".{}", barcode_format_name(format)));
+  for (app::Plot& plot : places.plots) plot.path = app::filled(plot.path, name, ".svg");
+  places.report = app::filled(places.report, name, ".html");
+  for (Surface& surface : places.surfaces) surface.path = app::filled(surface.path, name, ".ply");
+  return places;
 }
 
-/// One job per input.
-std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::string>& inputs,
-                         BarcodeFormat format) {
-  if (!arguments.is_batch())
-    return {{inputs.front(), arguments.output, format, arguments.plots, arguments.report,
-             arguments.surfaces}};
-  const std::string& output = arguments.output;
+/// The places of each input.
+std::vector<Places> places_of(const Job& job, const std::vector<std::string>& inputs,
+                              BarcodeFormat format) {
+  if (!job.is_batch()) {
+    Places places = job.places;
+    places.input = inputs.front();
+    places.format = format;
+    return {places};
+  }
+  const std::string& output = job.places.output;
   const bool is_place = app::names_each(output) || (output != "-" && app::is_folder(output));
-  if (format != BarcodeFormat::none && !is_place && !arguments.dry_run)
+  if (format != BarcodeFormat::none && !is_place && !job.results.dry_run)
     throw Error(
         ErrorKind::usage,
         fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", output));
   const std::vector<std::string> names = app::output_names(inputs);
-  const bool writes = format != BarcodeFormat::none || !arguments.plots.empty() ||
-                      !arguments.report.empty() || !arguments.surfaces.empty();
+  const bool writes = format != BarcodeFormat::none || !job.places.plots.empty() ||
+                      !job.places.report.empty() || !job.places.surfaces.empty();
   std::map<std::string, std::string> taken;
-  std::vector<Job> jobs;
+  std::vector<Places> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto [other, fresh] = taken.emplace(names[i], inputs[i]);
-    jobs.push_back(job_of(inputs[i], names[i], arguments, format));
-    if (!fresh && writes && !arguments.dry_run)
+    all.push_back(places_of(inputs[i], names[i], job, format));
+    if (!fresh && writes && !job.results.dry_run)
       throw Error(ErrorKind::usage, fmt::format("--output: {} and {} would both be written to {}",
-                                                other->second, inputs[i], jobs.back().output));
+                                                other->second, inputs[i], all.back().output));
   }
-  return jobs;
+  return all;
 }
 
 /// Creates the folders of a batch.
-void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
-  if (format != BarcodeFormat::none) app::prepare_outputs("--output", arguments.output);
-  for (const app::Plot& plot : arguments.plots) app::prepare_outputs(plot.option, plot.path);
-  app::prepare_outputs("--report", arguments.report);
-  for (const Surface& surface : arguments.surfaces)
+void prepare_folders(const Job& job, BarcodeFormat format) {
+  if (format != BarcodeFormat::none) app::prepare_outputs("--output", job.places.output);
+  for (const app::Plot& plot : job.places.plots) app::prepare_outputs(plot.option, plot.path);
+  app::prepare_outputs("--report", job.places.report);
+  for (const Surface& surface : job.places.surfaces)
     app::prepare_outputs(surface.option(), surface.path);
 }
 
 /// No output may replace an input or another output. @throws Error (usage).
 void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
-                      const Arguments& arguments, app::Session& session) {
-  const bool replaces = app::require_separate(inputs, outputs, arguments.common.force);
-  if (!arguments.common.force || replaces) return;
-  if (arguments.dry_run)
+                      const Job& job, app::Session& session) {
+  const bool replaces = app::require_separate(inputs, outputs, job.common.force);
+  if (!job.common.force || replaces) return;
+  if (job.results.dry_run)
     session.note("--force does nothing: --dry-run writes no file");
   else
     session.explain("--force: not needed, no output is an input");
 }
-void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
-                      app::Session& session) {
+void require_separate(const std::vector<Places>& all, const Job& job, app::Session& session) {
   app::InputFiles inputs;
   std::vector<app::Written> outputs;
-  for (const Job& job : jobs) {
-    inputs.add(job.input);
-    if (arguments.dry_run) continue;
-    if (job.format != BarcodeFormat::none) outputs.push_back({"--output", job.output});
-    for (const app::Plot& plot : job.plots) outputs.push_back({plot.option, plot.path});
-    if (!job.report.empty()) outputs.push_back({"--report", job.report});
-    for (const Surface& surface : job.surfaces) outputs.push_back({surface.option(), surface.path});
+  for (const Places& places : all) {
+    inputs.add(places.input);
+    if (job.results.dry_run) continue;
+    if (places.format != BarcodeFormat::none) outputs.push_back({"--output", places.output});
+    for (const app::Plot& plot : places.plots) outputs.push_back({plot.option, plot.path});
+    if (!places.report.empty()) outputs.push_back({"--report", places.report});
+    for (const Surface& surface : places.surfaces)
+      outputs.push_back({surface.option(), surface.path});
   }
-  if (arguments.dry_run) outputs.push_back({"--dry-run", "-"});
-  inputs.add(arguments.values);
-  inputs.add(arguments.vertex_weights);
-  inputs.add(arguments.weights);
-  require_separate(inputs, outputs, arguments, session);
+  if (job.results.dry_run) outputs.push_back({"--dry-run", "-"});
+  inputs.add(job.reading.values);
+  inputs.add(job.question.vertex_weights);
+  inputs.add(job.question.weights);
+  require_separate(inputs, outputs, job, session);
 }
 
 /// Warns about outputs that were asked for and will not be written.
-void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
+void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& session) {
   std::vector<std::string> unwritten, estimated;
-  const bool is_named = arguments.output != "-";
-  if (is_named && (arguments.dry_run || format == BarcodeFormat::none))
-    unwritten.push_back("--output " + arguments.output);
-  if (arguments.dry_run) {
-    for (const app::Plot& plot : arguments.plots)
+  const bool is_named = job.places.output != "-";
+  if (is_named && (job.results.dry_run || format == BarcodeFormat::none))
+    unwritten.push_back("--output " + job.places.output);
+  if (job.results.dry_run) {
+    for (const app::Plot& plot : job.places.plots)
       unwritten.push_back(plot.option + " " + plot.path);
-    if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
-    for (const Surface& surface : arguments.surfaces)
+    if (!job.places.report.empty()) unwritten.push_back("--report " + job.places.report);
+    for (const Surface& surface : job.places.surfaces)
       unwritten.push_back(fmt::format("{} {}", surface.option(), surface.path));
-    if (arguments.check) unwritten.emplace_back("--check");
-    const Options& options = arguments.options;
+    if (job.results.check) unwritten.emplace_back("--check");
+    const Options& options = job.question.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
-    if (arguments.loops) unwritten.emplace_back("--loops");
+    if (job.results.loops) unwritten.emplace_back("--loops");
     // The memory of bars depends on these, for example on the cells that JSON needs.
-    if (arguments.output_format)
+    if (job.results.output_format)
       estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
     if (options.min_dim > 0) estimated.emplace_back("--min-dim");
     if (options.field != 2) estimated.emplace_back("--field");
@@ -147,7 +150,7 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
   }
   if (!unwritten.empty())
     session.note(fmt::format("{}: nothing is done for {}",
-                             arguments.dry_run ? "--dry-run" : "--output-format none",
+                             job.results.dry_run ? "--dry-run" : "--output-format none",
                              fmt::join(unwritten, ", ")));
   if (!estimated.empty())
     session.note(fmt::format("--dry-run: nothing is done for {} except to estimate memory",
@@ -155,15 +158,15 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
 }
 
 /// Options for bars that have no effect if only the merge tree is written.
-void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
-  const bool is_seen = format != BarcodeFormat::none || !arguments.report.empty() ||
-                       arguments.check ||
-                       std::ranges::any_of(arguments.plots, &app::Plot::shows_bars);
-  if (is_seen || !arguments.draws_tree() || arguments.dry_run) return;
+void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& session) {
+  const bool is_seen = format != BarcodeFormat::none || !job.places.report.empty() ||
+                       job.results.check ||
+                       std::ranges::any_of(job.places.plots, &app::Plot::shows_bars);
+  if (is_seen || !job.draws_tree() || job.results.dry_run) return;
   constexpr std::array<std::string_view, 5> kOfBars{"min-persistence", "max-dim", "min-dim",
                                                     "field", "engine"};
   std::vector<std::string> given;
-  for (const app::GivenOption& option : arguments.given)
+  for (const app::GivenOption& option : job.given)
     if (std::ranges::find(kOfBars, option.name) != kOfBars.end())
       given.push_back(fmt::format("--{}", option.name));
   if (!given.empty())
@@ -174,88 +177,91 @@ void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::
 /// Runs one of several inputs and writes one line to stderr, whatever the outcome. @return the exit
 /// code.
 /// @throws Error if the other inputs need not be tried.
-int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
+int run_one(const Job& job, app::Session& session) {
   try {
-    const Outcome outcome = run(job, arguments, session);
-    session.note(fmt::format("{}: {}", job.input, outcome.summary));
+    const Outcome outcome = run(job, session);
+    session.note(fmt::format("{}: {}", job.places.input, outcome.summary));
     return outcome.code;
   } catch (const BrokenPipe&) {
     throw;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
-    const bool named = error.message().is_about(printable(job.input));
-    return app::report_current_exception(kProgram, named ? "" : job.input);
+    const bool named = error.message().is_about(printable(job.places.input));
+    return app::report_current_exception(kProgram, named ? "" : job.places.input);
   } catch (...) {
-    return app::report_current_exception(kProgram, job.input);
+    return app::report_current_exception(kProgram, job.places.input);
   }
 }
 
 }  // namespace
 
-BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
-  if (arguments.output_format) return *arguments.output_format;
-  if (const app::Plot picture{.path = arguments.output, .kind = {}};
+BarcodeFormat output_format(const Job& job, app::Session& session) {
+  if (job.results.output_format) return *job.results.output_format;
+  if (const app::Plot picture{.path = job.places.output, .kind = {}};
       picture.is_svg() || picture.is_png())
     throw Error(ErrorKind::usage,
                 fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
                             "--output-format says what else it is",
-                            printable(arguments.output)));
+                            printable(job.places.output)));
   // Pictures of several inputs do not need barcodes beside them.
   const bool has_others =
-      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
-  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
-  if (arguments.is_batch() &&
-      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
+      !job.places.plots.empty() || !job.places.report.empty() || !job.places.surfaces.empty();
+  if (job.is_batch() && job.places.output == "-" && has_others) return BarcodeFormat::none;
+  if (job.is_batch() && (job.places.output.ends_with('/') || !app::names_each(job.places.output)))
     return BarcodeFormat::csv;
-  if (const auto format = barcode_format_of_path(arguments.output)) return *format;
-  require_unpacked(arguments.output);
-  if (app::has_extension(arguments.output))
-    session.note(app::no_format_in(arguments.output, "csv"));
+  if (const auto format = barcode_format_of_path(job.places.output)) return *format;
+  require_unpacked(job.places.output);
+  if (app::has_extension(job.places.output))
+    session.note(app::no_format_in(job.places.output, "csv"));
   return BarcodeFormat::csv;
 }
 
-int run_all(const Arguments& given, app::Session& session) {
+int run_all(const Job& given, app::Session& session) {
   for (const std::string& note : given.notes) session.note(note);
   if (!given.compare.empty()) {
     app::require_in_scope(given.given, kComparison, name_of(kComparison));
     app::InputFiles inputs;
     for (const std::string& path : given.compare) inputs.add(path);
     std::vector<app::Written> outputs;
-    const BarcodeFormat format = given.output_format.value_or(BarcodeFormat::csv);
+    const BarcodeFormat format = given.results.output_format.value_or(BarcodeFormat::csv);
     // mutant: compare-output
-    if (format != BarcodeFormat::none) outputs.push_back({"--output", given.output});
-    if (!given.report.empty()) outputs.push_back({"--report", given.report});
+    if (format != BarcodeFormat::none) outputs.push_back({"--output", given.places.output});
+    if (!given.places.report.empty()) outputs.push_back({"--report", given.places.report});
     require_separate(inputs, outputs, given, session);
     explain_unwritten(given, format, session);
     return run_comparison(given, session);
   }
-  if (given.part) return run_part(given, session);
-  if (given.joins && is_part_path(given.output))
+  if (given.sharing.part) return run_part(given, session);
+  if (given.sharing.joins && is_part_path(given.places.output))
     return run_join(given, BarcodeFormat::none, session);
   const BarcodeFormat format = output_format(given, session);
-  if (given.joins) return run_join(given, format, session);
-  Arguments arguments = given;
+  if (given.sharing.joins) return run_join(given, format, session);
+  Job job = given;
   // JSON and the report show cells.
-  arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();
-  require_room(format, arguments);
-  const std::vector<std::string> inputs =
-      arguments.is_batch() ? with_files_of_folders(arguments) : arguments.inputs;
-  const std::vector<Job> jobs = jobs_of(arguments, inputs, format);
-  require_separate(jobs, arguments, session);
-  explain_unwritten(arguments, format, session);
-  explain_unseen_bars(arguments, format, session);
-  if (!arguments.is_batch()) return run(jobs[0], arguments, session).code;
-  if (!arguments.dry_run) prepare_folders(arguments, format);
+  job.question.options.cells = format == BarcodeFormat::json || !job.places.report.empty();
+  require_room(format, job);
+  const std::vector<std::string> inputs = job.is_batch() ? with_files_of_folders(job) : job.inputs;
+  std::vector<Places> all = places_of(job, inputs, format);
+  require_separate(all, job, session);
+  explain_unwritten(job, format, session);
+  explain_unseen_bars(job, format, session);
+  job.of_batch = job.is_batch();
+  if (job.of_batch && !job.results.dry_run) prepare_folders(job, format);
+  if (!job.of_batch) {
+    job.places = std::move(all[0]);
+    return run(job, session).code;
+  }
 
   int first_failure = app::kOk;
   std::size_t failures = 0;
-  for (const Job& job : jobs) {
-    const int code = run_one(job, arguments, session);
+  for (Places& places : all) {
+    job.places = std::move(places);
+    const int code = run_one(job, session);
     if (code == app::kOk) continue;
     if (first_failure == app::kOk) first_failure = code;
     ++failures;
   }
-  if (failures > 0) session.note(fmt::format("{} of {} inputs failed", failures, jobs.size()));
+  if (failures > 0) session.note(fmt::format("{} of {} inputs failed", failures, all.size()));
   return first_failure;
 }
 

@@ -12,31 +12,33 @@ namespace ph::barcode {
 
 /// The format that --output-format or the name of the output selects. @throws Error (usage) on a
 /// picture.
-BarcodeFormat output_format(const Arguments& arguments, app::Session& session);
+BarcodeFormat output_format(const Job& job, app::Session& session);
 
 /// Runs all inputs. With an output folder, one failure does not stop the others: its line goes to
 /// stderr, and the code of the first failure is returned at the end.
-int run_all(const Arguments& arguments, app::Session& session);
+int run_all(const Job& job, app::Session& session);
 
-/// Computes the part that the arguments name. Precondition: arguments.part. @return the exit code.
+/// Computes the part that the arguments name. Precondition: `sharing.part` is set. @return the exit
+/// code.
 /// @throws Error.
-int run_part(const Arguments& arguments, app::Session& session);
+int run_part(const Job& job, app::Session& session);
 
 /// Joins the inputs, which are parts. @return the exit code. @throws Error.
-int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& session);
+int run_join(const Job& job, BarcodeFormat format, app::Session& session);
 
 /// Computes the barcodes of the inputs that belong to one part, and writes the part. One failure
-/// does not stop the others: the part records it. Precondition: arguments.part.
-Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& arguments,
+/// does not stop the others: the part records it. Precondition: job.sharing.part.
+Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
                        app::Session& session);
 
 /// Joins parts of a batch and writes one table, `input,dim,birth,death`, or one part.
 /// @return the code of the first input that failed, if any did: the table is written anyway.
 /// @throws Error (bad_data) naming the files, if parts do not belong together or some are missing.
-Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job, app::Session& session);
+Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& places,
+                         app::Session& session);
 
 /// The inputs, with each folder replaced by its files.
 /// @throws Error (no_input) if a folder has no file of a known format.
-std::vector<std::string> with_files_of_folders(const Arguments& arguments);
+std::vector<std::string> with_files_of_folders(const Job& job);
 
 }  // namespace ph::barcode

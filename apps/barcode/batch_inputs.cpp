@@ -19,9 +19,9 @@ constexpr std::array<std::string_view, 9> kBarcodeExtensions{
 
 }  // namespace
 
-std::vector<std::string> with_files_of_folders(const Arguments& arguments) {
+std::vector<std::string> with_files_of_folders(const Job& job) {
   std::vector<std::string_view> extensions;
-  if (arguments.stored)
+  if (job.stored)
     extensions.assign(kBarcodeExtensions.begin(), kBarcodeExtensions.end());
   else
     extensions.assign(kExtensions.begin(), kExtensions.end());
@@ -30,7 +30,7 @@ std::vector<std::string> with_files_of_folders(const Arguments& arguments) {
     packed.push_back(std::string(extension) + ".gz");
   extensions.insert(extensions.end(), packed.begin(), packed.end());
   std::vector<std::string> inputs;
-  for (const std::string& input : arguments.inputs) {
+  for (const std::string& input : job.inputs) {
     if (!app::is_folder(input)) {
       inputs.push_back(input);
       continue;

@@ -21,12 +21,12 @@ namespace ph::barcode {
 namespace {
 
 /// Refuses options that require a single input. @throws Error (usage).
-void require_batch_options(const Arguments& arguments) {
+void require_batch_options(const Job& job) {
   constexpr std::array<std::string_view, 13> kOfOne{
       "plot",    "plot-kind",    "dims",        "title", "size",
       "axis",    "loops",        "alpha-shape", "wrap",  "representatives",
       "dry-run", "significance", "keep-cells"};
-  for (const std::string& typed : arguments.typed_options) {
+  for (const std::string& typed : job.sharing.typed_options) {
     if (!typed.starts_with("--")) continue;
     if (std::ranges::find(kOfOne, std::string_view(typed).substr(2)) != kOfOne.end())
       throw Error(
@@ -35,7 +35,7 @@ void require_batch_options(const Arguments& arguments) {
   }
 }
 
-InputsPart::Result run_one(std::size_t number, const std::string& input, const Arguments& arguments,
+InputsPart::Result run_one(std::size_t number, const std::string& input, Job& job,
                            app::Session& session) {
   InputsPart::Result result;
   result.input = number;
@@ -45,9 +45,8 @@ InputsPart::Result run_one(std::size_t number, const std::string& input, const A
     result.bars = Barcode();
   };
   try {
-    Job job{input, "-", BarcodeFormat::none};
-    job.bars = &result.bars;
-    const Outcome outcome = run(job, arguments, session);
+    job.places = {.input = input, .format = BarcodeFormat::none, .bars = &result.bars};
+    const Outcome outcome = run(job, session);
     if (outcome.code != app::kOk) fail("the engine and the reference engine differ", outcome.code);
     session.note(fmt::format("{}: {}", input, outcome.summary));
   } catch (const Error& error) {
@@ -79,30 +78,31 @@ int code_of(std::span<const InputsPart::Result> results) {
 
 }  // namespace
 
-Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& arguments,
+Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
                        app::Session& session) {
-  require_batch_options(arguments);
-  const auto [part, parts] = *arguments.part;
-  const std::string path = part_path(arguments.output, "part", part, parts);
+  require_batch_options(job);
+  const auto [part, parts] = *job.sharing.part;
+  const std::string path = part_path(job.places.output, "part", part, parts);
   app::InputFiles read;
   for (const std::string& input : inputs) read.add(input);
-  app::require_separate(read, std::array{app::Written{"--output", path}}, arguments.common.force);
-  const InputsPart::Whole whole{inputs, arguments.typed_options, parts};
+  app::require_separate(read, std::array{app::Written{"--output", path}}, job.common.force);
+  const InputsPart::Whole whole{inputs, job.sharing.typed_options, parts};
   std::vector<std::string> own;
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
-  if (arguments.resumes && is_there(path, whole, part, own, session))
+  if (job.sharing.resumes && is_there(path, whole, part, own, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::Output output(path);  // a file that cannot be created is reported first
   InputsPart done(whole, part);
+  Job own_job = job;
   for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (InputsPart::part_of(i, parts) == part) done.add(run_one(i, inputs[i], arguments, session));
+    if (InputsPart::part_of(i, parts) == part) done.add(run_one(i, inputs[i], own_job, session));
   write_part_file(output, done.bytes());
   return {code_of(done.results()), fmt::format("part {} of {}: {}", part + 1, parts,
                                                app::count_of(done.results().size(), "input"))};
 }
 
-Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
+Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& places,
                          app::Session& session) {
   std::optional<InputsPart> all;
   for (const PartFile& file : files) {
@@ -118,8 +118,8 @@ Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
   }
   const std::string parts =
       fmt::format("{} of {} parts", all->numbers().size(), all->whole().parts);
-  if (is_part_path(job.output)) {
-    app::Output output(job.output);
+  if (is_part_path(places.output)) {
+    app::Output output(places.output);
     write_part_file(output, all->bytes());
     return {app::kOk, parts};
   }
@@ -131,11 +131,11 @@ Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
                 fmt::format("--join: found {}, expected all: missing are {}; -o FILE.ph joins some",
                             parts, fmt::join(missing, ", ")));
   }
-  if (job.format != BarcodeFormat::csv)
+  if (places.format != BarcodeFormat::csv)
     throw Error(ErrorKind::usage,
                 fmt::format("--output-format: found {}, expected csv for a table of several inputs",
-                            barcode_format_name(job.format)));
-  app::Output output(job.output);
+                            barcode_format_name(places.format)));
+  app::Output output(places.output);
   std::size_t failures = 0;
   output.write("input,dim,birth,death\n");
   for (const InputsPart::Result& result : all->results()) {

@@ -37,9 +37,9 @@ namespace ph::barcode {
 namespace {
 
 /// The number of layers requested for processing one by one, or why this does not apply.
-void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Arguments& arguments,
+void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Job& job,
                    app::Session& session) {
-  const int layers = arguments.common.slab_layers;
+  const int layers = job.common.slab_layers;
   const auto* cubical = std::get_if<Cubical>(&built.complex);
   if (layers == 0 || !cubical) return;
   const auto does_nothing = [&](std::string_view why) {
@@ -48,10 +48,10 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
   const Engine engine = plan.options.engine;
   if (facts_of(engine).listed_dim(0) >= 0)
     does_nothing(fmt::format("engine {} takes all layers at once", engine.name()));
-  else if (arguments.options.representatives != Representatives::none)
+  else if (job.question.options.representatives != Representatives::none)
     does_nothing("representatives need all layers at once");
   else if (!cubical::can_be_cut(cubical->cubical_image(),
-                                {arguments.options.min_dim, *plan.options.max_dim}))
+                                {job.question.options.min_dim, *plan.options.max_dim}))
     does_nothing(cubical->cubical_image().extents.size() > 3
                      ? "with four axes or more, bars of dimensions between 0 and "
                        "the highest but one "
@@ -66,7 +66,7 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
 /// computed, which may take long, because there may be no tree. @throws Error (usage) if there is
 /// none.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
-                                          const Arguments& arguments, const RunContext& context) {
+                                          const RunContext& context) {
   const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
   if (!tree)
     throw Error(ErrorKind::usage,
@@ -78,31 +78,31 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();
   std::vector<std::string> pictures;
-  for (const app::Plot& plot : job.plots)
+  for (const app::Plot& plot : job.places.plots)
     if (plot.kind == "tree")
       pictures.push_back(app::drawn(plot, std::span(branches),
-                                    look_of(arguments.look, arguments.cubical.superlevel),
+                                    look_of(job.results.look, job.question.cubical.superlevel),
                                     context));
   return pictures;
 }
 
 /// True if bars of H1 get loops: only JSON has room for them.
-bool writes_loops(const Job& job, const Arguments& arguments) {
-  const Representatives kind = arguments.options.representatives;
-  return job.format == BarcodeFormat::json && arguments.loops != LoopChoice::none &&
+bool writes_loops(const Job& job) {
+  const Representatives kind = job.question.options.representatives;
+  return job.places.format == BarcodeFormat::json && job.results.loops != LoopChoice::none &&
          (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
 /// To be called before the computation. @throws Error (usage) if loops are requested that cannot be
 /// computed.
-void require_loops(const BuiltComplex& built, const Arguments& arguments) {
-  if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
+void require_loops(const BuiltComplex& built, const Job& job) {
+  if (!job.results.loops || *job.results.loops == LoopChoice::none) return;
   const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
   if (listed && listed->cell_kind() == CellKind::row)
     throw Error(ErrorKind::usage,
                 "--loops: found a boundary matrix, expected "
                 "cells with vertices to walk along");
-  if (*arguments.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
+  if (*job.results.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
     throw Error(ErrorKind::usage, fmt::format("--loops tight: found complex {}, expected rips; "
                                               "--loops plain gives "
                                               "loops as they are found",
@@ -120,19 +120,18 @@ struct Result {
 /// One run, stage by stage: open, load, plan, compute, check, write.
 class Run {
  public:
-  Run(const Job& job, const Arguments& arguments, app::Session& session)
-      : job_(job), arguments_(arguments), session_(session) {}
+  Run(const Job& job, app::Session& session) : job_(job), session_(session) {}
 
   /// @throws Error.
   Outcome operator()() {
     std::optional<Outputs> outputs;  // a file that cannot be created is reported first
-    if (!arguments_.dry_run) outputs.emplace(job_);
+    if (!job_.results.dry_run) outputs.emplace(job_.places);
     std::optional<Input> input(open());
-    if (is_stored_) return run_stored(job_, *input, *outputs, arguments_, session_);
-    Loaded loaded = load(job_, input, arguments_, session_, watch_);
+    if (is_stored_) return run_stored(job_, *input, *outputs, session_);
+    Loaded loaded = load(job_, input, session_, watch_);
     typing_.reset();
-    require_loops(loaded.built, arguments_);
-    if (arguments_.dry_run) return show_estimate(loaded);
+    require_loops(loaded.built, job_);
+    if (job_.results.dry_run) return show_estimate(loaded);
 
     const RunPlan plan = plan_and_build(loaded);
     const std::vector<std::string> trees = draw_trees(loaded);
@@ -140,7 +139,7 @@ class Run {
     give_back_data(loaded, plan);
     Result result = compute(loaded, plan);
     const MemoryClaim claim(context().memory, bytes_of(result.loops));
-    if (arguments_.check) check(loaded, plan, result);
+    if (job_.results.check) check(loaded, plan, result);
     return write(loaded, plan, std::move(result), trees, *outputs);
   }
 
@@ -152,31 +151,33 @@ class Run {
   const RunContext& context() const { return session_.context(); }
 
   Input open() {
-    if (app::is_typed({job_.input, arguments_.values, arguments_.vertex_weights}))
+    if (app::is_typed({job_.places.input, job_.reading.values, job_.question.vertex_weights}))
       typing_.emplace(session_);
-    Input input = Input::open(files::path_of(job_.input), &context(), Input::Excess::stays_in_file);
+    Input input =
+        Input::open(files::path_of(job_.places.input), &context(), Input::Excess::stays_in_file);
     if (is_sealed_part(input.bytes()))
       throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
                                                    "--join makes bars from all parts",
                                                    mark_place(input.name())));
-    is_stored_ = arguments_.stored || (arguments_.format == Format::automatic && is_barcode(input));
+    is_stored_ = job_.stored || (job_.reading.format == Format::automatic && is_barcode(input));
     if (!is_stored_) return input;
-    if (job_.bars != nullptr)
+    if (job_.places.bars != nullptr)
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: found a barcode, expected data", mark_place(input.name())));
-    app::require_in_scope(arguments_.given, kBarcode,
+    app::require_in_scope(job_.given, kBarcode,
                           name_of(kBarcode));  // --dry-run is not one
     return input;
   }
 
   Outcome show_estimate(Loaded& loaded) {
     const auto taken = static_cast<double>(session_.memory_taken());
-    if (arguments_.significance)
+    if (job_.results.significance)
       session_.note("--significance does nothing: --dry-run computes no bars");
-    const Estimate estimated = in_name_of(
-        loaded.name, [&] { return estimate(loaded.built.complex, arguments_.options, context()); });
+    const Estimate estimated = in_name_of(loaded.name, [&] {
+      return estimate(loaded.built.complex, job_.question.options, context());
+    });
     take_facts(loaded, estimated.built);
-    explain_slabs(loaded.built, estimated, arguments_, session_);
+    explain_slabs(loaded.built, estimated, job_, session_);
     const app::BarHold results_are_written(session_);
     // If the edges were listed, they were not there before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
@@ -185,14 +186,14 @@ class Run {
   }
 
   std::vector<std::string> draw_trees(const Loaded& loaded) {
-    if (!arguments_.draws_tree()) return {};
-    std::vector<std::string> trees = pictures_of_tree(loaded, job_, arguments_, context());
+    if (!job_.draws_tree()) return {};
+    std::vector<std::string> trees = pictures_of_tree(loaded, job_, context());
     watch_.lap("tree");
     return trees;
   }
 
   void write_surfaces(const Loaded& loaded, Outputs& outputs) {
-    if (job_.surfaces.empty()) return;
+    if (job_.places.surfaces.empty()) return;
     outputs.write_surfaces(std::get<Alpha>(loaded.built.complex), *points_of(loaded.data->read),
                            loaded.point_ids, context());
     watch_.lap("surfaces");
@@ -201,7 +202,7 @@ class Run {
   RunPlan plan_and_build(Loaded& loaded) {
     const AnyComplex& complex = loaded.built.complex;
     RunPlan plan = in_name_of(loaded.name, [&] {
-      RunPlan made = ph::plan(complex, arguments_.options, context());
+      RunPlan made = ph::plan(complex, job_.question.options, context());
       build(complex, made, context());
       return made;
     });
@@ -212,7 +213,7 @@ class Run {
       session_.explain(fmt::format("collapse {} ({})",
                                    plan.options.collapse == Collapse::on ? "on" : "off",
                                    plan.collapse_reason));
-    explain_slabs(loaded.built, plan, arguments_, session_);
+    explain_slabs(loaded.built, plan, job_, session_);
     return plan;
   }
 
@@ -225,7 +226,7 @@ class Run {
 
   /// The complex alone is enough, unless the data are shown, checked, or used directly.
   void give_back_data(Loaded& loaded, const RunPlan& plan) const {
-    if (!job_.report.empty() || arguments_.check || plan.form == RipsForm::points) return;
+    if (!job_.places.report.empty() || job_.results.check || plan.form == RipsForm::points) return;
     if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();
     loaded.data.reset();
     loaded.claim.reset();
@@ -234,8 +235,8 @@ class Run {
   Result compute(const Loaded& loaded, const RunPlan& plan) {
     Result result{ph::run(loaded.built.complex, plan, context()), {}, {}};
     watch_.lap("persistence");
-    if (writes_loops(job_, arguments_)) {
-      const bool is_tight = arguments_.loops.value_or(LoopChoice::tight) == LoopChoice::tight;
+    if (writes_loops(job_)) {
+      const bool is_tight = job_.results.loops.value_or(LoopChoice::tight) == LoopChoice::tight;
       result.loops = loops(loaded.built.complex, result.bars, plan.options, is_tight, context());
       watch_.lap("loops");
     }
@@ -266,7 +267,7 @@ class Run {
     }
     app::print_line(
         fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
-                    job_.input, engine, difference));
+                    job_.places.input, engine, difference));
     result.warnings.push_back("check: the engine and the reference engine differ: " + difference);
     result.code = app::kDifference;
   }
@@ -275,11 +276,11 @@ class Run {
     const BuiltComplex& built = loaded.built;
     BarcodeInfo info;
     info.program = app::program_and_version("ph-barcode");
-    info.input = job_.input;
+    info.input = job_.places.input;
     info.input_description = loaded.description;
     info.complex = built.name;
-    info.field = arguments_.options.field;
-    info.max_dim = arguments_.options.max_dim.value_or(*plan.options.max_dim);
+    info.field = job_.question.options.field;
+    info.max_dim = job_.question.options.max_dim.value_or(*plan.options.max_dim);
     info.threshold = built.threshold;
     info.metric = built.metric;
     info.vertex_weights = built.vertex_weights;
@@ -287,9 +288,9 @@ class Run {
     info.voxels = built.voxels;
     info.alpha = built.alpha;
     if (built.cubical) describe(*built.cubical, info);
-    info.approximation = arguments_.rips.approximation;
-    info.min_persistence = arguments_.options.min_persistence;
-    info.min_dim = arguments_.options.min_dim;
+    info.approximation = job_.question.rips.approximation;
+    info.min_persistence = job_.question.options.min_persistence;
+    info.min_dim = job_.question.options.min_dim;
     info.engine = plan.options.engine.name();
     info.timings = watch_.laps();
     info.peak_memory = app::peak_memory();
@@ -299,7 +300,7 @@ class Run {
   Outcome write(const Loaded& loaded, const RunPlan& plan, Result&& result,
                 std::span<const std::string> trees, Outputs& outputs) {
     std::vector<double> p_values;
-    if (arguments_.significance)
+    if (job_.results.significance)
       p_values = p_values_of(result.bars, std::holds_alternative<Alpha>(loaded.built.complex)
                                               ? DistanceFiltration::cech
                                               : DistanceFiltration::rips);
@@ -309,11 +310,11 @@ class Run {
     for (const auto& [stage, seconds] : watch_.laps())
       session_.explain(fmt::format("{} {:.3f} s", stage, seconds));
     session_.explain("memory " + format_size(static_cast<double>(session_.memory_taken())));
-    note_absent_dims(result.bars, arguments_.look, session_);
+    note_absent_dims(result.bars, job_.results.look, session_);
     const app::BarHold results_are_written(session_);
-    outputs.write(result.bars, info, look_of(arguments_.look, arguments_.cubical.superlevel), trees,
-                  context());
-    if (!job_.report.empty()) {
+    outputs.write(result.bars, info, look_of(job_.results.look, job_.question.cubical.superlevel),
+                  trees, context());
+    if (!job_.places.report.empty()) {
       const Shown shown{result.bars,
                         info,
                         *loaded.data,
@@ -321,17 +322,16 @@ class Run {
                         plan.form,
                         promise_,
                         std::move(result.warnings)};
-      write_report(outputs.report().file(), shown, arguments_, session_);
+      write_report(outputs.report().file(), shown, job_, session_);
       outputs.report().commit();
     }
     std::string summary =
         fmt::format("{}: {}", loaded.description, app::count_of(result.bars.size(), "bar"));
-    if (job_.bars != nullptr) *job_.bars = std::move(result.bars);
+    if (job_.places.bars != nullptr) *job_.places.bars = std::move(result.bars);
     return {result.code, std::move(summary)};
   }
 
   const Job& job_;
-  const Arguments& arguments_;
   app::Session& session_;
   Stopwatch watch_;
   std::optional<app::BarHold> typing_;  // no progress bar while somebody types the input
@@ -341,9 +341,9 @@ class Run {
 
 }  // namespace
 
-Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
+Outcome run(const Job& job, app::Session& session) {
   std::string what;
-  Run once(job, arguments, session);
+  Run once(job, session);
   try {
     return once();
   } catch (const Error& error) {
@@ -358,7 +358,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));
   if (once.is_stored())
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, fewer_bars()));
-  if (const std::string changes = alternatives(job, arguments, session); !changes.empty())
+  if (const std::string changes = alternatives(job, session); !changes.empty())
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}; or raise {}", what, peak,
                                                  changes, mark(Setting::memory_limit)));
   throw Error(ErrorKind::resource, fmt::format("{}; peak {}", what, peak));

@@ -14,6 +14,6 @@ inline constexpr app::Program kProgram{
 
 /// Reads one input, computes its barcode and writes it. A stored barcode is already computed.
 /// @throws Error.
-Outcome run(const Job& job, const Arguments& arguments, app::Session& session);
+Outcome run(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

@@ -19,35 +19,34 @@ namespace ph::barcode {
 namespace {
 
 /// No output may replace an input or another output. @throws Error (usage).
-void require_separate(const Job& job, const Arguments& arguments) {
+void require_separate(const Job& job) {
   app::InputFiles inputs;
-  for (const std::string& input : arguments.inputs) inputs.add(input);
-  std::vector<app::Written> outputs{{"--output", job.output}};
-  for (const app::Plot& plot : job.plots) outputs.push_back({plot.option, plot.path});
-  app::require_separate(inputs, outputs, arguments.common.force);
+  for (const std::string& input : job.inputs) inputs.add(input);
+  std::vector<app::Written> outputs{{"--output", job.places.output}};
+  for (const app::Plot& plot : job.places.plots) outputs.push_back({plot.option, plot.path});
+  app::require_separate(inputs, outputs, job.common.force);
 }
 
 }  // namespace
 
-int run_part(const Arguments& arguments, app::Session& session) {
-  const std::string& input = arguments.inputs.front();
-  const Outcome outcome =
-      arguments.wants_image_part() ? run_image_part(input, arguments, session)
-      : arguments.wants_part_of_one()
-          ? run_cloud_part(input, arguments, session)
-          : run_batch_part(with_files_of_folders(arguments), arguments, session);
+int run_part(const Job& job, app::Session& session) {
+  const std::string& input = job.inputs.front();
+  const Outcome outcome = job.wants_image_part() ? run_image_part(input, job, session)
+                          : job.wants_part_of_one()
+                              ? run_cloud_part(input, job, session)
+                              : run_batch_part(with_files_of_folders(job), job, session);
   session.note(outcome.summary);
-  if (barcode_format_of_path(arguments.output))
+  if (barcode_format_of_path(job.places.output))
     session.note(fmt::format("{}: a part, whatever its name says; --join makes bars from parts",
-                             printable(arguments.output)));
+                             printable(job.places.output)));
   return outcome.code;
 }
 
-int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
-  app::require_in_scope(arguments.given, kParts, name_of(kParts));
+int run_join(const Job& job, BarcodeFormat format, app::Session& session) {
+  app::require_in_scope(job.given, kParts, name_of(kParts));
   std::vector<PartFile> files;
   std::string kind;
-  for (const std::string& path : arguments.inputs) {
+  for (const std::string& path : job.inputs) {
     if (app::is_folder(path))
       throw Error(ErrorKind::no_input,
                   fmt::format("--join: {} is a directory, expected part files", path));
@@ -64,13 +63,13 @@ int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& ses
     }
     files.push_back({path, std::move(bytes)});
   }
-  const Job job{fmt::format("{}", fmt::join(arguments.inputs, " ")), arguments.output, format,
-                arguments.plots};
-  require_separate(job, arguments);
-  const Outcome outcome = kind == kInputsKind ? join_batch_parts(files, job, session)
-                          : kind == "cloud"
-                              ? join_cloud_parts(files, job, arguments, session)
-                              : join_image_parts(std::move(files), job, arguments, session);
+  Job whole = job;
+  whole.places.input = fmt::format("{}", fmt::join(job.inputs, " "));
+  whole.places.format = format;
+  require_separate(whole);
+  const Outcome outcome = kind == kInputsKind ? join_batch_parts(files, whole.places, session)
+                          : kind == "cloud"   ? join_cloud_parts(files, whole, session)
+                                              : join_image_parts(std::move(files), whole, session);
   session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
   session.note(outcome.summary);
   return outcome.code;

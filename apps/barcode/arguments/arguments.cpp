@@ -33,20 +33,20 @@ Names output_formats() {
   return names;
 }
 
-void take_report(Arguments& a, const std::string& path) {
+void take_report(Job& a, const std::string& path) {
   report::require_built_in();
   const bool is_place = path.ends_with('/') || app::is_folder(path);
   if (path != "-" && !is_place && !ends_in(path, ".html") && !ends_in(path, ".htm"))
     throw Error(ErrorKind::usage,
                 fmt::format("--report: found '{}', expected a name that ends in .html", path));
-  a.report = path;
+  a.places.report = path;
 }
 
-void add_input_options(app::Options& options, Arguments& a) {
+void add_input_options(app::Options& options, Job& a) {
   options.topic("input");
   options.inputs(
       "INPUT",
-      a.on_ranks
+      a.sharing.on_ranks
           ? "the image, or the points; all ranks have to see the file"
           : "files to read; - is standard input. Several, or a folder, are a batch: its outputs "
             "are folders (FOLDER/) or have a * for the input's name. A stored barcode is drawn, "
@@ -55,56 +55,56 @@ void add_input_options(app::Options& options, Arguments& a) {
   static const Names formats = format_names();
   options.choice({"--format", kOfInputs.with(kSomeLayers | kSomeBlocks)}, formats,
                  "format of the input (default auto: by content and extension)",
-                 [&a](std::size_t i) { a.format = ph::formats()[i].format; });
+                 [&a](std::size_t i) { a.reading.format = ph::formats()[i].format; });
   options.path(
       {"--values", kOfInputs}, "FILE",
       "values of the cells of a boundary matrix (default: their order), or of the vertices of "
       "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
-      a.values);
+      a.reading.values);
   options.flag({"--allow-empty", kOfInputs}, "an input without points is no error",
-               a.read.allow_empty);
+               a.reading.options.allow_empty);
   options.choice<Symmetrise>(
       {"--symmetrise", kOfMatrices},
       "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
       [&a](Symmetrise way) {
-        a.read.symmetrise = way;
-        a.read.array = ArrayMeaning::distances;
+        a.reading.options.symmetrise = way;
+        a.reading.options.array = ArrayMeaning::distances;
       },
       std::span(names_of<Symmetrise>).subspan(1));
   // mutant: scope-correlation
   options.flag({"--from-correlation", kOfDistances},
                "the matrix holds correlations r; distances are 1 - r", [&a] {
-                 a.read.from_correlation = true;
-                 a.read.array = ArrayMeaning::distances;
+                 a.reading.options.from_correlation = true;
+                 a.reading.options.array = ArrayMeaning::distances;
                });
   options.choice(
       {"--diagonal", kOfMatrices}, {"zero", "births"},
       "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
       "point enters (default: 0, else an error)",
       [&a](std::size_t i) {
-        a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
-        a.read.array = ArrayMeaning::distances;
+        a.reading.options.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
+        a.reading.options.array = ArrayMeaning::distances;
       });
   options.choice(
       {"--nan",
        {kRips | kCubical | kOwn | kAlpha | kSomeLayers | kSomeBlocks,
         "points, distances and images"}},
       "what NaN means: an error (default), or a point, distance or voxel that is not there",
-      a.read.nan);
+      a.reading.options.nan);
 }
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
 
 constexpr int kAnyNumber = 1 << 20;
 
-void take_compared(Arguments& a, const std::vector<std::string>& paths) {
+void take_compared(Job& a, const std::vector<std::string>& paths) {
   if (paths.size() != 2)
     throw Error(ErrorKind::usage,
                 fmt::format("--compare: expected two barcodes, found {}", paths.size()));
   a.compare = paths;
 }
 
-void add_output_options(app::Options& options, Arguments& a) {
+void add_output_options(app::Options& options, Job& a) {
   options.topic("output");
   options.value(
       "-o,--output", "FILE",
@@ -112,11 +112,11 @@ void add_output_options(app::Options& options, Arguments& a) {
       "word plot, where the picture goes",
       [&a](const std::string& text) {
         if (text.empty()) throw Error(ErrorKind::usage, "--output: found '', expected a path");
-        a.output = text;
+        a.places.output = text;
       });
   static const Names names = output_formats();
   options.choice("--output-format", names, "format of the barcode (default: by extension, or csv)",
-                 [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); });
+                 [&a](std::size_t i) { a.results.output_format = barcode_format_named(names[i]); });
   options.value(
       {"--report", kOffRanks}, "FILE.html|.htm",
       "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
@@ -146,7 +146,7 @@ void add_picture_options(app::Options& options, app::PlotArguments& plots) {
 
 /// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
 /// @return whether the first of the plots is that of -o.
-bool take_word(Arguments& a, app::PlotArguments& plots) {
+bool take_word(Job& a, app::PlotArguments& plots) {
   if (a.inputs.empty() || a.inputs.front() != "plot") return false;
   // A file of that name alone is an input; beside others it is ./plot.
   if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
@@ -154,37 +154,41 @@ bool take_word(Arguments& a, app::PlotArguments& plots) {
   a.inputs.erase(a.inputs.begin());
   if (a.inputs.empty())
     throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
-  const bool wants_bars = a.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
-  const app::Plot picture{.path = a.output, .kind = {}};
+  const bool wants_bars =
+      a.results.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
+  const app::Plot picture{.path = a.places.output, .kind = {}};
   if (wants_bars && (picture.is_svg() || picture.is_png()))
     throw Error(
         ErrorKind::usage,
         fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
                     "for it and -o for the barcode",
-                    barcode_format_name(*a.output_format), a.output));
-  const auto bars = barcode_format_of_path(a.output);
-  const bool has_others = !plots.paths.empty() || !a.report.empty();
+                    barcode_format_name(*a.results.output_format), a.places.output));
+  const auto bars = barcode_format_of_path(a.places.output);
+  const bool has_others = !plots.paths.empty() || !a.places.report.empty();
   if (bars && !wants_bars && !has_others)
     throw Error(ErrorKind::usage,
                 fmt::format("plot: found -o {}, expected FILE.svg or FILE.png; --output-format {} "
                             "writes the barcode there",
-                            printable(a.output), barcode_format_name(*bars)));
+                            printable(a.places.output), barcode_format_name(*bars)));
   // What is named like a barcode is one, converted.
-  const bool is_picture = a.output != "-" && !wants_bars && !bars;
+  const bool is_picture = a.places.output != "-" && !wants_bars && !bars;
   if (is_picture) {
-    plots.paths.insert(plots.paths.begin(), a.output);
-    a.output = "-";
+    plots.paths.insert(plots.paths.begin(), a.places.output);
+    a.places.output = "-";
   }
-  if (a.output == "-" && !a.output_format) a.output_format = BarcodeFormat::none;
-  if (plots.paths.empty() && a.report.empty() && a.output_format == BarcodeFormat::none)
+  if (a.places.output == "-" && !a.results.output_format)
+    a.results.output_format = BarcodeFormat::none;
+  if (plots.paths.empty() && a.places.report.empty() &&
+      a.results.output_format == BarcodeFormat::none)
     throw Error(ErrorKind::usage, "plot: expected -o FILE.svg or -o FILE.png");
   return is_picture;
 }
 
 /// What no single option can see.
-void check_together(Arguments& a) {
+void check_together(Job& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
-  if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
+  if (a.places.report == "-" && a.places.output == "-" &&
+      a.results.output_format != BarcodeFormat::none)
     reject(fmt::format("--report: standard output has the {}; -o FILE or --output-format none",
                        a.compare.empty() ? "barcode" : "distances"));
   check_part_arguments(a);
@@ -199,26 +203,27 @@ void check_together(Arguments& a) {
     if (input.empty()) reject("INPUT: found '', expected a path");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
-  if (a.options.max_dim && a.options.min_dim > *a.options.max_dim)
-    reject(fmt::format("--min-dim: found {}, expected at most --max-dim, {}", a.options.min_dim,
-                       *a.options.max_dim));
-  const Engine engine = a.options.engine;
-  if (a.options.representatives != Representatives::none && engine == Engine::standard)
+  if (a.question.options.max_dim && a.question.options.min_dim > *a.question.options.max_dim)
+    reject(fmt::format("--min-dim: found {}, expected at most --max-dim, {}",
+                       a.question.options.min_dim, *a.question.options.max_dim));
+  const Engine engine = a.question.options.engine;
+  if (a.question.options.representatives != Representatives::none && engine == Engine::standard)
     reject(
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
                     engine.name()));
-  const bool has_cycles = a.options.representatives == Representatives::cycles ||
-                          a.options.representatives == Representatives::voxels;
-  if (a.loops && !has_cycles)
+  const bool has_cycles = a.question.options.representatives == Representatives::cycles ||
+                          a.question.options.representatives == Representatives::voxels;
+  if (a.results.loops && !has_cycles)
     reject("--loops: found without --representatives cycles or voxels, of which loops are made");
-  if (a.loops && (a.options.max_dim == 0 || a.options.min_dim > 1))
+  if (a.results.loops && (a.question.options.max_dim == 0 || a.question.options.min_dim > 1))
     reject("--loops: found without dimension 1, the only one of which there are loops");
-  if (a.options.collapse == Collapse::on && a.options.min_persistence < 0)
+  if (a.question.options.collapse == Collapse::on && a.question.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
         "them");
-  if (a.options.collapse == Collapse::on && a.options.representatives == Representatives::cocycles)
+  if (a.question.options.collapse == Collapse::on &&
+      a.question.options.representatives == Representatives::cocycles)
     reject(
         "--collapse: found on, expected off or auto with --representatives cocycles: they are "
         "of all edges");
@@ -230,74 +235,45 @@ void check_together(Arguments& a) {
 
 }  // namespace
 
-bool Arguments::draws_tree() const {
-  return std::ranges::any_of(plots, [](const app::Plot& plot) { return plot.kind == "tree"; });
-}
-
-bool Arguments::wants_part_of_one() const {
-  return (part || on_ranks) && inputs.size() == 1 && !app::is_folder(inputs.front());
-}
-
-bool Arguments::is_batch() const {
-  if (part || joins || on_ranks) return false;
-  if (inputs.size() > 1 || app::names_each(output) || app::names_each(report) ||
-      std::ranges::any_of(plots, app::names_each, &app::Plot::path) ||
-      std::ranges::any_of(surfaces, app::names_each, &Surface::path))
-    return true;
-  // A folder is a batch only if its results have a place; else it is an input that cannot be read.
-  const auto takes_several = [](const std::string& path) {
-    return path.empty() || app::is_folder(path);
-  };
-  const bool has_others = !plots.empty() || !report.empty() || !surfaces.empty();
-  const bool has_place = dry_run || output_format == BarcodeFormat::none ||
-                         (output == "-" && has_others) || (output != "-" && takes_several(output));
-  return has_place && takes_several(report) &&
-         std::ranges::all_of(plots, takes_several, &app::Plot::path) &&
-         std::ranges::all_of(surfaces, takes_several, &Surface::path) && !inputs.empty() &&
-         app::is_folder(inputs.front());
-}
-
-std::optional<std::string> parse_arguments(int argc, const char* const* argv,
-                                           Arguments& arguments) {
-  const app::Manual& about = arguments.on_ranks ? manual_of_ranks() : manual();
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Job& job) {
+  const app::Manual& about = job.sharing.on_ranks ? manual_of_ranks() : manual();
   CLI::App cli("", std::string(about.program));
   app::Options options(cli);
   app::PlotArguments plots;
   plots.scope = kOfOneBarcode;
   bool list_formats = false;
-  add_input_options(options, arguments);
-  add_table_options(options, arguments);
+  add_input_options(options, job);
+  add_table_options(options, job);
   options.flag("--formats", "print the table of formats and exit", list_formats);
-  add_raw_options(options, arguments);
-  add_complex_options(options, arguments);
-  add_cubical_options(options, arguments);
-  add_rips_options(options, arguments);
-  add_alpha_options(options, arguments);
-  add_homology_options(options, arguments);
-  add_part_options(options, arguments);
-  add_output_options(options, arguments);
+  add_raw_options(options, job);
+  add_complex_options(options, job);
+  add_cubical_options(options, job);
+  add_rips_options(options, job);
+  add_alpha_options(options, job);
+  add_homology_options(options, job);
+  add_part_options(options, job);
+  add_output_options(options, job);
   add_picture_options(options, plots);
-  app::add_common_options(options, arguments.common);
-  if (arguments.on_ranks) options.hide_outside(kRanks | kCloudRanks);
-  if (auto answer = app::parse_command_line(options, arguments.common, argc, argv, about))
-    return answer;
+  app::add_common_options(options, job.common);
+  if (job.sharing.on_ranks) options.hide_outside(kRanks | kCloudRanks);
+  if (auto answer = app::parse_command_line(options, job.common, argc, argv, about)) return answer;
   if (list_formats) return formats_table();
-  const bool is_first_of_output = take_word(arguments, plots);
-  arguments.plots = plots.together(kPlotKinds.front());
-  if (is_first_of_output) arguments.plots.front().option = "--output";
-  arguments.look = plots.look;
-  for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
-  arguments.given = options.given();
-  check_together(arguments);
+  const bool is_first_of_output = take_word(job, plots);
+  job.places.plots = plots.together(kPlotKinds.front());
+  if (is_first_of_output) job.places.plots.front().option = "--output";
+  job.results.look = plots.look;
+  for (const app::Plot& plot : job.places.plots) app::require_known_format(plot);
+  job.given = options.given();
+  check_together(job);
   constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
-  if (arguments.part) arguments.typed_options = app::given_options(options, kNotOfResults);
-  if (arguments.compare.empty() && !arguments.is_batch() && !arguments.part && !arguments.joins &&
-      app::is_folder(arguments.inputs[0]))
+  if (job.sharing.part) job.sharing.typed_options = app::given_options(options, kNotOfResults);
+  if (job.compare.empty() && !job.is_batch() && !job.sharing.part && !job.sharing.joins &&
+      app::is_folder(job.inputs[0]))
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: it is a directory, a batch: give a folder for its results, -o "
                             "FOLDER/, --plot FOLDER/ or --report FOLDER/",
-                            printable(arguments.inputs[0])));
-  if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
+                            printable(job.inputs[0])));
+  if (!job.places.report.empty()) job.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;
 }
 

@@ -19,29 +19,32 @@ using app::parse_number;
 
 namespace {
 
-void take_periodic(Arguments& a, const std::string& text) {
+void take_periodic(Job& a, const std::string& text) {
   if (text == "all") {
-    a.cubical.periodic.assign(Cubical::kMaxDim, true);
+    a.question.cubical.periodic.assign(Cubical::kMaxDim, true);
     return;
   }
   for (const std::int64_t number : parse_integers("--periodic", text, 0, Cubical::kMaxDim - 1)) {
     const auto axis = static_cast<std::size_t>(number);
-    if (a.cubical.periodic.size() <= axis) a.cubical.periodic.resize(axis + 1, false);
-    a.cubical.periodic[axis] = true;
+    if (a.question.cubical.periodic.size() <= axis)
+      a.question.cubical.periodic.resize(axis + 1, false);
+    a.question.cubical.periodic[axis] = true;
   }
 }
 
-RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.emplace(); }
+RawLayout& raw(Job& a) {
+  return a.reading.options.raw ? *a.reading.options.raw : a.reading.options.raw.emplace();
+}
 
 }  // namespace
 
-void add_cubical_options(app::Options& options, Arguments& a) {
+void add_cubical_options(app::Options& options, Job& a) {
   options.topic("cubical");
   options.choice({"--construction", kOfCubical}, "voxels are vertices (default) or top cells",
-                 a.cubical.construction);
+                 a.question.cubical.construction);
   options.flag({"--superlevel", kOfCubical},
                "superlevel sets, the largest values first; values are those of the negated image",
-               [&a] { a.cubical.superlevel = true; });
+               [&a] { a.question.cubical.superlevel = true; });
   options.value({"--periodic", kOfCubical}, "AXES",
                 "axes that close up on themselves, such as 0,2, or all (default: none)",
                 [&a](const std::string& text) { take_periodic(a, text); });
@@ -57,8 +60,8 @@ void add_cubical_options(app::Options& options, Arguments& a) {
       {"--voxel", kOfVoxels}, "X",
       "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
       [&a](const std::string& text) {
-        a.voxel = parse_number("--voxel", text);
-        if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
+        a.question.voxel = parse_number("--voxel", text);
+        if (!(*a.question.voxel > 0) || !std::isfinite(*a.question.voxel))
           throw Error(ErrorKind::usage,
                       fmt::format("--voxel: found '{}', expected a finite number above 0", text));
       });
@@ -66,10 +69,10 @@ void add_cubical_options(app::Options& options, Arguments& a) {
       {"--voxel-value", kOfVoxels},
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
-      a.voxel_value);
+      a.question.voxel_value);
 }
 
-void add_raw_options(app::Options& options, Arguments& a) {
+void add_raw_options(app::Options& options, Job& a) {
   options.topic("raw");
   options.value(
       {"--raw-shape", kOfRaw}, "N,M,…",
@@ -96,15 +99,17 @@ void add_raw_options(app::Options& options, Arguments& a) {
                 });
 }
 
-void check_image_arguments(Arguments& a) {
-  if (a.read.raw && a.read.raw->extents.empty())
+void check_image_arguments(Job& a) {
+  if (a.reading.options.raw && a.reading.options.raw->extents.empty())
     throw Error(ErrorKind::usage, "--raw-type, --raw-big-endian and --raw-skip need --raw-shape");
-  if (a.read.raw && a.format == Format::automatic) a.format = Format::raw;
-  if (a.read.raw && a.format != Format::raw)
+  if (a.reading.options.raw && a.reading.format == Format::automatic)
+    a.reading.format = Format::raw;
+  if (a.reading.options.raw && a.reading.format != Format::raw)
     throw Error(ErrorKind::usage, "--raw-shape: makes sense for --format raw only");
-  if (!a.read.raw && a.format == Format::raw)
+  if (!a.reading.options.raw && a.reading.format == Format::raw)
     throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
-  if (a.read.raw && a.read.raw->big_endian && a.read.raw->type.ends_with('1'))
+  if (a.reading.options.raw && a.reading.options.raw->big_endian &&
+      a.reading.options.raw->type.ends_with('1'))
     throw Error(ErrorKind::usage,
                 "--raw-big-endian: found numbers of one byte, expected --raw-type with more");
 }

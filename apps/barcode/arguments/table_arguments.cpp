@@ -15,8 +15,8 @@ namespace ph::barcode {
 
 namespace {
 
-void take_columns(Arguments& a, const std::string& text) {
-  a.read.columns.clear();
+void take_columns(Job& a, const std::string& text) {
+  a.reading.options.columns.clear();
   for (std::string_view rest = text;;) {
     const std::size_t comma = rest.find(',');
     std::string_view word = rest.substr(0, comma);
@@ -26,23 +26,23 @@ void take_columns(Arguments& a, const std::string& text) {
       throw Error(ErrorKind::usage,
                   fmt::format("--columns: found '{}', expected names or numbers such as x,y or 2-3",
                               printable(text, 80)));
-    a.read.columns.emplace_back(word);
+    a.reading.options.columns.emplace_back(word);
     if (comma == std::string_view::npos) return;
     rest.remove_prefix(comma + 1);
   }
 }
 
-void take_delay(Arguments& a, const std::string& text) {
+void take_delay(Job& a, const std::string& text) {
   const std::vector<std::int64_t> numbers = app::parse_integers("--delay", text, 1);
   if (numbers.size() > 2)
     throw Error(ErrorKind::usage,
                 fmt::format("--delay: found '{}', expected D or D,TAU", printable(text, 80)));
-  a.delay = {numbers[0], numbers.size() == 2 ? numbers[1] : 1};
+  a.reading.delay = {numbers[0], numbers.size() == 2 ? numbers[1] : 1};
 }
 
 }  // namespace
 
-void add_table_options(app::Options& options, Arguments& a) {
+void add_table_options(app::Options& options, Job& a) {
   options.topic("input");
   options.value(
       {"--columns", kOfInputs.with(kSomeBlocks)}, "LIST",
@@ -58,18 +58,19 @@ void add_table_options(app::Options& options, Arguments& a) {
       {"--channel", kOfInputs.with(kSomeLayers)},
       "what of a colour picture is read (default: its grey, if it has no colours); grey of "
       "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
-      [&a](Channel channel) { a.read.channel = channel; }, std::span(names_of<Channel>).subspan(1));
+      [&a](Channel channel) { a.reading.options.channel = channel; },
+      std::span(names_of<Channel>).subspan(1));
 }
 
-void check_table_arguments(Arguments& a) {
-  ArrayMeaning& meaning = a.read.array;
-  if (a.delay) {
-    if (a.read.nan == NanPolicy::drop)
+void check_table_arguments(Job& a) {
+  ArrayMeaning& meaning = a.reading.options.array;
+  if (a.reading.delay) {
+    if (a.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
                   "--delay: excludes --nan drop: no time may be missing in a time series");
-    if (a.format == Format::automatic) meaning = ArrayMeaning::image;  // of one or two axes
+    if (a.reading.format == Format::automatic) meaning = ArrayMeaning::image;  // of one or two axes
   }
-  if (a.format == Format::distance) meaning = ArrayMeaning::distances;
+  if (a.reading.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
   // An option that does something for one kind of input only says what the input is.
   const auto is_only_for = [&](app::Situations kinds) {
@@ -77,11 +78,12 @@ void check_table_arguments(Arguments& a) {
       return (option.scope.where & ~kinds) == 0;
     });
   };
-  const bool is_cubical = a.complex == ComplexKind::cubical;
-  if (a.format == Format::points || a.complex == ComplexKind::own || is_triangulated(a.complex) ||
-      is_only_for(kPoints | kSomeBlocks) || is_only_for(kVoxels))
+  const bool is_cubical = a.question.complex == ComplexKind::cubical;
+  if (a.reading.format == Format::points || a.question.complex == ComplexKind::own ||
+      is_triangulated(a.question.complex) || is_only_for(kPoints | kSomeBlocks) ||
+      is_only_for(kVoxels))
     meaning = ArrayMeaning::points;
-  else if (a.complex == ComplexKind::rips ||
+  else if (a.question.complex == ComplexKind::rips ||
            (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs | kSomeBlocks)))
     meaning = ArrayMeaning::rips;
   else if (is_cubical || is_only_for(kImage | kVoxels | kImagePart | kRanks) ||

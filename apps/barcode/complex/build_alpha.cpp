@@ -17,9 +17,9 @@ AlphaOptions::Value value_of(ComplexKind kind) {
 }  // namespace
 
 BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
-                         const std::vector<Index>& ids, const std::string& name,
-                         const Arguments& arguments, const RunContext& context) {
-  const std::string_view kind = complex_names()[static_cast<std::size_t>(arguments.complex)];
+                         const std::vector<Index>& ids, const std::string& name, const Job& job,
+                         const RunContext& context) {
+  const std::string_view kind = complex_names()[static_cast<std::size_t>(job.question.complex)];
   constexpr Index most = 3;
   if (points.cols() > most)
     throw Error(ErrorKind::usage,
@@ -27,10 +27,10 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
                             "any",
                             kind, points.cols(), most));
   AlphaOptions options;
-  options.value = value_of(arguments.complex);
-  options.unit = *arguments.alpha_unit;
+  options.value = value_of(job.question.complex);
+  options.unit = *job.question.alpha_unit;
   options.weights = std::move(weights);
-  options.period = arguments.period;
+  options.period = job.question.period;
   if (options.period.size() == 1)
     options.period.assign(static_cast<std::size_t>(points.cols()), options.period[0]);
   if (!options.period.empty() && std::ssize(options.period) != points.cols())
@@ -38,7 +38,7 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
                 fmt::format("--period: found {} numbers for {} axes, expected one for all, or one "
                             "per axis",
                             options.period.size(), points.cols()));
-  options.threshold = arguments.threshold.value_or(kInfinity);
+  options.threshold = job.question.threshold.value_or(kInfinity);
   if (options.weights.empty() && options.threshold < 0)
     throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a radius or its "
                                               "square, at least 0",
@@ -49,7 +49,7 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
     // A triangulation consists of many blocks, each too small to be returned to the system by
     // itself.
     app::give_back_freed_memory();
-    BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0};
+    BuiltComplex built{alpha, std::string(kind), job.question.threshold, points.rows() == 0};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";
     auto& values = built.alpha.emplace();
     values.squared = options.unit == AlphaOptions::Unit::squared;

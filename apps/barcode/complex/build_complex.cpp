@@ -26,10 +26,10 @@ class Builder {
  public:
   /// @param read the description of the data, which are visited. @param dropped how many points of
   /// the input are not among them.
-  Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
+  Builder(const std::string& name, const Job& job, const RunContext& context,
           const ReadResult& read, std::size_t dropped)
       : name_(name),
-        arguments_(arguments),
+        job_(job),
         context_(context),
         format_(read.format),
         periodic_(read.periodic),
@@ -77,11 +77,11 @@ class Builder {
     expect("a boundary matrix", {ComplexKind::explicit_cells});
     require_in_scope(kBoundary);
     const bool has_incidences = !input.matrix.incidences.empty() || input.matrix.rows.empty();
-    if (!has_incidences && arguments_.options.field != 2)
+    if (!has_incidences && job_.question.options.field != 2)
       throw Error(ErrorKind::usage,
                   fmt::format("--field: found {}, expected 2: this boundary matrix has no "
                               "incidence numbers; simplices have them",
-                              arguments_.options.field));
+                              job_.question.options.field));
     return stored(ExplicitComplex::from_boundary(input.matrix, input.namer(), context_),
                   "explicit");
   }
@@ -96,24 +96,25 @@ class Builder {
  private:
   /// The complex to build: the requested one, or the first that makes sense.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
-    const bool is_free = arguments_.complex == ComplexKind::automatic;
-    const ComplexKind kind = is_free ? *kinds.begin() : arguments_.complex;
+    const bool is_free = job_.question.complex == ComplexKind::automatic;
+    const ComplexKind kind = is_free ? *kinds.begin() : job_.question.complex;
     if (std::ranges::find(kinds, kind) == kinds.end()) {
       const auto name = [](ComplexKind k) { return complex_names()[static_cast<std::size_t>(k)]; };
-      throw Error(ErrorKind::usage,
-                  fmt::format("--complex: found {}, expected {} for {}{}",
-                              arguments_.own_complex ? arguments_.own_complex->name : name(kind),
-                              name(*kinds.begin()), data,
-                              kind == ComplexKind::lower_star
-                                  ? "; --values names the values of the vertices"
-                                  : ""));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--complex: found {}, expected {} for {}{}",
+                      job_.question.own_complex ? job_.question.own_complex->name : name(kind),
+                      name(*kinds.begin()), data,
+                      kind == ComplexKind::lower_star
+                          ? "; --values names the values of the vertices"
+                          : ""));
     }
     return kind;
   }
 
   /// An option that has no effect is a misunderstanding.
   void require_in_scope(Situation here) const {
-    app::require_in_scope(arguments_.given, here, name_of(here));
+    app::require_in_scope(job_.given, here, name_of(here));
   }
 
   BuiltComplex of_points(const Points& points, std::string_view data) const {
@@ -122,34 +123,35 @@ class Builder {
                       ComplexKind::delaunay_rips, ComplexKind::cubical, ComplexKind::own});
     if (is_triangulated(kind)) {
       require_in_scope(kAlpha);
-      return build_alpha(points, values_by_point(arguments_.weights, points.rows()), ids_, name_,
-                         arguments_, context_);
+      return build_alpha(points, values_by_point(job_.question.weights, points.rows()), ids_, name_,
+                         job_, context_);
     }
     if (kind == ComplexKind::own) {
       require_in_scope(kOwn);
-      const OwnComplex& own = *arguments_.own_complex;
+      const OwnComplex& own = *job_.question.own_complex;
       return stored(own.of_points(points, context_), std::string(own.name));
     }
     require_in_scope(kind == ComplexKind::rips ? kPoints : kVoxels);
     if (kind == ComplexKind::rips) return rips(points, points.rows() == 0);
-    if (!arguments_.voxel)
+    if (!job_.question.voxel)
       throw Error(ErrorKind::usage,
                   fmt::format("--complex: found cubical, which needs --voxel X for {}{}", data,
                               data == "points" ? "; --format grid reads them as an image" : ""));
     if (points.rows() == 0) return cubical(Image{{0}, {}});
-    PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
+    PointImage made =
+        voxel_image(points, *job_.question.voxel, job_.question.voxel_value, 1, context_);
     BuiltComplex built = cubical(made.image);
     built.voxels = {made.voxel, std::move(made.first),
-                    std::string(name_of(arguments_.voxel_value))};
+                    std::string(name_of(job_.question.voxel_value))};
     return built;
   }
 
   BuiltComplex cubical(const Image& image) const {
-    const CubicalOptions options = cubical_options(arguments_, image, periodic_);
-    BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
+    const CubicalOptions options = cubical_options(job_, image, periodic_);
+    BuiltComplex built{Cubical(image, options, context_), "cubical", job_.question.threshold,
                        image.values.empty()};
     built.cubical = options;
-    if (arguments_.check)
+    if (job_.results.check)
       built.by_definition = [image, options](const RunContext& context) {
         return listed_cubes(image, options, context);
       };
@@ -158,9 +160,9 @@ class Builder {
 
   template <class Data>
   BuiltComplex rips(const Data& data, bool empty) const {
-    RipsOptions options = arguments_.rips;
-    const Options& wanted = arguments_.options;
-    options.threshold = arguments_.threshold;
+    RipsOptions options = job_.question.rips;
+    const Options& wanted = job_.question.options;
+    options.threshold = job_.question.threshold;
     if (options.threshold && *options.threshold < 0)
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
@@ -177,12 +179,12 @@ class Builder {
     if (!std::same_as<Data, Points> && wanted.engine == Engine::beta_skeleton)
       throw Error(ErrorKind::usage,
                   fmt::format("--engine: found {}, which needs points", wanted.engine.name()));
-    options.births = values_by_point(arguments_.vertex_weights, size, 0, "a finite number >= 0");
+    options.births = values_by_point(job_.question.vertex_weights, size, 0, "a finite number >= 0");
     return in_name_of(name_, [&] {
       BuiltComplex built{rips_of(data, std::move(options)), "rips", std::nullopt, empty,
                          weights_text()};
       built.metric = std::same_as<Data, Points>
-                         ? metric_name(arguments_.rips.distance, arguments_.rips.minkowski_p)
+                         ? metric_name(job_.question.rips.distance, job_.question.rips.minkowski_p)
                          : "precomputed";
       return built;
     });
@@ -204,8 +206,8 @@ class Builder {
                                       const char* expected = "a finite number") const {
     if (path.empty()) return {};
     const Input input = Input::open(files::path_of(path), &context_);
-    std::vector<double> all =
-        read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
+    std::vector<double> all = read_values(input, static_cast<std::size_t>(points) + dropped_,
+                                          job_.reading.options, "point");
     for (std::size_t v = 0; v < all.size(); ++v)
       if (!(all[v] >= least && std::isfinite(all[v])))
         input.fail(
@@ -218,10 +220,10 @@ class Builder {
   }
 
   std::string weights_text() const {
-    std::string source = !arguments_.vertex_weights.empty()             ? "file"
-                         : arguments_.read.diagonal == Diagonal::births ? "diagonal"
-                                                                        : "";
-    const RipsOptions& rips = arguments_.rips;
+    std::string source = !job_.question.vertex_weights.empty()               ? "file"
+                         : job_.reading.options.diagonal == Diagonal::births ? "diagonal"
+                                                                             : "";
+    const RipsOptions& rips = job_.question.rips;
     if (rips.dtm_neighbours) source = fmt::format("dtm {}", *rips.dtm_neighbours);
     if (source.empty()) return source;
     return fmt::format("{}, exponent {}", source,
@@ -237,8 +239,8 @@ class Builder {
 
   BuiltComplex stored(ExplicitComplex complex, std::string name) const {
     const bool empty = complex.size() == 0;
-    if (arguments_.threshold) complex.set_threshold(*arguments_.threshold);
-    return {std::move(complex), std::move(name), arguments_.threshold, empty};
+    if (job_.question.threshold) complex.set_threshold(*job_.question.threshold);
+    return {std::move(complex), std::move(name), job_.question.threshold, empty};
   }
 
   /// Values of the vertices for the lower star of listed simplices: from --values, or from the
@@ -283,7 +285,7 @@ class Builder {
   }
 
   const std::string& name_;
-  const Arguments& arguments_;
+  const Job& job_;
   const RunContext& context_;
   const Format format_;
   const std::vector<bool>& periodic_;  // axes that the file of the image declares periodic
@@ -345,13 +347,13 @@ std::optional<std::string> hidden_points(const BuiltComplex& built) {
 }
 
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
-                           const Arguments& arguments, const RunContext& context) {
-  return std::visit(Builder(name, arguments, context, input, dropped), std::move(input.data));
+                           const Job& job, const RunContext& context) {
+  return std::visit(Builder(name, job, context, input, dropped), std::move(input.data));
 }
 
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
-                           const Arguments& arguments, const RunContext& context) {
-  return std::visit(Builder(name, arguments, context, input, dropped), input.data);
+                           const Job& job, const RunContext& context) {
+  return std::visit(Builder(name, job, context, input, dropped), input.data);
 }
 
 }  // namespace ph::barcode

@@ -61,17 +61,17 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
 ///     out.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
-                           const Arguments& arguments, const RunContext& context);
+                           const Job& job, const RunContext& context);
 /// Builds the complex from data that are needed again.
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
-                           const Arguments& arguments, const RunContext& context);
+                           const Job& job, const RunContext& context);
 
 /// The alpha complex of points, or another complex of their Delaunay triangulation.
 /// @param weights one per point, or none. @param ids of the points in the input; empty: their own
 ///     numbers.
 /// @throws Error (usage) if an option does not fit the points; Error (bad_data).
 BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
-                         const std::vector<Index>& ids, const std::string& name,
-                         const Arguments& arguments, const RunContext& context);
+                         const std::vector<Index>& ids, const std::string& name, const Job& job,
+                         const RunContext& context);
 
 }  // namespace ph::barcode

@@ -7,10 +7,10 @@
 
 namespace ph::barcode {
 
-CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
+CubicalOptions cubical_options(const Job& job, const Image& image,
                                const std::vector<bool>& periodic) {
-  CubicalOptions options = arguments.cubical;
-  options.threshold = arguments.threshold;
+  CubicalOptions options = job.question.cubical;
+  options.threshold = job.question.threshold;
   if (options.periodic.empty()) options.periodic = periodic;
   const auto axes = static_cast<std::size_t>(image.dim());
   const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&

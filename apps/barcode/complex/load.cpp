@@ -38,8 +38,8 @@ std::size_t size_of(const ReadResult& read) {
   return std::visit(Size{}, read.data);
 }
 
-bool is_given(const Arguments& arguments, std::string_view option) {
-  return std::ranges::count(arguments.given, option, &app::GivenOption::name) > 0;
+bool is_given(const Job& job, std::string_view option) {
+  return std::ranges::count(job.given, option, &app::GivenOption::name) > 0;
 }
 
 /// Why the data cannot contain NaN; empty: they may contain some.
@@ -80,68 +80,69 @@ bool may_be_bars(const ReadResult& read) {
   // A pipe cannot be read again.
   const bool is_guessed = error.kind() == ErrorKind::bad_data && format == Format::automatic;
   std::error_code ignored;
-  if (is_guessed && std::filesystem::is_regular_file(files::path_of(job.input), ignored)) {
+  if (is_guessed && std::filesystem::is_regular_file(files::path_of(job.places.input), ignored)) {
     try {
       has_bars =
-          read_stored_barcode(Input::open(files::path_of(job.input), &context)).bars.size() > 0;
+          read_stored_barcode(Input::open(files::path_of(job.places.input), &context)).bars.size() >
+          0;
     } catch (const std::exception&) {  // it cannot be read again either
     }
   }
   if (!has_bars) throw;
   throw Error(error.kind(), fmt::format("{}; is it a barcode? ph-barcode plot {} -o FILE.svg draws "
                                         "it",
-                                        error.marked(), printable(job.input)));
+                                        error.marked(), printable(job.places.input)));
 }
 
 }  // namespace
 
-Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
-            app::Session& session, Stopwatch& watch) {
+Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, Stopwatch& watch) {
   NamedData data = [&] {
     try {
-      return read_input(*input, arguments, session.context());
+      return read_input(*input, job, session.context());
     } catch (const Error& error) {
-      fail_to_read(job, error, arguments.format, session.context());
+      fail_to_read(job, error, job.reading.format, session.context());
     }
   }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
   // Scanners mark holes by NaN: such NaN are an error only if an option says so.
-  if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
+  if (dropped > 0 && is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
                             mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch reports it in its one line per input.
-  if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
+  if (job.reading.format == Format::automatic && job.inputs == std::vector{job.places.input})
     session.note(what);
   else
     session.explain(what);
   for (const Message& note : read.notes) session.note(fmt::format("{}: {}", name, note.marked()));
-  if (arguments.format == Format::automatic && arguments.read.columns.empty() && may_be_bars(read))
+  if (job.reading.format == Format::automatic && job.reading.options.columns.empty() &&
+      may_be_bars(read))
     session.note(
         fmt::format("{}: its rows may be dimension, birth and death; ph-barcode plot {} "
                     "-o FILE.svg draws them as bars",
-                    name, printable(job.input)));
+                    name, printable(job.places.input)));
   watch.lap("read");
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  if (const std::string_view why = why_no_nan(read); is_given(arguments, "nan") && !why.empty())
+  if (const std::string_view why = why_no_nan(read); is_given(job, "nan") && !why.empty())
     session.note(fmt::format("{}: --nan does nothing: {}", name, why));
-  const bool is_shown = (!job.report.empty() || !job.surfaces.empty()) && !arguments.dry_run;
+  const bool is_shown =
+      (!job.places.report.empty() || !job.places.surfaces.empty()) && !job.results.dry_run;
   BuiltComplex built =
-      is_shown ? build_complex(read, name, dropped, arguments, session.context())
-               : build_complex(std::move(data.read), name, dropped, arguments, session.context());
-  if (arguments.read.allow_empty && !built.empty)
+      is_shown ? build_complex(read, name, dropped, job, session.context())
+               : build_complex(std::move(data.read), name, dropped, job, session.context());
+  if (job.reading.options.allow_empty && !built.empty)
     session.explain("--allow-empty: not needed, the input is not empty");
   const auto* const cubical = std::get_if<Cubical>(&built.complex);
-  if (cubical && cubical->cubical_image().extents.size() == 1 &&
-      is_given(arguments, "construction") &&
-      arguments.options.representatives == Representatives::none)
+  if (cubical && cubical->cubical_image().extents.size() == 1 && is_given(job, "construction") &&
+      job.question.options.representatives == Representatives::none)
     session.note("--construction does nothing: with one axis, both have the same bars");
   if (const auto hidden = hidden_points(built)) session.note(fmt::format("{}: {}", name, *hidden));
-  if (built.empty && !arguments.read.allow_empty)
+  if (built.empty && !job.reading.options.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", mark_place(name)));
   const bool refers_to_data = std::holds_alternative<Rips>(built.complex);

@@ -43,7 +43,6 @@ struct Loaded {
 
 /// Reads an input, builds its complex, and reports what was read and what was guessed.
 /// @throws Error like the readers and complexes.
-Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
-            app::Session& session, Stopwatch& watch);
+Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, Stopwatch& watch);
 
 }  // namespace ph::barcode

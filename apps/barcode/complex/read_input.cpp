@@ -16,9 +16,9 @@ namespace ph::barcode {
 namespace {
 
 /// A note on what results do with a mesh that has no values; empty for other data.
-std::string note_on_mesh(const ReadResult& read, const Arguments& a) {
+std::string note_on_mesh(const ReadResult& read, const Job& a) {
   const auto* const mesh = std::get_if<Mesh>(&read.data);
-  if (a.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
+  if (a.question.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
       !mesh->values.empty())
     return {};
   return fmt::format(
@@ -42,7 +42,7 @@ Points series_of(const std::string& name, ReadResult& read) {
 }
 
 /// Replaces the data by the windows of a time series.
-void embed(const std::string& name, const Arguments::Delay& delay, std::size_t dropped,
+void embed(const std::string& name, const Delay& delay, std::size_t dropped,
            const RunContext& context, ReadResult& read) {
   if (dropped > 0)
     throw Error(ErrorKind::bad_data,
@@ -67,21 +67,22 @@ void embed(const std::string& name, const Arguments::Delay& delay, std::size_t d
 
 }  // namespace
 
-NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context) {
+NamedData read_input(const Input& input, const Job& job, const RunContext& context) {
   std::vector<Index> dropped;
-  ReadOptions options = arguments.read;
+  ReadOptions options = job.reading.options;
   options.context = &context;
   options.dropped = &dropped;
-  Format format = arguments.format;
+  Format format = job.reading.format;
   // A row for each time, with any number of columns; arrays may have one axis.
-  if (arguments.delay && format == Format::automatic && !detail::format_by_content(input))
+  if (job.reading.delay && format == Format::automatic && !detail::format_by_content(input))
     format = Format::points;
-  ReadResult read = read_any(input, format, options, files::path_of(arguments.values));
-  if (arguments.delay) embed(input.name(), *arguments.delay, dropped.size(), context, read);
-  if (std::string note = note_on_mesh(read, arguments); !note.empty())
+  ReadResult read = read_any(input, format, options, files::path_of(job.reading.values));
+  if (job.reading.delay) embed(input.name(), *job.reading.delay, dropped.size(), context, read);
+  if (std::string note = note_on_mesh(read, job); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;
-  if (!arguments.report.empty() && !arguments.dry_run) sha256 = report::sha256_hex(input, context);
+  if (!job.places.report.empty() && !job.results.dry_run)
+    sha256 = report::sha256_hex(input, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 

@@ -15,7 +15,7 @@ struct NamedData {
   std::string sha256 = {};  ///< hash of the bytes that were read; empty: not needed
 };
 /// @throws Error like the readers.
-NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context);
+NamedData read_input(const Input& input, const Job& job, const RunContext& context);
 
 /// Points, or the vertices of a mesh; empty for other data.
 std::optional<PointsView> points_of(const ReadResult& read);

@@ -23,9 +23,9 @@ std::string text_of(const std::string& changes, const Fit& fit) {
                      format_size(fit.bytes_high));
 }
 
-std::string text_of(const Fit& fit, const Arguments& arguments) {
+std::string text_of(const Fit& fit, const Job& job) {
   std::vector<std::string> changes;
-  bool has_loops = arguments.loops.has_value();
+  bool has_loops = job.results.loops.has_value();
   for (const auto& [setting, value] : fit.changes) {
     changes.push_back(app::kWords.setting(setting, value));
     // Without cycles of H1, --loops is refused.
@@ -40,16 +40,15 @@ std::string text_of(const Fit& fit, const Arguments& arguments) {
 }
 
 /// The smallest of a few larger voxels with which the image of points fits; empty if none does.
-std::string larger_voxel(const NamedData& data, const Arguments& arguments,
-                         const RunContext& context) {
+std::string larger_voxel(const NamedData& data, const Job& job, const RunContext& context) {
   for (const double times : {1.5, 2.0, 4.0, 8.0, 16.0}) {
-    Arguments changed = arguments;
-    const std::string text = fmt::format("{:.3g}", times * *arguments.voxel);
-    changed.voxel = app::parse_number("--voxel", text);
+    Job changed = job;
+    const std::string text = fmt::format("{:.3g}", times * *job.question.voxel);
+    changed.question.voxel = app::parse_number("--voxel", text);
     try {
       const BuiltComplex built =
           build_complex(data.read, data.name, data.dropped, changed, context);
-      const Estimate e = estimate(built.complex, changed.options, context);
+      const Estimate e = estimate(built.complex, changed.question.options, context);
       if (e.bytes_high <= static_cast<double>(context.memory.limit()))
         return text_of("--voxel " + text, {{}, e.bytes_low, e.bytes_high});
     } catch (const Error& error) {
@@ -62,21 +61,20 @@ std::string larger_voxel(const NamedData& data, const Arguments& arguments,
 
 }  // namespace
 
-std::string alternatives(const Job& job, const Arguments& arguments, app::Session& session) {
-  if (job.input == "-") return "";  // was read and freed again
+std::string alternatives(const Job& job, app::Session& session) {
+  if (job.places.input == "-") return "";  // was read and freed again
   try {
     const RunContext& context = session.context();
     const Input input =
-        Input::open(files::path_of(job.input), &context, Input::Excess::stays_in_file);
-    const NamedData data = read_input(input, arguments, context);
+        Input::open(files::path_of(job.places.input), &context, Input::Excess::stays_in_file);
+    const NamedData data = read_input(input, job, context);
     std::vector<std::string> texts;
-    if (arguments.voxel)
-      if (std::string text = larger_voxel(data, arguments, context); !text.empty())
+    if (job.question.voxel)
+      if (std::string text = larger_voxel(data, job, context); !text.empty())
         texts.push_back(std::move(text));
-    const BuiltComplex built =
-        build_complex(data.read, data.name, data.dropped, arguments, context);
-    for (const Fit& fit : what_fits(built.complex, arguments.options, context))
-      texts.push_back(text_of(fit, arguments));
+    const BuiltComplex built = build_complex(data.read, data.name, data.dropped, job, context);
+    for (const Fit& fit : what_fits(built.complex, job.question.options, context))
+      texts.push_back(text_of(fit, job));
     if (texts.empty()) return "";
     // No estimate knows how many cells of an image are critical.
     const bool is_image = std::holds_alternative<Image>(data.read.data);

@@ -19,6 +19,6 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
 /// the input again.
 /// @return "what would fit: " and at most three changes, or "what may fit: " for an image; empty if
 /// none is known.
-std::string alternatives(const Job& job, const Arguments& arguments, app::Session& session);
+std::string alternatives(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

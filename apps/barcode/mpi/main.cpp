@@ -31,9 +31,9 @@ bool is_help_asked(int argc, char** argv) {
 
 int print_help(int argc, char** argv) {
   return ph::app::run_program(kProgram, [&](const std::stop_token&) {
-    ph::barcode::Arguments arguments;
-    arguments.on_ranks = true;
-    const auto answer = ph::barcode::parse_arguments(argc, argv, arguments);
+    ph::barcode::Job job;
+    job.sharing.on_ranks = true;
+    const auto answer = ph::barcode::parse_arguments(argc, argv, job);
     return ph::app::answer_command_line(answer.value());
   });
 }
@@ -52,29 +52,29 @@ int main(int argc, char** argv) {
   if (is_help_asked(argc, argv)) return print_help(argc, argv);
   ph::barcode::MpiTransport transport(&argc, &argv);
   const int code = ph::app::run_program(kProgram, [&](const std::stop_token& stop) {
-    ph::barcode::Arguments arguments;
-    arguments.on_ranks = true;
+    ph::barcode::Job job;
+    job.sharing.on_ranks = true;
     try {
-      if (const auto answer = ph::barcode::parse_arguments(argc, argv, arguments))
+      if (const auto answer = ph::barcode::parse_arguments(argc, argv, job))
         return transport.rank() == 0 ? ph::app::answer_command_line(*answer) : 0;
     } catch (const ph::Error&) {
       if (transport.rank() == 0) throw;
       transport.wait_for_all();  // rank 0 prints the reason and ends all ranks
     }
-    share_machine(arguments.common, transport.ranks_here());
+    share_machine(job.common, transport.ranks_here());
     const bool is_first = transport.rank() == 0;
     // Only rank 0 prints notes; another rank speaks only if it fails or with --verbose.
-    arguments.common.quiet = arguments.common.quiet || (!is_first && !arguments.common.verbose);
+    job.common.quiet = job.common.quiet || (!is_first && !job.common.verbose);
     // Only the first rank shows a bar; lines of JSON name their rank.
-    if (arguments.common.progress == ph::app::ProgressMode::json)
-      arguments.common.rank = transport.rank();
+    if (job.common.progress == ph::app::ProgressMode::json)
+      job.common.rank = transport.rank();
     else if (!is_first)
-      arguments.common.progress = ph::app::ProgressMode::none;
+      job.common.progress = ph::app::ProgressMode::none;
     const std::string name = is_first ? std::string(kProgram.name)
                                       : fmt::format("{}: rank {}", kProgram.name, transport.rank());
-    ph::app::Session session(name, arguments.common, stop);
+    ph::app::Session session(name, job.common, stop);
     return ph::barcode::run_ranks(
-        arguments, transport, [&] { transport.wait_for_all(); }, session);
+        job, transport, [&] { transport.wait_for_all(); }, session);
   });
   return transport.finish(code);
 }

@@ -5,17 +5,17 @@
 
 namespace ph::barcode {
 
-Outputs::Outputs(const Job& job) : job_(job) {
-  if (job.format != BarcodeFormat::none) barcode_.emplace(job.output);
-  for (const app::Plot& plot : job.plots) plots_.emplace_back(plot.path);
-  for (const Surface& surface : job.surfaces) surfaces_.emplace_back(surface.path);
-  if (!job.report.empty()) report_.emplace(job.report);
+Outputs::Outputs(const Places& places) : places_(places) {
+  if (places.format != BarcodeFormat::none) barcode_.emplace(places.output);
+  for (const app::Plot& plot : places.plots) plots_.emplace_back(plot.path);
+  for (const Surface& surface : places.surfaces) surfaces_.emplace_back(surface.path);
+  if (!places.report.empty()) report_.emplace(places.report);
 }
 
 void Outputs::write_surfaces(const Alpha& alpha, PointsView points, std::span<const Index> ids,
                              const RunContext& context) {
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const Surface& surface = job_.surfaces[i];
+    const Surface& surface = places_.surfaces[i];
     write_surface(
         surfaces_[i].file(), points,
         surface.is_wrap ? wrap(alpha, surface.value, context) : alpha_shape(alpha, surface.value),
@@ -27,7 +27,7 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
                     std::span<const std::string> trees, const RunContext& context) {
   auto tree = trees.begin();
   for (std::size_t i = 0; i < plots_.size(); ++i) {
-    const app::Plot& plot = job_.plots[i];
+    const app::Plot& plot = places_.plots[i];
     const auto kind = plot_kind_named(plot.kind);
     PlotOptions options = look;
     options.kind = kind.value_or(options.kind);
@@ -35,7 +35,7 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
   }
   // Pixels may exceed the memory: no file is completed before everything is drawn.
   if (barcode_) {
-    write_barcode(barcode_->file(), bars, job_.format, info);
+    write_barcode(barcode_->file(), bars, places_.format, info);
     barcode_->commit();
   }
   for (app::Output& plot : plots_) plot.commit();

@@ -14,7 +14,7 @@ namespace ph::barcode {
 class Outputs {
  public:
   /// @throws Error (cannot_create).
-  explicit Outputs(const Job& job);
+  explicit Outputs(const Places& places);
   /// Writes and completes all files except the report.
   /// @param look of the plots. @param trees plots of merge trees, in their order.
   void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
@@ -27,7 +27,7 @@ class Outputs {
   app::Output& report() { return *report_; }
 
  private:
-  const Job& job_;
+  const Places& places_;
   std::optional<app::Output> barcode_, report_;
   std::vector<app::Output> plots_, surfaces_;
 };

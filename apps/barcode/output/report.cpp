@@ -45,15 +45,16 @@ bool has_axes_of_space(const ReadResult& read) {
 
 /// True if the edges at a distance are all pairs within it: all points are vertices and enter
 /// together.
-bool is_euclidean(const Shown& shown, const Arguments& arguments) {
+bool is_euclidean(const Shown& shown, const Job& job) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
-         arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
-         !arguments.rips.dtm_neighbours && arguments.vertex_weights.empty();
+         job.question.rips.distance == PointDistance::euclidean &&
+         !job.question.rips.approximation && !job.question.rips.dtm_neighbours &&
+         job.question.vertex_weights.empty();
 }
 
-report::Provenance provenance_of(const Shown& shown, const Arguments& arguments) {
+report::Provenance provenance_of(const Shown& shown, const Job& job) {
   report::Provenance provenance;
-  provenance.command = arguments.command;
+  provenance.command = job.command;
   provenance.sha256 = shown.data.sha256;
   provenance.run = shown.info;
   provenance.warnings = shown.warnings;
@@ -119,36 +120,35 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
 
 }  // namespace
 
-void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
-                  app::Session& session) {
+void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session) {
   const auto tree = tree_if_it_fits(shown, session);
   report::BarcodePage page{report::title_of(shown.info.input), shown.barcode, &shown.built.complex};
   page.form = shown.form;
   page.points = shown_points(shown);
   page.point_ids = shown.data.read.point_ids;
-  page.is_euclidean = is_euclidean(shown, arguments);
+  page.is_euclidean = is_euclidean(shown, job);
   page.has_axes_of_space = has_axes_of_space(shown.data.read);
   page.tree = tree ? &*tree : nullptr;
-  page.provenance = provenance_of(shown, arguments);
+  page.provenance = provenance_of(shown, job);
   report::write_page([&file](std::string_view text) { file.write(text); }, page, session.context());
 }
 
-int run_comparison(const Arguments& arguments, app::Session& session) try {
-  const DistanceFormat format = distance_format(arguments);
+int run_comparison(const Job& job, app::Session& session) try {
+  const DistanceFormat format = distance_format(job);
   std::optional<app::Output> distances, output;
-  if (arguments.output_format != BarcodeFormat::none) distances.emplace(arguments.output);
-  if (!arguments.report.empty()) output.emplace(arguments.report);
-  const std::string &first = arguments.compare[0], &second = arguments.compare[1];
+  if (job.results.output_format != BarcodeFormat::none) distances.emplace(job.places.output);
+  if (!job.places.report.empty()) output.emplace(job.places.report);
+  const std::string &first = job.compare[0], &second = job.compare[1];
   report::Metadata meta;
   meta.title = fmt::format("{} and {}", report::title_of(first), report::title_of(second));
   meta.value_label = "Filtration value";
-  meta.provenance.command = arguments.command;
+  meta.provenance.command = job.command;
   meta.provenance.has_homology = false;
   meta.provenance.run.program = app::program_and_version("ph-barcode");
   meta.provenance.run.input = fmt::format("{}, {}", first, second);
   std::vector<Barcode> barcodes;
   app::SameOrigin origin(session);
-  for (const std::string& path : arguments.compare) {
+  for (const std::string& path : job.compare) {
     const Input input = Input::open(files::path_of(path), &session.context());
     StoredBarcode stored = read_stored_barcode(input);
     origin.add(path, stored.info);
@@ -166,7 +166,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   if (distances) {
-    distances->write(distances_file(meta.distances, barcodes, left_out, arguments, format));
+    distances->write(distances_file(meta.distances, barcodes, left_out, job, format));
     distances->commit();
   }
   if (!output) return app::kOk;

@@ -26,12 +26,11 @@ struct Shown {
 /// or the image, and the merge tree of H0. The tree is missing if the complex was subsampled,
 /// approximated or cut, or if memory does not suffice, which a note says.
 /// @throws Error (io, resource, cancelled).
-void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
-                  app::Session& session);
+void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session);
 
 /// --compare: reads two barcodes, writes their distances and the report of both. @return the exit
 /// code.
 /// @throws Error like read_barcode and OutputFile.
-int run_comparison(const Arguments& arguments, app::Session& session);
+int run_comparison(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

@@ -10,27 +10,27 @@
 
 namespace ph::barcode {
 
-void require_significance(BarcodeFormat format, const Arguments& arguments) {
-  if (!arguments.significance) return;
+void require_significance(BarcodeFormat format, const Job& job) {
+  if (!job.results.significance) return;
   const auto reject = [](const std::string& found) {
     throw Error(ErrorKind::usage, "--significance: found " + found);
   };
   if (format != BarcodeFormat::csv && format != BarcodeFormat::json)
     reject(fmt::format("output format {}, expected csv or json, which have room for p",
                        barcode_format_name(format)));
-  if (arguments.options.min_persistence > 0)
+  if (job.question.options.min_persistence > 0)
     reject(
         "--min-persistence, expected all bars: p compares each with the others; leave out those "
         "with a large p afterwards");
-  if (arguments.complex == ComplexKind::delaunay_rips)
+  if (job.question.complex == ComplexKind::delaunay_rips)
     reject(
         "--complex delaunay-rips, expected rips, alpha or delaunay-cech, for which the law holds");
-  if (arguments.rips.dtm_neighbours || !arguments.vertex_weights.empty() ||
-      !arguments.weights.empty())
+  if (job.question.rips.dtm_neighbours || !job.question.vertex_weights.empty() ||
+      !job.question.weights.empty())
     reject(
         "vertices with weights, expected ones that are there from 0 on: ratios of death and "
         "birth are compared");
-  if (arguments.options.max_dim == 0)
+  if (job.question.options.max_dim == 0)
     reject("--max-dim 0, expected dimension 1 or above: components are born at 0");
 }
 

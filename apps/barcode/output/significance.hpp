@@ -11,7 +11,7 @@ namespace ph::barcode {
 
 /// To be called before the computation. @throws Error (usage) if p-values are requested that no
 /// output can hold or that would be meaningless.
-void require_significance(BarcodeFormat format, const Arguments& arguments);
+void require_significance(BarcodeFormat format, const Job& job);
 
 /// For each bar its p-value, multiplied by the number of tested bars of its dimension; NaN for
 /// components and for bars that never die.

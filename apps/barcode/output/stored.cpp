@@ -21,11 +21,11 @@ namespace ph::barcode {
 namespace {
 
 void write_stored_report(app::Output& output, const Input& input, const Barcode& barcode,
-                         const BarcodeInfo& info, bool superlevel, const Arguments& arguments,
+                         const BarcodeInfo& info, bool superlevel, const Job& job,
                          app::Session& session) {
   report::BarcodePage page{report::title_of(info.input), barcode};
   page.negated = superlevel;
-  page.provenance.command = arguments.command;
+  page.provenance.command = job.command;
   page.provenance.has_homology = false;
   page.provenance.run = info;
   page.provenance.sha256 = report::sha256_hex(input, session.context());
@@ -36,9 +36,8 @@ void write_stored_report(app::Output& output, const Input& input, const Barcode&
 
 }  // namespace
 
-Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
-                   app::Session& session) {
-  for (const app::Plot& plot : job.plots)
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Session& session) {
+  for (const app::Plot& plot : job.places.plots)
     if (!plot.shows_bars())
       throw Error(
           ErrorKind::usage,
@@ -47,41 +46,40 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
   const std::string description =
       fmt::format("a barcode, {}", app::count_of(barcode.size(), "bar"));
   const std::string what = fmt::format("read {}: {}", input.name(), description);
-  if (arguments.is_batch())
+  if (job.of_batch)
     session.explain(what);
   else
     session.note(what);
   // Other formats have no room for the data that JSON holds beside the bars, and nobody expects
   // them there.
   const bool loses_p =
-      job.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
-  if (loses_p || (job.format == BarcodeFormat::json && !left_out.empty()))
+      job.places.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
+  if (loses_p || (job.places.format == BarcodeFormat::json && !left_out.empty()))
     session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(left_out, ", ")));
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
-  info.input = job.input;
+  info.input = job.places.input;
   info.input_description = description;
   info.peak_memory = app::peak_memory();
-  note_absent_dims(barcode, arguments.look, session);
+  note_absent_dims(barcode, job.results.look, session);
   const app::BarHold results_are_written(session);
   // The program that converts the bars is not the one that computed them.
   const bool is_known = !origin.program.empty();
   // mutant: stored-origin
-  outputs.write(barcode, is_known ? origin : info, look_of(arguments.look, origin.superlevel), {},
+  outputs.write(barcode, is_known ? origin : info, look_of(job.results.look, origin.superlevel), {},
                 session.context());
-  if (!job.report.empty())
-    write_stored_report(outputs.report(), input, barcode, info, origin.superlevel, arguments,
-                        session);
+  if (!job.places.report.empty())
+    write_stored_report(outputs.report(), input, barcode, info, origin.superlevel, job, session);
   return {app::kOk, description};
 }
 
-DistanceFormat distance_format(const Arguments& arguments) {
-  const auto format =
-      arguments.output_format ? arguments.output_format : barcode_format_of_path(arguments.output);
+DistanceFormat distance_format(const Job& job) {
+  const auto format = job.results.output_format ? job.results.output_format
+                                                : barcode_format_of_path(job.places.output);
   if (!format || *format == BarcodeFormat::none) return DistanceFormat::text;
   if (*format == BarcodeFormat::csv) return DistanceFormat::csv;
   if (*format == BarcodeFormat::json) return DistanceFormat::json;
-  if (arguments.output_format)
+  if (job.results.output_format)
     throw Error(ErrorKind::usage,
                 fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
                             "without it, distances are text",
@@ -89,14 +87,14 @@ DistanceFormat distance_format(const Arguments& arguments) {
   throw Error(ErrorKind::usage,
               fmt::format("--output: found {}, expected FILE.csv or FILE.json with --compare; "
                           "other names give text",
-                          printable(arguments.output)));
+                          printable(job.places.output)));
 }
 
 std::string distances_file(const std::vector<report::Distance>& distances,
                            std::span<const Barcode> barcodes,
-                           const std::vector<std::string>& left_out, const Arguments& arguments,
+                           const std::vector<std::string>& left_out, const Job& job,
                            DistanceFormat format) {
-  const std::string &first = arguments.compare[0], &second = arguments.compare[1];
+  const std::string &first = job.compare[0], &second = job.compare[1];
   std::string text;
   if (format == DistanceFormat::csv) {
     text = "dim,bottleneck\n";

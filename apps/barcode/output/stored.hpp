@@ -21,18 +21,17 @@ inline std::string fewer_bars() {
 
 /// Reads a stored barcode and writes what the job asks for: a converted file, a plot, a report.
 /// @throws Error (usage) on a plot of anything else; Error like read_barcode and OutputFile.
-Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
-                   app::Session& session);
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Session& session);
 
 /// The formats of the distances of two barcodes.
 enum class DistanceFormat { text, csv, json };
 /// The file of the distances of two barcodes.
 std::string distances_file(const std::vector<report::Distance>& distances,
                            std::span<const Barcode> barcodes,
-                           const std::vector<std::string>& left_out, const Arguments& arguments,
+                           const std::vector<std::string>& left_out, const Job& job,
                            DistanceFormat format);
 /// The format that --output-format or the extension of -o selects. @throws Error (usage) on any
 /// other format.
-DistanceFormat distance_format(const Arguments& arguments);
+DistanceFormat distance_format(const Job& job);
 
 }  // namespace ph::barcode

@@ -11,19 +11,18 @@
 
 namespace ph::barcode {
 
-CloudInput read_cloud_input(const std::string& input, const Arguments& arguments,
-                            app::Session& session) {
-  const std::string_view why = arguments.part ? "--part" : "several ranks";
-  if (arguments.options.max_dim != 0)
+CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session) {
+  const std::string_view why = job.sharing.part ? "--part" : "several ranks";
+  if (job.question.options.max_dim != 0)
     throw Error(ErrorKind::usage,
                 fmt::format("{} with --complex rips: only components are computed, expected "
                             "--max-dim 0",
                             why));
-  if (arguments.rips.distance != PointDistance::euclidean)
+  if (job.question.rips.distance != PointDistance::euclidean)
     throw Error(ErrorKind::usage,
                 fmt::format("--metric: found another one, expected euclidean with {}", why));
-  NamedData data = read_input(Input::open(files::path_of(input), &session.context()), arguments,
-                              session.context());
+  NamedData data =
+      read_input(Input::open(files::path_of(input), &session.context()), job, session.context());
   const std::string& description = data.read.description;
   const std::optional<PointsView> points = points_of(data.read);
   if (!points)
@@ -31,7 +30,7 @@ CloudInput read_cloud_input(const std::string& input, const Arguments& arguments
   session.explain(fmt::format("read {}: {}", data.name, description));
   for (const Message& note : data.read.notes)
     session.note(fmt::format("{}: {}", data.name, note.marked()));
-  CloudInput cloud{std::move(data), {}, {.threshold = arguments.threshold}};
+  CloudInput cloud{std::move(data), {}, {.threshold = job.question.threshold}};
   cloud.points = *points_of(cloud.data.read);
   return cloud;
 }

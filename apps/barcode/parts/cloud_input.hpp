@@ -19,8 +19,7 @@ struct CloudInput {
 
 /// @param input stays in its file if the file has the layout of memory.
 /// @throws Error (usage) on anything but points, and if more than components is requested.
-CloudInput read_cloud_input(const std::string& input, const Arguments& arguments,
-                            app::Session& session);
+CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 
 /// The part from a file, if it is this part of this cloud, complete, and not older than the cloud.
 /// Any other file is reported and must be computed anew.

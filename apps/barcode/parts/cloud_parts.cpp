@@ -44,19 +44,18 @@ Outcome foresee(const CloudInput& cloud, int parts, std::string_view process) {
   return {app::kOk, cloud.data.read.description};
 }
 
-Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
-                       app::Session& session) {
-  app::require_in_scope(arguments.given, kCloudPart, name_of(kCloudPart));
-  const auto [part, parts] = *arguments.part;
+Outcome run_cloud_part(const std::string& input, const Job& job, app::Session& session) {
+  app::require_in_scope(job.given, kCloudPart, name_of(kCloudPart));
+  const auto [part, parts] = *job.sharing.part;
   const std::string path =
-      part_path(arguments.output, app::output_names({input}).front(), part, parts);
-  const CloudInput cloud = read_cloud_input(input, arguments, session);
-  if (arguments.dry_run) return foresee(cloud, parts, "");
-  if (arguments.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
+      part_path(job.places.output, app::output_names({input}).front(), part, parts);
+  const CloudInput cloud = read_cloud_input(input, job, session);
+  if (job.results.dry_run) return foresee(cloud, parts, "");
+  if (job.sharing.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;
   inputs.add(input);
-  app::require_separate(inputs, std::array{app::Written{"--output", path}}, arguments.common.force);
+  app::require_separate(inputs, std::array{app::Written{"--output", path}}, job.common.force);
   app::Output output(path);
   const CloudPart made(cloud.points, part, parts, cloud.options, session.context());
   session.explain("memory " + format_size(static_cast<double>(session.memory_taken())));
@@ -66,7 +65,7 @@ Outcome run_cloud_part(const std::string& input, const Arguments& arguments,
 }
 
 Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
-                         const Arguments& arguments, app::Session& session) {
+                         app::Session& session) {
   const RunContext& context = session.context();
   std::optional<CloudPart> all;
   for (const PartFile& file : files) {
@@ -82,8 +81,8 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
     }
   }
   const std::string words = fmt::format("{} of {} parts", all->present().size(), all->parts());
-  if (is_part_path(job.output)) {
-    app::Output output(job.output);
+  if (is_part_path(job.places.output)) {
+    app::Output output(job.places.output);
     return {app::kOk, fmt::format("{}: {}", words, write_part_file(output, all->bytes()))};
   }
   if (!all->is_whole())
@@ -91,11 +90,11 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
                 fmt::format("--join: found {}, expected all: missing is part {}; -o FILE.ph joins "
                             "some",
                             words, all->missing().front() + 1));
-  Outputs outputs(job);
+  Outputs outputs(job.places);
   const BarcodeInfo info = info_of(
       *all, fmt::format("{} points, {}", all->points(), app::count_of(files.size(), "part file")),
-      job.input);
-  return write_bars(bars_of(std::move(*all), job.format, context), info, outputs, arguments,
+      job.places.input);
+  return write_bars(bars_of(std::move(*all), job.places.format, context), info, outputs, job,
                     session);
 }
 

@@ -91,19 +91,18 @@ Outcome foresee(const PartInput& read, int parts, std::string_view process) {
   return {app::kOk, read.description};
 }
 
-Outcome run_image_part(const std::string& input, const Arguments& arguments,
-                       app::Session& session) {
-  const auto [part, parts] = *arguments.part;
+Outcome run_image_part(const std::string& input, const Job& job, app::Session& session) {
+  const auto [part, parts] = *job.sharing.part;
   const std::string path =
-      part_path(arguments.output, app::output_names({input}).front(), part, parts);
-  app::require_in_scope(arguments.given, kImagePart, name_of(kImagePart));
-  const PartInput read = read_part_input(input, arguments.keeps_cells, arguments, session);
-  if (arguments.dry_run) return foresee(read, parts, "");
-  if (arguments.resumes && kept_image_part(path, input, read, part, parts, session))
+      part_path(job.places.output, app::output_names({input}).front(), part, parts);
+  app::require_in_scope(job.given, kImagePart, name_of(kImagePart));
+  const PartInput read = read_part_input(input, job.sharing.keeps_cells, job, session);
+  if (job.results.dry_run) return foresee(read, parts, "");
+  if (job.sharing.resumes && kept_image_part(path, input, read, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;
   inputs.add(input);
-  app::require_separate(inputs, std::array{app::Written{"--output", path}}, arguments.common.force);
+  app::require_separate(inputs, std::array{app::Written{"--output", path}}, job.common.force);
   app::Output output(path);
   const ImagePart made = [&] {
     try {
@@ -119,8 +118,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
                                 write_part_file(output, made.bytes()))};
 }
 
-Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Arguments& arguments,
-                         app::Session& session) {
+Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Session& session) {
   const RunContext& context = session.context();
   std::vector<std::pair<ImagePart, std::string>> parts;
   for (PartFile& file : files) {
@@ -137,24 +135,24 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
                   fmt::format("{}: {} is there twice, also in {}", path, words_of(next), before));
     join(all, std::move(next), before, path, context);
   }
-  if (is_part_path(job.output)) {
-    app::Output output(job.output);
+  if (is_part_path(job.places.output)) {
+    app::Output output(job.places.output);
     return {app::kOk, fmt::format("{}: {}", words_of(all), write_part_file(output, all.bytes()))};
   }
   if (!all.is_whole())
     throw Error(
         ErrorKind::bad_data,
         fmt::format("--join: found {}, expected all; -o FILE.ph joins some", words_of(all)));
-  if (job.format == BarcodeFormat::json && !all.options().cells)
+  if (job.places.format == BarcodeFormat::json && !all.options().cells)
     throw Error(ErrorKind::usage,
                 "--output-format: found json, which shows the cells of bars; --part with "
                 "--keep-cells stores them");
-  Outputs outputs(job);
+  Outputs outputs(job.places);
   const BarcodeInfo info = info_of(all,
                                    fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
                                                app::count_of(parts.size(), "part file")),
-                                   job.input, arguments.options.field);
-  return write_bars(all.barcode(context), info, outputs, arguments, session);
+                                   job.places.input, job.question.options.field);
+  return write_bars(all.barcode(context), info, outputs, job, session);
 }
 
 }  // namespace ph::barcode

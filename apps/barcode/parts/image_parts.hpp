@@ -18,9 +18,9 @@ namespace ph::barcode {
 /// @param process as in forecast_text.
 Outcome foresee(const PartInput& read, int parts, std::string_view process);
 
-/// Computes a part of an image and writes it. Precondition: arguments.part.
+/// Computes a part of an image and writes it. Precondition: `job.sharing.part` is set.
 /// @throws Error (usage) if the input is not an image.
-Outcome run_image_part(const std::string& input, const Arguments& arguments, app::Session& session);
+Outcome run_image_part(const std::string& input, const Job& job, app::Session& session);
 
 /// The part from a file, if it is this part of this image, complete, and not older than the image.
 /// Any other file is reported and must be computed anew.
@@ -30,8 +30,7 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
 
 /// Joins parts of an image and writes the bars, or one part. @throws Error (bad_data) naming the
 /// files, if parts do not belong together or some are missing.
-Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Arguments& arguments,
-                         app::Session& session);
+Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Session& session);
 
 /// The description of a complete image in the JSON format.
 BarcodeInfo info_of(const ImagePart& whole, const std::string& description,

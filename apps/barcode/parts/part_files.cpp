@@ -68,14 +68,14 @@ std::string write_part_file(app::Output& output, std::span<const std::byte> byte
   return format_size(static_cast<double>(bytes.size()));
 }
 
-Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
+Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& job,
                    app::Session& session) {
-  info.min_persistence = arguments.options.min_persistence;  // mutant: json-min-persistence
-  if (arguments.options.min_persistence > 0)
-    bars = longer_than(arguments.options.min_persistence, bars);
-  note_absent_dims(bars, arguments.look, session);
+  info.min_persistence = job.question.options.min_persistence;  // mutant: json-min-persistence
+  if (job.question.options.min_persistence > 0)
+    bars = longer_than(job.question.options.min_persistence, bars);
+  note_absent_dims(bars, job.results.look, session);
   const app::BarHold results_are_written(session);
-  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());
+  outputs.write(bars, info, look_of(job.results.look, info.superlevel), {}, session.context());
   return {app::kOk,
           fmt::format("{}: {}", info.input_description, app::count_of(bars.size(), "bar"))};
 }

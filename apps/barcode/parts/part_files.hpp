@@ -64,7 +64,7 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
 /// Writes the bars of a complete result, without bars below the user's limit.
-Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Arguments& arguments,
+Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& job,
                    app::Session& session);
 
 }  // namespace ph::barcode

@@ -12,20 +12,21 @@
 
 namespace ph::barcode {
 
-PartInput read_part_input(const std::string& input, bool keeps_cells, const Arguments& arguments,
+PartInput read_part_input(const std::string& input, bool keeps_cells, const Job& job,
                           app::Session& session) {
-  const std::string_view why = arguments.part ? "--part" : "several ranks";
-  if (arguments.complex != ComplexKind::automatic && arguments.complex != ComplexKind::cubical)
+  const std::string_view why = job.sharing.part ? "--part" : "several ranks";
+  if (job.question.complex != ComplexKind::automatic &&
+      job.question.complex != ComplexKind::cubical)
     throw Error(ErrorKind::usage,
                 fmt::format("--complex: found another, expected cubical, or rips with --max-dim 0, "
                             "with {}",
                             why));
   const Input opened =
       Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
-  if (arguments.format == Format::automatic && is_barcode(opened))
+  if (job.reading.format == Format::automatic && is_barcode(opened))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: {} is a barcode, expected an image", why, opened.name()));
-  const NamedData data = read_input(opened, arguments, session.context());
+  const NamedData data = read_input(opened, job, session.context());
   const auto* const image = std::get_if<Image>(&data.read.data);
   if (image == nullptr)
     throw Error(
@@ -34,16 +35,16 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Argu
                     "rips --max-dim 0",
                     why, data.read.description));
   session.explain(fmt::format("read {}: {}", data.name, data.read.description));
-  if (arguments.read.allow_empty)
+  if (job.reading.options.allow_empty)
     session.explain("--allow-empty: not needed, the input is not empty");
   for (const Message& note : data.read.notes)
     session.note(fmt::format("{}: {}", data.name, note.marked()));
-  if (const int layers = arguments.common.slab_layers; layers > 0)
+  if (const int layers = job.common.slab_layers; layers > 0)
     session.explain(
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
-  const ImagePartOptions options{.cubical = cubical_options(arguments, *image, data.read.periodic),
-                                 .min_dim = arguments.options.min_dim,
-                                 .max_dim = arguments.options.max_dim,
+  const ImagePartOptions options{.cubical = cubical_options(job, *image, data.read.periodic),
+                                 .min_dim = job.question.options.min_dim,
+                                 .max_dim = job.question.options.max_dim,
                                  .cells = keeps_cells};
   return {*image, options, data.read.description};
 }

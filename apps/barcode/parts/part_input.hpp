@@ -18,7 +18,7 @@ struct PartInput {
 /// @param input stays in its file if the file has the layout of memory. @param keeps_cells true if
 ///     bars keep their cells.
 /// @throws Error (usage) on anything but an image, and on options that do not apply to one.
-PartInput read_part_input(const std::string& input, bool keeps_cells, const Arguments& arguments,
+PartInput read_part_input(const std::string& input, bool keeps_cells, const Job& job,
                           app::Session& session);
 
 }  // namespace ph::barcode

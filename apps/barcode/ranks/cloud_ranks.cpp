@@ -10,20 +10,19 @@
 #include "ph/detail/facade/join_ranks.hpp"
 
 namespace ph::barcode {
-RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
-                          app::Session& session) {
+RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& session) {
   const RunContext& context = session.context();
-  const CloudInput cloud = read_cloud_input(job.input, arguments, session);
+  const CloudInput cloud = read_cloud_input(job.places.input, job, session);
   const int rank = transport.rank(), parts = transport.size();
-  if (arguments.dry_run) {
+  if (job.results.dry_run) {
     if (rank == 0) foresee(cloud, parts, "rank");
     return {};
   }
-  RankResult result{kept_path(arguments, rank, parts), std::nullopt};
+  RankResult result{kept_path(job, rank, parts), std::nullopt};
   Post post(transport);
   std::optional<CloudPart> own = kept_or_computed(
-      result.kept, arguments, session,
-      [&] { return kept_cloud_part(result.kept, job.input, cloud, rank, parts, session); },
+      result.kept, job, session,
+      [&] { return kept_cloud_part(result.kept, job.places.input, cloud, rank, parts, session); },
       [&] { return CloudPart(cloud.points, rank, parts, cloud.options, context); },
       [](const CloudPart&) { return true; });
   std::optional<CloudPart> whole = join_ranks(std::move(own), post, context);
@@ -32,8 +31,8 @@ RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport&
   const std::string description =
       fmt::format("{}, {}", cloud.data.read.description,
                   app::count_of(static_cast<std::size_t>(parts), "rank"));
-  const BarcodeInfo info = info_of(*whole, description, job.input);
-  result.bars.emplace(RankBars{bars_of(std::move(*whole), job.format, context), info});
+  const BarcodeInfo info = info_of(*whole, description, job.places.input);
+  result.bars.emplace(RankBars{bars_of(std::move(*whole), job.places.format, context), info});
   return result;
 }
 

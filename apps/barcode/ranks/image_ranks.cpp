@@ -49,12 +49,11 @@ std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
 
 }  // namespace
 
-RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
-                          app::Session& session) {
+RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& session) {
   const RunContext& context = session.context();
   const int rank = transport.rank(), size = transport.size();
   PartInput input =
-      read_part_input(job.input, job.format == BarcodeFormat::json, arguments, session);
+      read_part_input(job.places.input, job.places.format == BarcodeFormat::json, job, session);
   input.options.loops = true;
   const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
   if (parts < size)
@@ -62,7 +61,7 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
                              app::count_of(static_cast<std::size_t>(size - parts), "rank"),
                              app::count_of(static_cast<std::size_t>(parts), "layer")));
   RankResult result;
-  if (arguments.dry_run) {
+  if (job.results.dry_run) {
     if (rank == 0) foresee(input, parts, "rank");
     return result;
   }
@@ -70,10 +69,10 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
   input.options.first_layers = shared_out(input, parts, post, session);
   std::optional<ImagePart> own;
   if (rank < parts) {
-    result.kept = kept_path(arguments, rank, parts);
+    result.kept = kept_path(job, rank, parts);
     own.emplace(kept_or_computed(
-        result.kept, arguments, session,
-        [&] { return kept_image_part(result.kept, job.input, input, rank, parts, session); },
+        result.kept, job, session,
+        [&] { return kept_image_part(result.kept, job.places.input, input, rank, parts, session); },
         [&] { return ImagePart(input.image, rank, parts, input.options, context); },
         [&](const ImagePart& part) {
           if (!part.has_loops()) return true;  // loops need voxels, which no part file has
@@ -82,10 +81,10 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
         }));
   }
   const bool has_loops = own && own->has_loops();
-  if (has_loops && arguments.common.slab_layers > 0)
+  if (has_loops && job.common.slab_layers > 0)
     session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
   std::optional<ImageLoops> loops;  // loops take the voxels before the part is destroyed
-  if (has_loops) loops.emplace(*own, arguments.options.field, context);
+  if (has_loops) loops.emplace(*own, job.question.options.field, context);
 
   const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
   Barcode found(CellKind::grid);
@@ -95,8 +94,9 @@ RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport&
   if (!whole) return result;
   const std::string description = fmt::format(
       "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
-  result.bars.emplace(RankBars{whole->barcode(context),
-                               info_of(*whole, description, job.input, arguments.options.field)});
+  result.bars.emplace(
+      RankBars{whole->barcode(context),
+               info_of(*whole, description, job.places.input, job.question.options.field)});
   add_bars(result.bars->bars, found);
   result.bars->bars.sort(context);
   return result;

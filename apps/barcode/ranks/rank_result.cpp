@@ -7,8 +7,8 @@
 
 namespace ph::barcode {
 
-std::string kept_path(const Arguments& arguments, int rank, int parts) {
-  return fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
+std::string kept_path(const Job& job, int rank, int parts) {
+  return fmt::format("{}.{}of{}.ph", job.places.output, rank + 1, parts);
 }
 
 void explain_costs(const Post& post, app::Session& session) {

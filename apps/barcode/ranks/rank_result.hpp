@@ -25,31 +25,29 @@ struct RankResult {
 };
 
 /// Computes an image on all ranks, or with --dry-run prints what they will need.
-RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
-                          app::Session& session);
+RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& session);
 /// Computes the components of a point cloud on all ranks, with some blocks on each.
 /// @throws Error (usage) like read_cloud_input.
-RankResult cloud_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
-                          app::Session& session);
+RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& session);
 
 /// The file in which --resume keeps the part of a rank.
-std::string kept_path(const Arguments& arguments, int rank, int parts);
+std::string kept_path(const Job& job, int rank, int parts);
 
 /// The part of this rank. With --resume, it is read from its file if `find_kept` accepts it;
 /// otherwise `compute` makes it, and with --resume it is then written to the file.
 /// @param find_kept returns an optional part. @param compute returns a part.
 /// @param can_keep returns true if a file can replace a part.
 template <class FindKept, class Compute, class CanKeep>
-auto kept_or_computed(const std::string& kept, const Arguments& arguments, app::Session& session,
+auto kept_or_computed(const std::string& kept, const Job& job, app::Session& session,
                       FindKept&& find_kept, Compute&& compute, CanKeep&& can_keep) {
-  if (arguments.resumes) {
+  if (job.sharing.resumes) {
     if (auto there = find_kept(); there && can_keep(*there)) {
       session.explain(kept + " is there already");
       return std::move(*there);
     }
   }
   auto part = compute();
-  if (arguments.resumes && can_keep(part)) {
+  if (job.sharing.resumes && can_keep(part)) {
     app::Output output(kept);
     write_part_file(output, part.bytes());
   }
@@ -60,10 +58,10 @@ auto kept_or_computed(const std::string& kept, const Arguments& arguments, app::
 void explain_costs(const Post& post, app::Session& session);
 
 /// Computes an image, or the components of points, on all ranks; each rank calls it with the same
-/// arguments, and rank 0 writes.
+/// job, and rank 0 writes.
 /// @param wait_for_all returns once all ranks have called it.
 /// @return the exit code of this rank. @throws Error.
-int run_ranks(const Arguments& arguments, Transport& transport,
-              const std::function<void()>& wait_for_all, app::Session& session);
+int run_ranks(const Job& job, Transport& transport, const std::function<void()>& wait_for_all,
+              app::Session& session);
 
 }  // namespace ph::barcode

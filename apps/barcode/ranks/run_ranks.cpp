@@ -15,38 +15,40 @@
 
 namespace ph::barcode {
 
-int run_ranks(const Arguments& arguments, Transport& transport,
-              const std::function<void()>& wait_for_all, app::Session& session) {
-  if (!arguments.wants_part_of_one())
+int run_ranks(const Job& job, Transport& transport, const std::function<void()>& wait_for_all,
+              app::Session& session) {
+  if (!job.wants_part_of_one())
     throw Error(ErrorKind::usage, "INPUT: found several or a folder, expected one image or cloud");
-  const bool is_image = arguments.wants_image_part();
+  const bool is_image = job.wants_image_part();
   const Situation situation = is_image ? kRanks : kCloudRanks;
-  app::require_in_scope(arguments.given, situation, name_of(situation));
-  const std::string& path = arguments.inputs.front();
-  const BarcodeFormat format = output_format(arguments, session);
-  const Job job{path, arguments.output, format, arguments.plots};
+  app::require_in_scope(job.given, situation, name_of(situation));
+  const std::string& path = job.inputs.front();
+  const BarcodeFormat format = output_format(job, session);
+  Job own = job;
+  own.places.input = path;
+  own.places.format = format;
   app::InputFiles inputs;
   inputs.add(path);
-  std::vector<app::Written> written{{"--output", job.output}};
-  for (const app::Plot& plot : job.plots) written.push_back({plot.option, plot.path});
-  app::require_separate(inputs, written, arguments.common.force);
+  std::vector<app::Written> written{{"--output", job.places.output}};
+  for (const app::Plot& plot : job.places.plots) written.push_back({plot.option, plot.path});
+  app::require_separate(inputs, written, job.common.force);
   // A file that cannot be created is reported first.
   std::optional<Outputs> outputs;
-  if (transport.rank() == 0 && !arguments.dry_run) outputs.emplace(job);
+  if (transport.rank() == 0 && !job.results.dry_run) outputs.emplace(own.places);
 
-  RankResult result = is_image ? image_of_ranks(job, arguments, transport, session)
-                               : cloud_of_ranks(job, arguments, transport, session);
+  RankResult result =
+      is_image ? image_of_ranks(own, transport, session) : cloud_of_ranks(own, transport, session);
   int code = 0;
   if (result.bars) {
     const Outcome outcome =
-        write_bars(std::move(result.bars->bars), result.bars->info, *outputs, arguments, session);
+        write_bars(std::move(result.bars->bars), result.bars->info, *outputs, job, session);
     session.note(outcome.summary);
     code = outcome.code;
   }
   // Parts are kept until the result has been written.
   wait_for_all();
   std::error_code ignored;
-  if (arguments.resumes && !result.kept.empty())
+  if (job.sharing.resumes && !result.kept.empty())
     std::filesystem::remove(files::path_of(result.kept), ignored);
   return code;
 }
