@@ -306,7 +306,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
     if (reached) source.request_stop();
   };
   EXPECT_TRUE(ph::test::fails_with(ErrorKind::cancelled, [&] {
-    for (int again = 0; again < 1000; ++again) cut(s, s.first_cut, context);
+    for (int again = 0; again < 1000; ++again) cut(s.tree, s.tree.first_cut, context);
   })) << "did not stop";
   EXPECT_TRUE(reached);
 }
