@@ -20,10 +20,12 @@ def head_of(text):
 
 def grouped(text, group):
     begin = f"/** @addtogroup {group} */ /** @{{ */"
-    # Hashes of cells and friends are of no interest to readers; definitions of class members would
-    # repeat their declarations.
+    # Hashes of cells, friends and tables of names are of no interest to readers; definitions of
+    # class members would repeat their declarations.
     text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^template <>\ninline constexpr std::array names_of<.*?^\};$", "", text,
+                  flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^inline constexpr (\w+) \1::.*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^(namespace ph(?:::\w+)? \{|extern \"C\" \{\n#endif)$", lambda line: f"{line[1]} {begin}", text,
                   count=1, flags=re.MULTILINE)
