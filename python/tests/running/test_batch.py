@@ -87,15 +87,16 @@ def test_progress_counts_inputs():
 
 def test_it_stops():
     slow = [RNG.random((700, 3))] * 9
+    options = {"max_dim": 4, "collapse": "off"}  # would take hours
     begin = time.monotonic()
     with pytest.raises(ph.Timeout, match="timeout"):
-        ph.batch(ph.rips, slow, max_dim=4, timeout=0.3)
+        ph.batch(ph.rips, slow, **options, timeout=0.3)
     stop = threading.Event()
     threading.Timer(0.3, stop.set).start()
     with pytest.raises(ph.Cancelled):
-        ph.batch(ph.rips, slow, max_dim=4, stop=stop)
+        ph.batch(ph.rips, slow, **options, stop=stop)
     with pytest.raises(ph.DataError, match="input 3"):
-        ph.batch(ph.rips, [*slow[:3], [[np.inf]], *slow], max_dim=4, threads=4)
+        ph.batch(ph.rips, [*slow[:3], [[np.inf]], *slow], **options, threads=4)
     assert time.monotonic() - begin < 60
 
 
