@@ -113,7 +113,7 @@ SegmentedScene scene_of_state(const py::dict& state, const RunOptions& options) 
         (cloud->width != scene.result.tree.width || cloud->height != scene.result.tree.height))
       throw Error(ErrorKind::bad_data,
                   fmt::format("state of {}: found a cloud of {} x {} points, "
-                              "expected {} x {} as of the tree",
+                              "expected {} x {} as in the tree",
                               kThing, cloud->height, cloud->width, scene.result.tree.height,
                               scene.result.tree.width));
     scene.input = members.cloud;
