@@ -34,7 +34,7 @@ def test_sources_that_are_not_compiled(tmp_path):
                     ignore=shutil.ignore_patterns("*.so", "__pycache__"))
     done = subprocess.run([sys.executable, "-c", "import libph"], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path)
-    assert re.search(r"ImportError: libph: .* has no _core, .* for Python 3.*pip install", done.stderr)
+    assert re.search(r"ImportError: libph: .* has no compiled module _core for Python 3.*pip install", done.stderr)
 
 
 # ---- wheels

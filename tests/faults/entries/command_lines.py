@@ -137,7 +137,7 @@ BARCODE_FILES = [
 
 # name, content, what the message contains; the points are four
 WEIGHTS = [
-    ("too few", b"0 0 1\n", "too few values.*4, one a point"),
+    ("too few", b"0 0 1\n", "too few values.*4, one per point"),
     ("too many", b"0\n0\n0\n0\n0\n", ":5:1: too many values"),
     ("negative", b"0 0 -1 0\n", "-1 for point 2"),
     ("infinite", b"0 0 0 inf\n", "inf for point 3"),
