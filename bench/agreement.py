@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Decides whether two programs found the same bars, allowing for different rounding.
 
-Programs compute distances in single or double precision and print six digits. Ends of bars may
+Programs compute distances in single or double precision and print six digits. The ends of a bar may
 differ in the last digit, and a bar that is empty for one program may be short for another.
 """
 import bisect
 import math
 import re
 
-RELATIVE = 1e-5  # relative to the larger end
+RELATIVE = 1e-5  # tolerance, relative to the larger end
 
 
 def read(text, max_dim):
@@ -31,7 +31,8 @@ def _close(a, b):
 
 
 def _unmatched(ours, theirs):
-    """Bars of either list without a partner in the other: each takes the first free one that is close."""
+    """The bars of either list that have no partner in the other list: each bar takes the first free
+    one that is close."""
     births = [birth for birth, _ in theirs]
     free = [True] * len(theirs)
     alone = []
@@ -48,8 +49,8 @@ def _unmatched(ours, theirs):
 
 
 def difference(ours, theirs):
-    """The first difference in words, or None. Bars that are short enough to come from rounding do
-    not count."""
+    """The first difference in words, or None. Bars so short that they may come from rounding do not
+    count."""
     for dim, bars in ours.items():
         other = theirs.get(dim, [])
         for owner, list_ in zip(("ours", "theirs"), _unmatched(bars, other)):

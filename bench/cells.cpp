@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
         }
       });
     };
-    const ph::RipsGraph& graph =  // as in ph-barcode
+    const ph::RipsGraph& graph =  // the same call as in ph-barcode
         rips.graph(rips.has_form(ph::RipsForm::distinct_edges) ? ph::RipsForm::distinct_edges
                                                                : ph::RipsForm::edges);
     if (argv[5] == std::string_view("collapse"))

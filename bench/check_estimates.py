@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Compares the predictions of --dry-run with the true values, on the inputs of compare_rips.py.
 
-    check_estimates.py build/release --data FOLDER
+check_estimates.py build/release --data FOLDER
 
-For each row, it compares the predicted interval of memory with the peak resident memory of the run
-minus that of starting the program, and the predicted with the counted cells. Small pages are used,
-because a large page for the first bytes would hide the need of the run. The exit code is 1 if a
-peak lies outside its interval or a number of cells is off by more than a factor of 2.
+For each row, the script compares the predicted interval of memory with the additional memory of the
+run: its peak resident memory minus the peak of a program that only starts. It also compares the
+predicted with the counted numbers of cells. Small pages are used, because a large page for the
+first bytes would hide how much memory the run needs. The exit code is 1 if a peak lies outside its
+interval or a number of cells is off by more than a factor of 2.
 """
 import argparse
 import pathlib
@@ -22,7 +23,7 @@ import rips_table
 from measuring import Limits, Meter
 
 UNITS = {"B": 1, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30, "TiB": 1 << 40}
-START_SLACK = 1.0  # MB: pages of code count when they are first used
+START_SLACK = 1.0  # MB: pages of code count only once they are used
 
 
 def size(text):
@@ -31,7 +32,7 @@ def size(text):
 
 
 class Foreseen:
-    """The output of --dry-run."""
+    """The predictions that --dry-run printed."""
 
     def __init__(self, text):
         self.engine = re.search(r"engine +(\w+)", text)[1]

@@ -33,7 +33,8 @@ CONSTRUCTIONS = ("vertices", "cells")
 
 
 class Peer(Program):
-    """Words before the command select the comparison."""
+    """A program to compare with. Words before its command state its construction and number of
+    axes."""
 
     def __init__(self, name, command):
         self.construction, self.axes, words = None, None, []
@@ -59,7 +60,8 @@ def peer(text):
 
 
 def bars_of(text):
-    """Bars of `dim birth death` or `dim,birth,death`, sorted; programs write infinity in several ways."""
+    """The sorted bars of a text with lines `dim birth death` or `dim,birth,death`; programs write
+    infinity in several ways."""
     bars = []
     for line in text.splitlines():
         words = re.split(r"[\s,]+", line.strip())
@@ -71,7 +73,7 @@ def bars_of(text):
 
 
 def difference(ours, theirs):
-    """The first bar that is not in both, or None."""
+    """The first bar that only one of the lists has, or None."""
     if ours == theirs:
         return None
     first = next((pair for pair in zip(ours, theirs) if pair[0] != pair[1]), ("no more bars", "or ours has none"))

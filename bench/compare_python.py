@@ -25,7 +25,8 @@ import numpy as np
 import agreement
 from measuring import Limits, Meter
 
-# A program's text: NAMES in capitals are filled in; `bars` is a list of (k, 2) arrays.
+# Pieces of the programs' texts. NAMES in capitals are replaced. A program stores its result as
+# `bars`, a list of (k, 2) arrays.
 LOAD = "import numpy as np\nX = np.load(INPUT)\n"
 LIBPH = "import libph as ph\nb = ph.CALL\nbars = [b.dgm(d) for d in range(DIM + 1)]\n"
 RIPSER = ("from PACKAGE import ripser\n"
@@ -47,8 +48,8 @@ CRIPSER = ("import PACKAGE\nrows = PACKAGE.computePH(X, maxdim=DIM)[:, :3]\n"
 @dataclass(frozen=True)
 class Row:
     name: str
-    make: object  # () -> array
-    programs: dict  # name: text
+    make: object  # a function without arguments that makes the input
+    programs: dict  # name of a package: text of its program
 
 
 def filled(text, **words):
@@ -127,7 +128,7 @@ PACKAGES = ("libph", "libph.compat.ripser", "ripser.py", "giotto-ph", "cripser",
 
 
 def bars_of(text, python):
-    """The bars that a program finds, or the last line of its complaint."""
+    """The bars that a program finds, or the last line of its error message."""
     with tempfile.NamedTemporaryFile(suffix=".npz") as file:
         done = subprocess.run([python, "-c", text + f"np.savez({file.name!r}, *bars)\n"], capture_output=True, text=True)
         if done.returncode:
@@ -137,7 +138,7 @@ def bars_of(text, python):
 
 
 def compared(row, texts, python):
-    """The programs that ran, each with its difference from our bars in words, or None."""
+    """The programs that ran, each with the first difference from our bars in words, or None."""
     ours, complaint = bars_of(texts["libph"], python)
     if ours is None:
         raise SystemExit(f"{row.name}: libph: {complaint}")

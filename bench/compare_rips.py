@@ -36,7 +36,7 @@ UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
 
 
 class Program:
-    """How a program is called; the same for libph and for peers."""
+    """A program and how it is called. The same class serves for libph and its peers."""
 
     def __init__(self, name, command):
         self.name, self._command = name, command
@@ -112,7 +112,7 @@ class Comparison:
         return (our_options if rips_table.is_ours(program.name) else ripser_options)(row, path)
 
     def startup(self, program, row, path, threads):
-        """CPU seconds of the same call on two points."""
+        """The CPU seconds of the same call for only two points."""
         options = self.options(program, rips_rows.Row("two points", row.max_dim),
                                rips_rows.write_two_points(path, self.made))
         command = tuple(program.command(options, threads))
@@ -148,7 +148,7 @@ class Comparison:
             return agreement.read(output.read().decode(), row.max_dim) if ended.ok else None
 
     def check(self, row, path, programs):
-        """Compares the bars of each program that ended with ours: "equal" or the first
+        """Compares the bars of each program that completed its run with ours: "equal" or the first
         difference."""
         ours = self.bars(self.ours, row, path)
         result = {}
@@ -192,7 +192,7 @@ def processor():
 
 
 def add_options(parser):
-    """What all comparisons take."""
+    """Adds the options that all comparisons have."""
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
     parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
                         help="numbers of threads, comma-separated (default: 1)")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares vectors of 10,000 uniform bars with GUDHI's representations: compare_vectors.py BUILD
-[--gudhi-python PYTHON]
+"""Compares the time for vectors of 10,000 uniform bars with that of GUDHI's representations:
+compare_vectors.py BUILD [--gudhi-python PYTHON]
 
-Our times are the rows of bench_vectors. Both count only the computation, in CPU seconds, the least
-of three runs. Prints a table in Markdown."""
+Our times are the rows of bench_vectors. Both packages are measured in CPU seconds of the
+computation alone, the least of three runs. Prints a table in Markdown."""
 import argparse
 import re
 import subprocess
@@ -35,7 +35,7 @@ for name, vectoriser in (
 
 
 def rows_of(*command):
-    """Milliseconds by name, and the first line."""
+    """The milliseconds of each row by its name, and the first line of the output."""
     text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     return ({name.strip(): float(ms) for name, ms in re.findall(r"(?m)^(\S.*?) {2,}([\d.]+) ms$", text)},
             text.splitlines()[0])

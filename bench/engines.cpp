@@ -35,7 +35,8 @@ void run(benchmark::State& state, const Complex& complex, ph::Options options) {
   state.counters["bars"] = static_cast<double>(bars);
 }
 
-/// One benchmark, up to max_dim or the highest dimension below that the engine can do, if any.
+/// Adds one benchmark, with max_dim or the highest lower dimension that the engine supports. Adds
+/// none if there is no such dimension.
 template <class Complex>
 void add(const std::string& input, const Complex& complex, const ph::EngineFacts& engine,
          int max_dim) {
@@ -48,7 +49,7 @@ void add(const std::string& input, const Complex& complex, const ph::EngineFacts
           ->Unit(benchmark::kMillisecond);
       return;
     } catch (const ph::Error&) {
-      // The engine does not support this complex, or not this dimension.
+      // The engine does not support this complex, or does not support this dimension.
     }
 }
 
@@ -61,7 +62,7 @@ int main(int argc, char** argv) {
     add("rips_60/", small, engine, 1);
     add("cubical_12/", grid, engine, 1);
     if (engine.is_oracle) continue;
-    // Two dimensions higher: every triangle would be listed.
+    // An engine that lists the cells of dimension 2 would list every triangle.
     if (engine.listed_dim(1) < 2) add("rips_1000/", large, engine, 1);
     add("cubical_64/", volume, engine, 3);
   }

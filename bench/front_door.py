@@ -39,10 +39,10 @@ from measuring import Limits, Meter
 
 PROGRAM = "ph-barcode"
 DOORS = ("C++", "C++ moved", "C", "Python")
-CPU_BOUND, MEMORY_BOUND = 1.2, 1.5  # of --check
+CPU_BOUND, MEMORY_BOUND = 1.2, 1.5  # the default bounds of --check
 CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0  # s and MB above the program's cost that still count as equal
 START_NOISE = 0.25  # share of a door's start that is added to CPU_FLOOR: imports do not always take as long
-LENGTHS_AGREE = 1e-9  # relative: sums of the same lengths are rounded in different orders
+LENGTHS_AGREE = 1e-9  # relative: sums of the same lengths may be rounded in different orders
 PYTHON = """import numpy as np
 import libph as ph
 bars = ph.rips(np.load(FILE), max_dim=DIM, metric=METRIC, threads=1)
@@ -57,7 +57,7 @@ def uniform(count, axes):
 
 
 def copies(count, places):
-    """`count` points of the plane in `places` places."""
+    """`count` points of the plane at only `places` different places."""
     generator = np.random.default_rng(2)
     return generator.random((places, 2))[generator.integers(places, size=count)]
 
@@ -72,7 +72,7 @@ def distances(count):
 
 @dataclass(frozen=True)
 class Row:
-    """One task. `make` gives its points, or the matrix of their distances."""
+    """A task. `make` returns its points, or the matrix of their distances."""
     name: str
     make: object
     max_dim: int
@@ -80,7 +80,7 @@ class Row:
 
 
 def rows_of(scale=1.0, large=False):
-    """@param scale factor of the numbers of points. @param large also runs tasks that take
+    """@param scale factor for the numbers of points. @param large also includes tasks that take
     minutes."""
     def number(n):
         return max(2, round(n * scale))
@@ -104,11 +104,11 @@ def rows_of(scale=1.0, large=False):
 
 
 class Files:
-    """One input as each door reads it."""
+    """The files of one input: one in the format of each door."""
 
     def __init__(self, folder, name, array, is_matrix):
         self.array = folder / f"{name}.npy"
-        self.numbers = folder / f"{name}.doubles"  # for a matrix, the strict lower triangle
+        self.numbers = folder / f"{name}.doubles"  # for a matrix, its strict lower triangle
         self.shape, self.is_matrix = array.shape, is_matrix
         np.save(self.array, array)
         with open(self.numbers, "wb") as file:
@@ -120,7 +120,8 @@ class Files:
 
 
 def commands(build, files, max_dim, python, prints=False):
-    """The command of each door that is built, and the program's. @param prints whether the program prints its bars."""
+    """The command of each door that is built, and the command of the program. @param prints true if
+    the program prints its bars."""
     kind = "distances" if files.is_matrix else "points"
     dim = str(max_dim)
     result = {
@@ -141,7 +142,7 @@ def commands(build, files, max_dim, python, prints=False):
 
 @dataclass(frozen=True)
 class Cost:
-    """The cost of a process: CPU seconds and MB. `outcome` as in measuring.Run."""
+    """The cost of a process: CPU seconds and MB. `outcome` has the values of measuring.Run."""
     cpu: float = 0.0
     peak: float = 0.0
     outcome: str = "ok"
@@ -149,14 +150,15 @@ class Cost:
 
 @dataclass(frozen=True)
 class Result:
-    """A door beside the program. The bars are {dim: (count, sum of finite lengths)}; None: they were not found."""
+    """The results of a door and of the program. `bars` maps each dimension to (count, sum of finite
+    lengths); None means that the bars could not be read."""
     row: str
     door: str
     cost: Cost
     program: Cost
     bars: object
     program_bars: object
-    start: float = 0.0  # CPU seconds of the door's start that were subtracted
+    start: float = 0.0  # CPU seconds that were subtracted for the door's start
 
     @property
     def cpu_ratio(self):
@@ -171,7 +173,7 @@ class Result:
         return CPU_FLOOR + START_NOISE * self.start
 
     def fault(self):
-        """A fault that does not depend on the bounds, in words, or None."""
+        """A failure that does not depend on the bounds, in words, or None."""
         if self.cost.outcome != "ok":
             return f"it did not end well: {self.cost.outcome}"
         return difference(self.bars, self.program_bars)
@@ -202,7 +204,7 @@ def difference(ours, theirs):
 
 
 def summary_of_csv(text, max_dim):
-    """The summary of what ph-barcode writes."""
+    """The summary of the bars that ph-barcode writes."""
     lengths, counts = {d: [] for d in range(max_dim + 1)}, dict.fromkeys(range(max_dim + 1), 0)
     for dim, birth, death in list(csv.reader(text.splitlines()))[1:]:
         counts[int(dim)] += 1
@@ -212,7 +214,7 @@ def summary_of_csv(text, max_dim):
 
 
 def summary(text):
-    """The summary that a door prints."""
+    """The summary of the bars that a door prints."""
     return {int(dim): (int(count), float(lengths)) for dim, count, lengths in map(str.split, text.splitlines())}
 
 
@@ -226,8 +228,8 @@ class Comparison:
         return commands(self.options.build, files, max_dim, self.options.python, prints)
 
     def measured(self, row, files):
-        """The cost of each door on the input, and on ten points, which measures its start. The
-        doors take turns."""
+        """The cost of each door on the input, and on ten points, which measures the start of the
+        door. The doors take turns."""
         ten = Files(self.folder, "ten", distances(10) if row.is_matrix else uniform(10, 2), row.is_matrix)
         calls, starts = self.commands(files, row.max_dim), self.commands(ten, row.max_dim)
         runs = self.meter.best_in_turns([*calls.values(), *starts.values()])
@@ -263,7 +265,7 @@ def ratio(taken, of_program, floor):
 
 
 def line(row, results):
-    """A line of the table."""
+    """A line of the table in Markdown."""
     by_door = {result.door: result for result in results}
     program = results[0].program
     cells = [f"{program.cpu:.3f} s, {program.peak:.0f} MB"]
@@ -291,8 +293,8 @@ def write_csv(path, results):
 
 
 def faults(results, bounds):
-    """A line for each door that fails, that finds other bars or that is beyond the bounds.
-    @param bounds ratios of CPU time and memory; None: there are none."""
+    """A line for each door that fails, finds other bars, or exceeds the bounds.
+    @param bounds ratios of CPU time and memory; None for no bounds."""
     for result in results:
         for said in (result.fault(), bounds and result.excess(*bounds)):
             if said:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The C interface's part of front_door.py: reads doubles as they lie in memory, calls
- * ph_rips_points or ph_rips_distances with one thread, and prints what front_door.cpp prints. */
+/* The C interface's part of front_door.py: reads doubles in the machine's byte order, calls
+ * ph_rips_points or ph_rips_distances with one thread, and prints the same lines as
+ * front_door.cpp. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 #include "ph/ph.h"
 
-/* @return the numbers of a file, which has `count` of them; NULL if it has not. */
+/* @return the numbers of a file that must hold `count` of them; NULL if it does not. */
 static double* numbers_of(const char* path, size_t count) {
   FILE* file = fopen(path, "rb");
   double* numbers = malloc(count * sizeof(double));

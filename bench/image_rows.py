@@ -36,21 +36,21 @@ def smooth(shape, generator):
 
 
 def smooth_8_bit(shape, generator):
-    """The same image from a camera or a scanner: 256 values, most neighbours equal, a little noise
-    between two values."""
+    """The image of `smooth` as a camera or scanner would store it: 256 values, most neighbours
+    equal, and a little noise between two neighbouring values."""
     values = smooth(shape, generator)
     values -= values.min()
     return numpy.floor(values * (255.99 / values.max()))
 
 
 def elevation(shape, _):
-    """A ramp along the diagonal: one bar."""
+    """A ramp along the diagonal, which has a single bar."""
     return sum(numpy.meshgrid(*[numpy.arange(n, dtype=float) for n in shape], indexing="ij", sparse=True))
 
 
 def marschner_lobb(shape, _):
-    """Rings whose waves become short towards the middle, on [-1, 1]^3 (Marschner & Lobb, An evaluation of reconstruction
-    filters for volume rendering, 1994)."""
+    """Concentric rings on [-1, 1]^3 whose wavelength decreases towards the middle (Marschner &
+    Lobb, An evaluation of reconstruction filters for volume rendering, 1994)."""
     alpha, frequency = 0.25, 6
     z, y, x = numpy.meshgrid(*[numpy.linspace(-1, 1, n) for n in shape], indexing="ij", sparse=True)
     rings = numpy.cos(2 * math.pi * frequency * numpy.cos(math.pi * numpy.sqrt(x * x + y * y) / 2))
@@ -66,7 +66,7 @@ ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size,
 # The synthetic images from the table of Guillou, Vidal & Tierny, Discrete Morse Sandwich.
 MADE = {"random": noise, "elevation": elevation, "Marschner-Lobb": marschner_lobb}
 ROWS += [Row(f"192³ {kind}", (192, 192, 192), kind, usual=False) for kind in MADE]
-ROWS.append(Row("16³ smooth", (16, 16, 16), "smooth", usual=False))  # for tests
+ROWS.append(Row("16³ smooth", (16, 16, 16), "smooth", usual=False))  # a small row for the tests
 
 
 def inrimage(content):

@@ -9,15 +9,16 @@ import subprocess
 import tempfile
 from dataclasses import dataclass
 
-SHORT = 0.05  # s: a run below it is repeated often
-LONG = 10.0  # s: a run that takes as long is not repeated
+SHORT = 0.05  # s: a shorter run is repeated often
+LONG = 10.0  # s: a longer run is not repeated
 WALL_OVER_CPU = 6  # the wall-clock limit of a run, as a multiple of its CPU limit
 PR_SET_THP_DISABLE = 41  # <linux/prctl.h>; lasts across execve
 
 
 @dataclass(frozen=True)
 class Limits:
-    """CPU seconds, and bytes of private memory; None is no limit. `small_pages`: memory comes by 4 KiB, never by 2 MiB."""
+    """Limits of a run: CPU seconds, and bytes of private memory; None means no limit.
+    `small_pages`: the system provides memory in pages of 4 KiB, never of 2 MiB."""
     seconds: int = None
     memory: int = None
     small_pages: bool = False
@@ -34,8 +35,8 @@ class Limits:
 
 @dataclass(frozen=True)
 class Run:
-    """One run. `outcome` is "ok" or the reason for its end: "time", "memory", or its exit status in
-    words."""
+    """The cost of one run. `outcome` is "ok" or the reason why the run failed: "time", "memory", or
+    its exit status in words."""
     outcome: str
     user: float = 0.0
     system: float = 0.0
@@ -73,7 +74,7 @@ class Meter:
         self._bench_run, self._limits, self._repeat, self._together = bench_run, limits, repeat, together
 
     def run(self, command, stdout=subprocess.DEVNULL):
-        """Runs a command once. @param stdout where its output goes (default: nowhere)."""
+        """Runs a command once. @param stdout the file that receives its output (default: none)."""
         with tempfile.TemporaryFile("w+") as messages, tempfile.TemporaryFile("w+") as taken:
             process = subprocess.Popen([self._bench_run, str(taken.fileno()), *map(str, command)],
                                        stdin=subprocess.DEVNULL, stdout=stdout, stderr=messages,
@@ -96,7 +97,7 @@ class Meter:
         return Run(_outcome(int(status), said), float(user), float(system), float(wall), int(peak) / 1e6)
 
     def best(self, command):
-        """The run that took the least CPU time; the one that failed, if one did."""
+        """The run that took the least CPU time; a failed run, if a run failed."""
         return self.best_in_turns([command])[0]
 
     def best_in_turns(self, commands):
@@ -109,7 +110,8 @@ class Meter:
         return [min(runs, key=lambda r: r.cpu) if runs[-1].ok else runs[-1] for runs in taken]
 
     def _turn(self, command):
-        """One run, or several short ones for a share of their total time."""
+        """Runs a command once, or, if it is short, several times until its share of the total time
+        is used."""
         runs = [self.run(command)]
         while runs[-1].ok and runs[0].cpu < SHORT and sum(r.cpu for r in runs) < self._together / self._repeat:
             runs.append(self.run(command))

@@ -26,7 +26,7 @@ TABLE = re.compile(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
 
 def read(path):
-    """@return the columns of the table, and its rows that are shown."""
+    """@return the columns of the table, and those of its rows that are shown."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(file)
     columns = header[1:-len(SOURCE)]
@@ -39,7 +39,7 @@ def read(path):
 
 
 def names_of(columns):
-    """The columns of the page: X for "X s" and "X MB"."""
+    """The columns on the page: X for the two columns "X s" and "X MB"."""
     pairs = {name[:-2] for name in columns if name.endswith(" s") and f"{name[:-2]} MB" in columns}
     merged = (name[:-2] if name[:-2] in pairs and name.endswith(" s") else name for name in columns)
     return [name for name in merged if not (name.endswith(" MB") and name[:-3] in pairs)]
@@ -52,7 +52,8 @@ def cell(row, name):
 
 
 def caption(rows, root):
-    """The origin of the rows. If they have several origins, the differences and their rows."""
+    """The origin of the rows: script, machine, date and versions. If rows differ in these, the text
+    names the differences and the rows concerned."""
     sentences, first, usual = [], 1, []
     for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
         if not (root / origin[0]).is_file():

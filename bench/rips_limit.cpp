@@ -38,13 +38,13 @@ std::string contents(const char* path) {
   return text;
 }
 
-/// Distances of n points, the strict lower triangle row by row.
+/// The distances of n points: the strict lower triangle of the matrix, row by row.
 struct Triangle {
   std::size_t n = 0;
   std::vector<float> values;
 };
 
-/// The float32 numbers of a file, little endian like the machines of the measurements.
+/// Reads distances stored as float32, little endian like the machines of the measurements.
 Triangle read_triangle(const std::string& bytes) {
   Triangle t;
   t.values.resize(bytes.size() / sizeof(float));
@@ -53,7 +53,8 @@ Triangle read_triangle(const std::string& bytes) {
   return t;
 }
 
-/// Distances of points, one point per line, coordinates separated by blanks or commas.
+/// The distances of the points of a text with one point per line and coordinates separated by
+/// blanks or commas.
 Triangle read_points(std::string_view text) {
   std::vector<double> coordinates;
   Triangle t;
@@ -86,7 +87,7 @@ Triangle read_points(std::string_view text) {
   return t;
 }
 
-/// min over i of max over j of d(i, j).
+/// The enclosing radius: min over i of max over j of d(i, j).
 float enclosing_radius(const Triangle& t) {
   std::vector<float> farthest(t.n, 0);
   const float* d = t.values.data();
@@ -110,7 +111,7 @@ std::vector<Edge> edges_up_to(const Triangle& t, float radius) {
   return edges;
 }
 
-/// Non-negative floats have the order of their bits.
+/// Sorts edges by length. Non-negative floats have the same order as their bits.
 void sort_edges(std::vector<Edge>& edges) {
   constexpr int kBits = 11, kPasses = 3;
   constexpr std::size_t kBins = std::size_t{1} << kBits;

@@ -58,8 +58,8 @@ def write_symmetric(path, count, seed):
 
 
 def write_orthogonal(path, count, seed):
-    """Uniform orthogonal matrices as points of R⁹: rotations (Shoemake, by quaternions), half of them
-    times -1."""
+    """Uniform orthogonal matrices as points of R⁹: rotations (Shoemake's method with quaternions),
+    half of them multiplied by -1."""
     draw = random.Random(seed).random
     with open(path, "w") as file:
         for _ in range(count):
@@ -75,7 +75,7 @@ def write_orthogonal(path, count, seed):
 
 @dataclass(frozen=True)
 class Sample:
-    """A generated input: `write(path, count, seed)` makes it."""
+    """A generated input, written by `write(path, count, seed)`."""
     name: str
     suffix: str
     write: object
@@ -104,12 +104,12 @@ SAMPLES = {sample.name: sample for sample in (
 
 @dataclass(frozen=True)
 class Row:
-    """One input of the table. Without a threshold, the enclosing radius is the limit."""
-    source: str  # a sample, or the name of a file in the data folder
+    """One input of the table. Without a threshold, edges end at the enclosing radius."""
+    source: str  # a sample to generate, or the name of a file in the data folder
     max_dim: int
     threshold: Optional[float] = None
-    limit: bool = False  # compared with reading and sorting its edges
-    peers: bool = True  # measured for the peers too, or for libph alone
+    limit: bool = False  # compared with the time to read and sort its edges
+    peers: bool = True  # True: measured for the peers as well; False: for libph alone
     usual: bool = True  # measured if no rows are selected
 
     @property
@@ -163,13 +163,14 @@ ROWS = (
 
 
 def data_folder():
-    """The default folder of the inputs that are not generated."""
+    """The default folder of inputs that the script does not generate."""
     root = os.environ.get("PH_TEST_DATA") or pathlib.Path(__file__).resolve().parents[2] / "shared"
     return pathlib.Path(root, "data")
 
 
 def input_file(row, data, made):
-    """The file of a row's input, written below `made` if it is a sample. None if `data` has no such file."""
+    """The path of a row's input; a sample is written below `made` first. None if `data` lacks the
+    file."""
     sample = SAMPLES.get(row.source)
     if sample is None:
         path = data / row.source
@@ -186,7 +187,7 @@ def is_matrix(path):
 
 
 def write_two_points(like, made):
-    """The smallest input in the same format: a run on it measures the start of a program."""
+    """Writes two points in the same format, to measure the start of a program."""
     path = made / f"two_points.{'bin' if is_matrix(like) else 'txt'}"
     if is_matrix(like):
         path.write_bytes(struct.pack("<f", 1))

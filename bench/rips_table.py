@@ -6,7 +6,7 @@ ENDED = {"time": "time limit", "memory": "memory limit"}
 
 
 def number(value):
-    """A number with three digits; more would be noise."""
+    """A number with three digits; further digits would only show noise."""
     if value >= 100:
         return f"{value:.0f}"
     return f"{value:.{1 if value >= 10 else 2 if value >= 1 else 3 if value >= 0.01 else 4}f}"
@@ -30,18 +30,18 @@ def find(row, program, threads):
 
 
 def is_ours(program):
-    """libph, or libph with options chosen by hand."""
+    """True for libph, with default options or with options chosen by hand."""
     return program.split()[0] == OURS
 
 
 def fastest(row, wanted):
-    """The fastest completed run with one thread among the programs with these names."""
+    """The fastest completed one-thread run among the programs in `wanted`."""
     ended = [e for e in row["results"] if wanted(e["program"]) and e["threads"] == 1 and e["outcome"] == "ok"]
     return min(ended, key=lambda e: e["cpu"], default=None)
 
 
 def ratio(numerator, denominator):
-    """A factor, or – if either run did not end."""
+    """The ratio of two times, or – if either run was not completed."""
     for entry in (numerator, denominator):
         if entry is None or entry.get("outcome", "ok") != "ok":
             return "–"
@@ -49,7 +49,7 @@ def ratio(numerator, denominator):
 
 
 def bound(row, mine):
-    """A lower bound on our speed-up if the time limit stopped all peers."""
+    """A lower bound on our speed-up, for a row where all peers exceeded the time limit."""
     stopped = [e for e in row["results"] if not is_ours(e["program"]) and e["threads"] == 1 and e["outcome"] == "time"]
     if mine is None or mine["outcome"] != "ok" or not stopped:
         return "none ended", "–"
@@ -76,7 +76,8 @@ def summary_row(row, threads, has_choices):
 
 
 def markdown(report, limit="read + sort"):
-    """Two tables: libph and the best peer, and every program. @param limit the limit of a row."""
+    """Two tables: libph beside the best peer, and all programs. @param limit the name of the lower
+    limit, for the last column."""
     rows = report["rows"]
     programs = list(dict.fromkeys((e["program"], e["threads"]) for row in rows for e in row["results"]))
     threads = sorted(n for name, n in programs if name == OURS and n > 1)

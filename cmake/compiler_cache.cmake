@@ -4,7 +4,8 @@ find_program(CCACHE ccache)
 if(NOT CCACHE OR DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   return()
 endif()
-# If ccache cannot write to its folder, as for users without a home, every compilation fails.
+# If ccache cannot write to its folder, for example for users without a home directory, every
+# compilation fails.
 file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/cached.cpp "")
 execute_process(COMMAND ${CCACHE} ${CMAKE_CXX_COMPILER} -c cached.cpp -o cached.o
                 WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/CMakeFiles

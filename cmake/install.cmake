@@ -42,8 +42,8 @@ endif()
 if(TARGET ph-barcode-mpi)
   install(TARGETS ph-barcode-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
-# Links between pages stay valid, because the pages keep the layout of the repository. A larger
-# project has its own pages.
+# The pages keep the layout of the repository, because this keeps the links between them valid. A
+# larger project has its own pages.
 set(doc_dir ${CMAKE_INSTALL_DOCDIR})
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libph)
@@ -54,7 +54,8 @@ install(DIRECTORY docs examples DESTINATION ${doc_dir} COMPONENT doc
         PATTERN CMakeLists.txt EXCLUDE PATTERN docs/site EXCLUDE)
 install(FILES LICENSE DESTINATION ${doc_dir} COMPONENT licence)
 
-# With component `dev` alone, the file for ph::c is installed without its library: a dangling link.
+# If only the component `dev` is installed, it includes the link libph_c.so but not the library
+# itself. A dangling link tells find_package that ph::c is missing.
 set(c_library ${CMAKE_INSTALL_LIBDIR}/${CMAKE_SHARED_LIBRARY_PREFIX}ph_c${CMAKE_SHARED_LIBRARY_SUFFIX})
 configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-config.cmake
                               INSTALL_DESTINATION ${package_dir} PATH_VARS c_library)

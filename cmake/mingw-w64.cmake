@@ -3,7 +3,7 @@
 # unpacks headers into PH_MINGW_ROOT.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
-# The variant with POSIX threads: the other one has no std::thread.
+# This variant of the compiler uses POSIX threads; the other variant has no std::thread.
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
@@ -16,9 +16,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# The headers suit any system; the place of the package depends on this system.
+# fmt's headers work on any system. The folder of its CMake package is named after the host.
 file(GLOB fmt_DIR ${PH_MINGW_ROOT}/usr/lib/*/cmake/fmt)
 
-# Programs need no compiler library beside them.
+# Links the compiler's libraries statically, because otherwise the programs would need their DLLs.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_CROSSCOMPILING_EMULATOR /usr/lib/wine/wine64)

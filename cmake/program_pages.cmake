@@ -8,7 +8,7 @@
 include(GNUInstallDirs)
 set(PH_HOST_PROGRAMS "" CACHE PATH
     "When cross-building: a folder with the programs that run here, to print their pages")
-# The folder of zsh completions depends on the distribution: Debian has one for packages.
+# The folder of zsh completions depends on the distribution: Debian has a separate one for packages.
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
   set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 else()
@@ -17,7 +17,8 @@ endif()
 set(PH_INSTALL_ZSHDIR ${zsh_folder} CACHE PATH "Folder of completions for zsh, below the prefix")
 mark_as_advanced(PH_HOST_PROGRAMS PH_INSTALL_ZSHDIR)
 
-# ph_program_pages(PROGRAM): its pages are built and installed with it.
+# ph_program_pages(PROGRAM): builds and installs the manual page, Markdown page and completions of a
+# program.
 function(ph_program_pages program)
   set(printer ${program})
   if(PH_HOST_PROGRAMS)
@@ -30,7 +31,7 @@ function(ph_program_pages program)
   set(folder ${PROJECT_BINARY_DIR}/pages)
   file(MAKE_DIRECTORY ${folder})
   set(pages "")
-  # The file needs the name under which the shell searches for it.
+  # Each file has the name under which the shell looks for it.
   foreach(page man=${program}.1 markdown=options-${program}.md bash=${program} zsh=_${program}
                fish=${program}.fish)
     string(REGEX MATCH "^([a-z]+)=(.*)$" page ${page})

@@ -10,7 +10,8 @@ if(PH_COMPILE_DEPENDENCIES)
   set(PH_FMT fmt::fmt-header-only)
 endif()
 
-# For each of our programs. The map lists the linked archives, whose licences must come with a copy.
+# Called for each of our programs. The linker map lists the archives in the program: their licences
+# must accompany each copy.
 function(ph_link_program program)
   if(WIN32)
     target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/apps/common/system/windows/utf8.rc)
@@ -18,7 +19,7 @@ function(ph_link_program program)
   if(NOT PH_IS_STATIC)
     return()
   endif()
-  # Not -Wl for the map, because it splits paths at commas.
+  # The map is not passed with -Wl, which would split its path at commas.
   target_link_options(${program} PRIVATE -static -Wl,--gc-sections
                       -Xlinker -Map=${CMAKE_CURRENT_BINARY_DIR}/${program}.map)
 endfunction()
@@ -26,7 +27,7 @@ endfunction()
 if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
   return()
 endif()
-if(PH_WITH_CUDA)  # it loads the driver, which is a shared library
+if(PH_WITH_CUDA)  # the CUDA runtime loads the driver, which is a shared library
   if(NOT PH_STATIC_PROGRAMS STREQUAL "AUTO")
     message(FATAL_ERROR "PH_STATIC_PROGRAMS: programs with PH_WITH_CUDA cannot be static")
   endif()
@@ -43,9 +44,9 @@ mark_as_advanced(PH_ARCHIVE_ZLIB PH_ARCHIVE_PNG PH_ARCHIVE_FREETYPE PH_ARCHIVE_B
                  PH_ARCHIVE_BROTLICOMMON)
 set(PH_ARCHIVES ${PH_ARCHIVE_FREETYPE} ${PH_ARCHIVE_PNG} ${PH_ARCHIVE_BROTLIDEC}
                 ${PH_ARCHIVE_BROTLICOMMON} ${PH_ARCHIVE_ZLIB})
-# Clang lacks -fkeep-inline-functions, see below.
+# Clang does not support -fkeep-inline-functions (see below).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT PH_ARCHIVES MATCHES NOTFOUND)
-  # Sanitizers, for example, cannot be linked statically.
+  # This test program checks that static linking works: with sanitizers, for example, it does not.
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_LINK_OPTIONS -static)
   set(CMAKE_REQUIRED_LIBRARIES ${PH_ARCHIVES})
@@ -74,7 +75,7 @@ endif()
 set(PH_IS_STATIC TRUE)
 
 target_compile_options(ph_options INTERFACE -ffunction-sections)
-# Makes find_package() choose these, whatever it found when the programs were linked dynamically.
+# Makes find_package() choose these archives, even if an earlier dynamic configuration found others.
 foreach(library ZLIB PNG FREETYPE)
   set(${library}_LIBRARY ${PH_ARCHIVE_${library}})
   set(${library}_LIBRARY_RELEASE ${PH_ARCHIVE_${library}})

@@ -6,7 +6,7 @@
 #include <ph/ph.hpp>
 
 int main() {
-  // A golden spiral on a sphere.
+  // Points on a sphere along a golden spiral.
   ph::Points sphere(600, 3);
   for (ph::Index i = 0; i < sphere.rows(); ++i) {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(sphere.rows());

@@ -4,7 +4,8 @@
 #include <ph/ph.hpp>
 
 int main() {
-  std::vector<double> voxels(7 * 7 * 7, 9.0);  // bytes, short integers and floats work as well
+  // Arrays of bytes, short integers and floats work as well.
+  std::vector<double> voxels(7 * 7 * 7, 9.0);
   const auto at = [&](int x, int y, int z) -> double& {
     return voxels[static_cast<std::size_t>((x * 7 + y) * 7 + z)];
   };

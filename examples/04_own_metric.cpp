@@ -16,7 +16,7 @@ class GreatCircle {
  public:
   explicit GreatCircle(const std::vector<Place>& places) : places_(places) {}
   ph::Index size() const { return static_cast<ph::Index>(places_.size()); }
-  /// In kilometres, by the haversine formula.
+  /// The distance in kilometres, by the haversine formula.
   double operator()(ph::Index i, ph::Index j) const {
     const Place &a = places_[static_cast<std::size_t>(i)],
                 &b = places_[static_cast<std::size_t>(j)];

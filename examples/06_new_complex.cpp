@@ -5,8 +5,9 @@
 #include <ph/custom.hpp>
 #include <ph/ph.hpp>
 
-// A polygon of n corners. Cells are numbered 0 … n-1 (corners), n … 2n-1 (side n+i joins corner i
-// to the next), 2n (the disc), and enter at their number.
+// A polygon with n corners. The cells are numbered: 0 … n-1 are the corners, n … 2n-1 the sides
+// (side n+i joins corner i to the next corner), and 2n is the disc. The value of each cell is its
+// number.
 class Polygon : public ph::CellFiltration<Polygon, 2, int> {
  public:
   explicit Polygon(int corners) : n_(corners) {}
@@ -39,7 +40,7 @@ int main() {
   for (const ph::Bar& bar : bars)
     std::cout << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")\n";
 
-  // The oracle needs no more from a complex than this.
+  // The engine `oracle` needs nothing from a complex beyond the class above.
   const ph::Barcode truth = ph::persistence(polygon, {.field = 3, .engine = ph::Engine::standard});
   std::cout << (ph::first_difference(bars, truth).empty() ? "agrees" : "disagrees")
             << " with the oracle\n";

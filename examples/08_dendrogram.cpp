@@ -23,7 +23,7 @@ int main() {
   std::cout << "last merges at " << rows[rows.size() - 2].value << " and " << rows.back().value
             << ", the one before at " << rows[rows.size() - 3].value << "\n";
 
-  std::map<ph::Index, int> sizes;  // numbered by the first point of each cluster
+  std::map<ph::Index, int> sizes;  // a cluster has the number of its first point
   for (const ph::Index cluster : tree.components(rows[rows.size() - 3].value)) ++sizes[cluster];
   for (const auto& [first, size] : sizes)
     std::cout << "cluster of point " << first << ": " << size << " points\n";

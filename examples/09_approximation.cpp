@@ -27,19 +27,19 @@ int main() {
   }
   const ph::PointsView circle(points.data(), count - outliers, points.cols());
 
-  // Bars longer than twice the covering radius are also bars of the whole circle.
+  // Bars longer than twice the covering radius correspond to bars of the whole circle.
   const ph::Rips sample(circle, {.subsample = ph::GreedyLimits{.points = 100}});
   const double radius = *sample.covering_radius();
   std::cout << "100 points, covering radius " << radius << ": "
             << long_loops(ph::persistence(sample), 2 * radius) << " real loop\n";
 
-  // Births and deaths are at most 1.5 times too late.
+  // Births and deaths come later than the exact ones by a factor of at most 1.5.
   const ph::Rips sparse(circle, {.approximation = 0.5});
   const auto all = static_cast<std::size_t>(circle.rows() * (circle.rows() - 1) / 2);
   std::cout << long_loops(ph::persistence(sparse), 0.5) << " loop in 1/"
             << all / *ph::facts(sparse, ph::plan(sparse)).edges << " of the edges\n";
 
-  // Points in sparse regions enter late.
+  // With dtm_neighbours, points in sparse regions enter late.
   const ph::Rips weighted(points, {.dtm_neighbours = 40});
   std::cout << long_loops(ph::persistence(weighted), 0.5) << " loop among the outliers\n";
 }

@@ -9,14 +9,14 @@ int main(int argc, char** argv) {
     std::cerr << "usage: 10_pcl CLOUD\n";
     return 64;
   }
-  // Any cloud of points with x, y, z works; the strict reader is libph's.
+  // Any cloud of points with x, y, z works; this example uses libph's strict reader.
   const ph::Cloud file = ph::segment::read_cloud(argv[1]);
   const std::vector<float> xyz = file.xyz();
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(
       static_cast<std::uint32_t>(file.width), static_cast<std::uint32_t>(file.height));
   for (std::size_t i = 0; i < cloud->size(); ++i)
     (*cloud)[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  cloud->is_dense = false;  // NaN where the sensor saw nothing
+  cloud->is_dense = false;  // points are NaN where the sensor saw nothing
 
   ph::pcl::PersistenceSegmentation<pcl::PointXYZ> segmentation;
   segmentation.setInputCloud(cloud);
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
               << segmentation.getConfidences()[i] << ", box of " << size.transpose() << " m around "
               << centre.transpose() << "\n";
   }
-  // A coarser cut of the same tree: plane, voxels and normals are not computed again.
+  // A coarser cut of the same tree: the plane, voxels and normals are not computed again.
   segmentation.cut(30, clusters);
   std::cout << clusters.size() << " segments when cut at 30\n";
 }

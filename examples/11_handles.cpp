@@ -10,7 +10,7 @@
 
 namespace {
 
-/// A ring that stands and a ball, 2 mm between points.
+/// An upright ring and a ball; neighbouring points are 2 mm apart.
 std::vector<float> ring_and_ball() {
   constexpr double turn = 2 * std::numbers::pi, step = 0.002;
   std::vector<float> xyz;
@@ -22,7 +22,7 @@ std::vector<float> ring_and_ball() {
       const double r = 0.04 + 0.008 * std::cos(b);
       add(r * std::cos(a), r * std::sin(a), 0.8 + 0.008 * std::sin(b));
     }
-  for (double a = 0; a < turn / 4; a += step / 0.04)  // the part that a camera sees
+  for (double a = 0; a < turn / 4; a += step / 0.04)  // only the part that a camera sees
     for (double b = 0; b < turn; b += step / 0.04)
       add(0.2 + 0.04 * std::sin(a) * std::cos(b), 0.04 * std::sin(a) * std::sin(b),
           0.8 - 0.04 * std::cos(a));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Uses the C interface to find the loops of points on a circle, and the dark spots of an image. */
+/* Uses the C interface to find the loop of points on a circle and the dark spots of an image. */
 #include <math.h>
 #include <stdio.h>
 

@@ -13,7 +13,7 @@
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-/// Any cloud of points with x, y, z works; the strict reader is libph's.
+/// Any cloud of points with x, y, z works; this example uses libph's strict reader.
 Cloud::Ptr read(const char* path) {
   const ph::Cloud file = ph::segment::read_cloud(path);
   const std::vector<float> xyz = file.xyz();
@@ -21,7 +21,7 @@ Cloud::Ptr read(const char* path) {
                                              static_cast<std::uint32_t>(file.height));
   for (std::size_t i = 0; i < cloud->size(); ++i)
     (*cloud)[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  cloud->is_dense = false;  // NaN where the sensor saw nothing
+  cloud->is_dense = false;  // points are NaN where the sensor saw nothing
   return cloud;
 }
 

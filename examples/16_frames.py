@@ -11,10 +11,10 @@ def distance(segment, viewpoint):
     return math.dist(segment["oriented_box"]["centre"], viewpoint)
 
 
-for line in sys.stdin:  # one frame, as soon as it is done
+for line in sys.stdin:  # each frame arrives as soon as it is done
     frame = json.loads(line)
     path = frame["input"]["path"]
-    if "exit_code" in frame:  # the other frames continue
+    if "exit_code" in frame:  # the next frames follow all the same
         print(f"{path}: failed", flush=True)
     elif not frame["segments"]:
         print(f"{path}: nothing", flush=True)

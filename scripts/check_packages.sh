@@ -28,11 +28,12 @@ mirror=(${PH_MIRROR:+"$PH_MIRROR"})
 
 fail() { echo "check_packages.sh: $1" >&2; exit 1; }
 
-# A Debian build has no network; only root can remove it.
+# offline COMMAND: runs a command without a network, because a Debian build has none. Only root can
+# remove the network.
 offline() { if [ "$(id -u)" -eq 0 ]; then unshare -n -- "$@"; else "$@"; fi; }
 
-# debs FOLDER [OPTIONS]: unpacks the sources there and builds all packages, with these additional
-# options.
+# debs FOLDER [OPTIONS]: unpacks the sources in the folder and builds all packages, with these
+# additional options.
 debs() {
   rm -rf "$1" && mkdir -p "$1"
   cp dist/debian/* "$1"
@@ -72,9 +73,9 @@ same() {
   fail "$1 and $2 differ: $work/diffoscope.txt"
 }
 
-# The other folder's name has no spaces, because dpkg-buildflags would not map it to ".". In a
-# source package that dpkg-buildpackage makes, file modes follow the umask; therefore the one in
-# dist/ is compared.
+# The name of the second folder has no spaces, because dpkg-buildflags would not map such a name to
+# ".". In a source package that dpkg-buildpackage makes, file modes depend on the umask. For this
+# reason, the source package in dist/ is compared.
 reproduce() {
   (
     umask 027
@@ -97,7 +98,7 @@ bare() {
     { tail "$work/debootstrap.log" >&2; fail "debootstrap $1 failed"; }
 }
 
-# run_in SYSTEM COMMAND: runs a command in the system, without the host's processes.
+# run_in SYSTEM COMMAND: runs a command in the system, which does not see the host's processes.
 run_in() {
   unshare -m -p -f --kill-child sh -c 'mkdir -p "$1/proc" && mount -t proc proc "$1/proc" &&
     exec chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive \

@@ -12,16 +12,17 @@ cd "$(dirname "$0")/.."
 build=${COVERAGE_BUILD:-build/coverage}
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
-export PH_TEST_PATIENCE=20  # without optimisation
+export PH_TEST_PATIENCE=20  # the code is not optimised
 summary=()
 failed=0
 
-# report NAME LEAST ARGUMENT…: prints gcovr's report about some files.
+# report NAME LEAST ARGUMENT…: prints gcovr's report for some files, and fails below a share of
+# LEAST percent.
 report() {
   local name=$1 least=$2 table=$build/$1.txt
   shift 2
-  # Threads count without a lock, because locks make tests far slower; a counter may become
-  # negative.
+  # Threads count executions without a lock, because locks would make tests far slower. As a result,
+  # a counter may become negative.
   gcovr --root . --object-directory "$build" --gcov-ignore-parse-errors --fail-under-line "$least" \
     "$@" -o "$table" || failed=1
   cat "$table"
@@ -36,12 +37,12 @@ readers() {
     "$build/tests/$test" --gtest_brief=1 --gtest_filter=-Gzip.BombsEndSoon
   done
   "$build/tests/fuzz/fuzz_replay" tests/corpus "$build/tests/fuzz/samples"
-  # Failures here come from slowness, or from messages about counts on standard error; the tests of
-  # a release are more reliable.
+  # Tests may fail in this build because it is slow, or because gcov prints messages on standard
+  # error. The tests of a release build are the reliable ones.
   ctest --test-dir "$build" --no-tests=error \
     -R '^(faults_corpus|random_runs|samples_are_read|ph_barcode_(formats|guesses|guesses_tables|masks|stored))$' ||
     echo "coverage.sh: what failed is counted all the same"
-  # Code that only writes is not counted.
+  # Code that only writes files is not counted.
   report readers 99 --filter libph/src/io/ \
     --exclude 'libph/src/io/(bytes/output_file|clouds/cloud_write|complexes/surface_write|barcodes/barcode_(io|json|binary|text))\.[ch]pp'
 }

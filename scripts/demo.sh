@@ -15,17 +15,17 @@ barcode=build/release/apps/barcode/ph-barcode
 segment=build/release/apps/segment/ph-segment
 /usr/bin/python3 scripts/demo_data.py "$out/data"
 
-# Builds report pages, unless the packages that bundle them are unavailable.
+# These functions print the options for report pages, or nothing if the pages are not built in.
 report() { :; }
 with_cells() { :; }
 if $barcode --version --verbose | grep -q '^reports *built in'; then
   report() { printf -- '--report %s' "$out/$1.html"; }
-  with_cells() { printf -- '--representatives %s' "$1"; }  # drawn on the data
+  with_cells() { printf -- '--representatives %s' "$1"; }  # the report draws them on the data
 else
   echo "no pages to look at: npm could not install what bundles them; see $out/build.log"
 fi
 
-# longest DIM FILE.csv: prints the five longest bars of a dimension
+# longest DIM FILE.csv: prints the five longest bars of a dimension.
 longest() {
   awk -F, -v dim="$1" '$1 == dim { printf "%.4g [%.4g, %.4g)\n", $3 - $2, $2, $3 }' "$2" |
     sort -gr | sed -n '1,5s/^/    /p'

@@ -30,7 +30,7 @@ def write_kitten(path):
 
 
 def write_skull(path):
-    """INRIMAGE-4: a header of 256 bytes, then float32, x fastest."""
+    """Reads INRIMAGE-4: a header of 256 bytes, then float32, x fastest."""
     raw = cgal_file("data/images/skull_2.9.inr")
     header = dict(line.split("=", 1) for line in raw[:256].decode("ascii").splitlines() if "=" in line)
     shape = [int(header[axis]) for axis in ("ZDIM", "YDIM", "XDIM")]
@@ -40,7 +40,8 @@ def write_skull(path):
 
 
 def write_motorcycle(folder):
-    """Depth in millimetres from disparity: Z = focal length * baseline / (disparity + offset)."""
+    """Computes depth in millimetres from disparity: Z = focal length * baseline / (disparity +
+    offset)."""
     import struct
     import zlib
 
@@ -60,12 +61,12 @@ def write_motorcycle(folder):
 
 
 def write_table(path):
-    """The view of a camera 0.9 m from the table that looks down by 40 degrees, with depth noise
-    that grows with the square of the range."""
+    """A camera 0.9 m from the table looks down by 40 degrees. The noise of depth grows with the
+    square of the range."""
     width, height, focal = 640, 480, 525.0
     tilt = numpy.radians(40)
     u, v = numpy.meshgrid(numpy.arange(width) - 319.5, numpy.arange(height) - 239.5)
-    # Axes of the table: x right, y away, z up; the camera looks at its middle.
+    # The axes of the table: x right, y away, z up. The camera looks at the middle of the table.
     eye = 0.9 * numpy.array([0, -numpy.cos(tilt), numpy.sin(tilt)])
     forward = numpy.array([0, numpy.cos(tilt), -numpy.sin(tilt)])
     down = numpy.array([0, -numpy.sin(tilt), -numpy.cos(tilt)])
@@ -111,7 +112,7 @@ def write_table(path):
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    # The first function needs no other package; the others stop if their package is missing.
+    # The first function needs no other package; each of the others stops if its package is missing.
     write_table(folder / "table.npy")
     write_kitten(folder / "kitten.csv")
     write_skull(folder / "skull.npy")

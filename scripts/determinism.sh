@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# The compiler cache shares results between clones, including precompiled headers.
+# Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
@@ -21,8 +21,8 @@ build_with() {
   local flags=-$level compilers=(-D CMAKE_C_COMPILER=gcc -D CMAKE_CXX_COMPILER=g++)
   [ "$compiler" = gcc ] || compilers=(-D CMAKE_C_COMPILER=clang-19 -D CMAKE_CXX_COMPILER=clang++-19)
   [ -z "$arch" ] || flags+=" -march=x86-64-$arch"
-  # Neither Release, which sets an optimisation level, nor linked statically, because valgrind
-  # checks these programs as well.
+  # The build type is not Release, which would set an optimisation level. The programs are not
+  # linked statically, because valgrind checks them as well.
   cmake -G Ninja -B "build/determinism/$variant" "${compilers[@]}" -D CMAKE_BUILD_TYPE=None \
     -D CMAKE_CXX_FLAGS="$flags" -D PH_UNITY=ON -D PH_STATIC_PROGRAMS=OFF -D PH_WITH_REPORT=OFF \
     -D PH_BUILD_TESTS=OFF -D PH_BUILD_EXAMPLES=OFF -D PH_INSTALL=OFF >/dev/null
@@ -44,7 +44,7 @@ for variant; do
     gcc-O[0-3]|gcc-O[0-3]-v[34]|clang-O[0-3]|clang-O[0-3]-v[34])
       build_with "$variant" || { summary+=("$variant: not built"); failed=1; continue; }
       other=build/determinism/$variant
-      case $variant in  # instructions that this processor lacks are emulated
+      case $variant in  # an emulator runs instructions that this processor lacks
         *-v3) grep -qw avx2 /proc/cpuinfo || emulator=(qemu-x86_64-static -cpu max) ;;
         *-v4) grep -qw avx512f /proc/cpuinfo || { summary+=("$variant: built, not run: no AVX-512 here"); continue; } ;;
       esac ;;

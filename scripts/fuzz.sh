@@ -27,7 +27,7 @@ fuzz() {
     dictionary=tests/fuzz/dictionaries/$dictionary.dict
     [ -f "$dictionary" ] && break
   done
-  if [[ $target == *_arguments ]]; then  # options and their choices are those of the help
+  if [[ $target == *_arguments ]]; then  # the options and their choices are taken from the help
     "$build/tests/fuzz/fuzz" --help-of "$target" |
       grep -oE -- '--?[a-z][a-z-]*|[[:alnum:]-]+(\|[[:alnum:]-]+)+' | tr '|' '\n' | sort -u |
       sed 's/.*/"&"/' | cat "$dictionary" - >"$build/$target.dict"

@@ -22,7 +22,8 @@ work=$PWD/build/package
 
 fail() { echo "package.sh: $1" >&2; exit "$2"; }
 
-# pack FOLDER ARCHIVE: packs in the order of names, without users, with the time of the commit.
+# pack FOLDER ARCHIVE: packs the files in the order of their names, without users, and with the time
+# of the commit.
 pack() {
   tar -C "$(dirname "$1")" --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
     --mode=u+rwX,go+rX,go-w --mtime="@$SOURCE_DATE_EPOCH" -c "$(basename "$1")" |
@@ -30,7 +31,8 @@ pack() {
   echo "${2#"$PWD"/}: $(stat -c %s "$2") bytes"
 }
 
-# The page, and the npm package files in it, in their original form before bundling.
+# add_page: adds the report page, and the files of the npm packages in it in their form before
+# bundling.
 add_page() {
   (cd viewer && npm ci --no-audit --no-fund --prefer-offline --silent && npm run --silent build)
   mkdir -p "$1/viewer/build"
@@ -50,7 +52,7 @@ make_source() {
   git archive --prefix="$name/" HEAD | tar -C "$work/source" -x
   add_page "$work/source/$name"
   pack "$work/source/$name" "$dist/$name.tar.xz"
-  # The time comes from debian/changelog, as in dpkg-buildpackage.
+  # The time is that of debian/changelog, as in dpkg-buildpackage.
   rm -rf "$dist/debian" && mkdir "$dist/debian"
   cp "$dist/$name.tar.xz" "$dist/debian/libph_$version.orig.tar.xz"
   git -c tar.umask=0022 archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x

@@ -72,7 +72,7 @@ MILLION = {"1 000 000 in a square": lambda: uniform(1_000_000, 2),
 
 
 def write(path, rows):
-    """float64 NPY."""
+    """Writes rows of float64 as a NPY file."""
     shape = f"({len(rows)}, {len(rows[0])})" if isinstance(rows[0], list) else f"({len(rows)},)"
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
     flat = [x for row in rows for x in row] if isinstance(rows[0], list) else rows
@@ -113,8 +113,8 @@ def bars_of(path):
 
 
 def agree(ours, peers):
-    """Numbers of bars differ: GUDHI may have bars as long as a rounding error that have length 0
-    here."""
+    """The numbers of bars may differ: GUDHI may find bars as long as a rounding error, which have
+    length 0 here."""
     for dim, line in enumerate(peers.splitlines()):
         length = float(line.split()[1])
         if not math.isclose(ours.get(dim, (0, 0.0))[1], length, rel_tol=1e-6, abs_tol=1e-9):

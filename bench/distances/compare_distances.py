@@ -22,14 +22,14 @@ def uniform(count, seed):
 
 
 def near(count, seed):
-    """Two diagrams; the second is the first one, moved a little."""
+    """Two diagrams; the second has the points of the first, each moved a little."""
     bars = uniform(count, seed)
     moved = bars + np.random.default_rng(seed + 1).uniform(-1e-3, 1e-3, bars.shape)
     return bars, np.sort(moved, axis=1)
 
 
 def of_bytes(count, seed):
-    """Values as in images of bytes: ties everywhere."""
+    """A diagram with whole numbers from 0 to 255, as for images of bytes: many values are equal."""
     bars = np.sort(np.random.default_rng(seed).integers(0, 256, (count, 2)), axis=1).astype(float)
     return bars[bars[:, 0] < bars[:, 1]]
 

@@ -18,7 +18,7 @@
 
 namespace {
 
-// Points in a cube, or clusters of many widths in a cube.
+// Uniform points in a cube, or points in clusters of many widths.
 ph::Points make_points(ph::Index n, bool clusters) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform;

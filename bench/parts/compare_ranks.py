@@ -21,10 +21,12 @@ import tempfile
 import numpy
 from scipy.ndimage import gaussian_filter
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # shared code of all benchmarks
+# The code shared by all benchmarks.
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from measuring import Limits, Meter  # noqa: E402
 
-AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}  # in containers
+# Needed in containers, where the user is root.
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def noise(shape):
@@ -32,12 +34,12 @@ def noise(shape):
 
 
 def blurred(shape):
-    """Features of about eight voxels."""
+    """Noise blurred into features of about eight voxels."""
     return gaussian_filter(noise(shape), 4, mode="wrap").astype(numpy.float32)
 
 
 def waves(shape):
-    """Four waves along each axis and no noise: hardly any bars."""
+    """Four waves along each axis without noise: an image with hardly any bars."""
     z, y, x = numpy.meshgrid(*[numpy.linspace(0, 8 * numpy.pi, n, dtype=numpy.float32) for n in shape], indexing="ij",
                              sparse=True)
     return numpy.sin(z) + numpy.sin(1.3 * y) * numpy.cos(z) + numpy.sin(.7 * x) * numpy.cos(.9 * y)
@@ -53,7 +55,7 @@ def mebibytes(text):
 
 
 def sent(command):
-    """The data that all ranks sent together, in MiB, as they report it."""
+    """The data that all ranks sent to one another in total, in MiB, as the ranks report them."""
     said = subprocess.run([*command, "--verbose"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
     return sum(mebibytes(size) for size in re.findall(r"sent ([\d.]+ \w+)", said))
 

@@ -12,8 +12,8 @@ import numpy
 
 import segmentation_metrics as metrics
 
-# Okabe & Ito's colours, which most colour-blind people can distinguish, and darker and lighter
-# ones.
+# Okabe & Ito's colours, which most colour-blind people can distinguish, followed by darker and
+# lighter ones.
 COLOURS = numpy.array(
     [
         (230, 159, 0),
@@ -39,8 +39,9 @@ TABLE, HOLE, GAP = (225, 225, 225), (255, 255, 255), 8
 
 
 def png(pixels):
-    """Rows x columns x 3 bytes as a PNG file."""
-    rows = numpy.pad(pixels.reshape(len(pixels), -1), ((0, 0), (1, 0)))  # filter 0 before each row
+    """A PNG file of an array of rows x columns x 3 bytes."""
+    # Each row of a PNG begins with the number of its filter, 0.
+    rows = numpy.pad(pixels.reshape(len(pixels), -1), ((0, 0), (1, 0)))
     chunk = lambda kind, data: (
         struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     )
@@ -54,7 +55,7 @@ def png(pixels):
 
 
 def painted(numbers, seen, striped=()):
-    """An image of dense labels; -1 is the table."""
+    """An image of labels 0, 1, 2, …; -1 is the table."""
     image = numpy.full((*numbers.shape, 3), TABLE, numpy.uint8)
     image[numbers >= 0] = COLOURS[numbers[numbers >= 0] % len(COLOURS)]
     y, x = numpy.indices(numbers.shape)
@@ -64,7 +65,8 @@ def painted(numbers, seen, striped=()):
 
 
 def shaded(image, points, sensor_light=0.45):
-    """Darker where the surface turns away from the sensor; from depth alone."""
+    """The image, darker where the surface turns away from the sensor, as computed from depth
+    alone."""
     dx, dy = (numpy.gradient(points, axis=axis) for axis in (1, 0))
     normal = numpy.cross(dx, dy)
     with numpy.errstate(invalid="ignore", divide="ignore"):
@@ -75,7 +77,7 @@ def shaded(image, points, sensor_light=0.45):
 
 
 def surroundings(shown, margin=24):
-    """The rows and columns where something is shown, with a margin."""
+    """The ranges of rows and columns in which something is shown, with a margin."""
     rows, columns = numpy.flatnonzero(shown.any(axis=1)), numpy.flatnonzero(shown.any(axis=0))
     if len(rows) == 0:
         return slice(None), slice(None)
@@ -86,8 +88,8 @@ def surroundings(shown, margin=24):
 
 
 def beside(truth_labels, predictions, parts=False, points=None, step=2):
-    """Ground truth, then each prediction, cropped to objects and segments. @param points rows x
-    columns x 3, for shading. @param step keep every step-th pixel."""
+    """The ground truth beside each prediction, cropped to objects and segments. @param points rows
+    x columns x 3, for shading. @param step keep only every step-th pixel of each axis."""
     seen = truth_labels > 0
     truth, objects = metrics.truth_of(truth_labels, parts)
     images = [painted(truth, seen)]

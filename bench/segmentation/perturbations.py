@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Degrades frames, each in one way and by a stated amount; the result is always the same for the
-same frame, kind and amount."""
+"""Degrades frames. Each perturbation has one kind and one amount, and is deterministic: the same
+frame, kind and amount give the same result."""
 import dataclasses
 import typing
 import zlib
@@ -17,8 +17,8 @@ def without(scene, lost):
 
 
 def noise(scene, millimetres, generator):
-    """Each point moves along its ray, by a normal deviate of `millimetres` at one metre that grows
-    with depth²."""
+    """Moves each point along its ray by a normal deviate: its standard deviation is `millimetres`
+    at one metre and grows with depth²."""
     z = scene.points[:, 2:]
     sigma = millimetres / 1000 * z**2
     moved = scene.points * (1 + sigma * generator.standard_normal(z.shape) / z)
@@ -26,12 +26,13 @@ def noise(scene, millimetres, generator):
 
 
 def dropout(scene, percent, generator):
-    """Points lose their depth independently."""
+    """Removes the depth of randomly chosen points, each independently of the others."""
     return without(scene, generator.random(len(scene.truth)) < percent / 100)
 
 
 def blocks(scene, percent, generator):
-    """Squares of 16 x 16 pixels lose depth. Frames without rows and columns stay as they are."""
+    """Removes depth in squares of 16 x 16 pixels. A frame without rows and columns is left
+    unchanged."""
     if not scene.organised:
         return scene
     shape = -(-scene.height // BLOCK), -(-scene.width // BLOCK)
@@ -40,8 +41,8 @@ def blocks(scene, percent, generator):
 
 
 def stride(scene, step, _):
-    """A smaller image: every step-th row and column; for a frame without them, every step²-th
-    point."""
+    """A smaller image of every step-th row and column; for a frame without rows and columns, every
+    step²-th point."""
     index = numpy.arange(len(scene.truth)).reshape(scene.height, scene.width)
     index = index[::step, ::step] if scene.organised else index[:, :: step * step]
     return dataclasses.replace(
@@ -66,7 +67,7 @@ def subset(scene, percent, generator):
 class Kind:
     apply: typing.Callable
     what: str  # the meaning of the amount
-    unharmed: float  # the amount that changes nothing
+    unharmed: float  # the amount that leaves the frame unchanged
 
 
 KINDS = {

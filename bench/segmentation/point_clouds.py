@@ -42,7 +42,7 @@ def decompressed(data, size):
                 raise ValueError("LZF: a reference before the beginning")
             if start + length <= len(result):
                 result += result[start : start + length]
-            else:  # the copy overlaps its own output
+            else:  # the source range overlaps what it appends
                 period = result[start:]
                 result += (period * (length // len(period) + 1))[:length]
     except IndexError:
@@ -53,7 +53,7 @@ def decompressed(data, size):
 
 
 def read_pcd(path):
-    """The columns label, x, y, z of a PCD file, with its width and height. Other fields are
+    """The columns label, x, y and z of a PCD file, and its width and height. Other fields are
     ignored."""
     data = pathlib.Path(path).read_bytes()
     header, at = {}, 0
@@ -104,7 +104,7 @@ class Scene:
     points: numpy.ndarray
     truth: numpy.ndarray
     width: int
-    height: int  # 1: not organised
+    height: int  # 1: without rows and columns
 
     def __post_init__(self):
         self.truth = numpy.where(numpy.isfinite(self.points).all(axis=1), self.truth, 0)
@@ -159,8 +159,8 @@ def read_pgm(path):
 
 
 def read_labels(stem):
-    """Labels, one per point, that a program wrote to `stem` plus .npy, .pgm (binary) or .pcd; None
-    if it wrote none."""
+    """The labels, one per point, that a program wrote to the path `stem` plus .npy, .pgm (binary)
+    or .pcd; None if it wrote no such file."""
     for ending, read in (
         (".npy", numpy.load),
         (".pgm", read_pgm),
@@ -183,7 +183,7 @@ class Pinhole:
     height: int = 480
 
     def image(self, scene, labels):
-        """`labels` as an image; if two points share a pixel, the later one counts."""
+        """`labels` as an image. Of two points in the same pixel, the later one counts."""
         seen = numpy.isfinite(scene.points).all(axis=1) & (scene.points[:, 2] > 0)
         x, y, z = scene.points[seen].T.astype(float)
         u = numpy.rint(self.focal * x / z + self.centre_x).astype(int)

@@ -49,12 +49,14 @@ class Benchmark:
         return self.folder / str(next(self._numbers))
 
     def each(self, do, items):
-        """Calls do(item) for all items on --jobs threads; results keep their order."""
+        """Calls do(item) for all items on --jobs threads, and returns the results in the order of
+        the items."""
         with concurrent.futures.ThreadPoolExecutor(self.arguments.jobs) as pool:
             return list(pool.map(do, items))
 
     def images(self, scene, *labels):
-        """Labels as images; for a frame without rows and columns, on the camera's pixels."""
+        """Labels as images; the points of a frame without rows and columns are placed on the
+        camera's pixels."""
         if scene.organised:
             return [array.reshape(scene.height, scene.width) for array in labels]
         return [self.camera.image(scene, array) for array in labels]
@@ -86,7 +88,8 @@ class Benchmark:
         )
 
     def times(self):
-        """The least CPU seconds of each frame and of each stage; programs take turns."""
+        """The least CPU seconds of each program for each frame and stage. The programs take
+        turns."""
         meter = Meter(self.arguments.build / "bench/bench_run", Limits(self.arguments.time_limit))
         result = {program.name: {} for program in self.programs}
         for path in self.paths:
@@ -126,7 +129,7 @@ class Benchmark:
         return result
 
     def curve(self, kind, amount):
-        """The mean F of all frames, for each program and truth."""
+        """The mean F over all frames that were degraded in this way, for each program and truth."""
         frames = self.each(lambda path: self._perturbed_scores(kind, amount, path), self.paths)
         return {
             program.name: {
@@ -137,7 +140,7 @@ class Benchmark:
         }
 
     def grid_scores(self, truth, options):
-        """F of each frame with these options of ph-segment."""
+        """F of each frame when ph-segment has these options."""
         program = ours(self.arguments.build, f"--no-check --{truth} {options}")
 
         def f(path):
@@ -183,7 +186,8 @@ class Benchmark:
 
 
 def cross_validated(f, categories):
-    """@param f F of each frame for each choice; among equally good choices, the first counts."""
+    """Scores each category with the choice that is best on the other categories. @param f F of each
+    frame for each choice. Of equally good choices, the first is used."""
     groups, chosen, scores = sorted(set(categories.values())), {}, {}
     of = lambda options, kept: segmentation_tables.mean(
         v for frame, v in f[options].items() if kept(categories[frame])

@@ -12,7 +12,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
 
 def lines_of(report, kind, truth):
-    """Points (amount, F) of each program, the unharmed frames among them."""
+    """The points (amount, F) of the line of each program. They include the unmodified frames."""
     result = {}
     for amount, scores in report["curves"][kind].items():
         for program, f in scores.items():

@@ -16,7 +16,7 @@ FIRST_OBJECT = 10
 
 @dataclass(frozen=True)
 class Scores:
-    """Shares from 0 to 1. The scores of boundaries are None if there is no image."""
+    """Scores from 0 to 1. The scores of boundaries are None for a frame that is not an image."""
 
     precision: float
     recall: float
@@ -31,8 +31,8 @@ class Scores:
 
 
 def assignment(cost):
-    """Assigns a column to each row such that the sum is least; rows <= columns. Shortest augmenting
-    paths, O(rows² columns)."""
+    """The column of each row in an assignment with the least sum; rows <= columns. Uses shortest
+    augmenting paths in O(rows² columns)."""
     rows, columns = cost.shape
     potential_of_row, potential = numpy.zeros(rows), numpy.zeros(columns)
     row_of = numpy.full(columns, -1)
@@ -61,7 +61,8 @@ def assignment(cost):
 
 
 def dense(labels, kept):
-    """Labels where `kept` is true as 0, 1, …, elsewhere -1, and the number of labels."""
+    """The labels where `kept` is true, renumbered as 0, 1, …, with -1 elsewhere; and the number of
+    different labels."""
     values, numbers = numpy.unique(labels[kept], return_inverse=True)
     result = numpy.full(labels.shape, -1)
     result[kept] = numbers
@@ -69,7 +70,8 @@ def dense(labels, kept):
 
 
 def overlaps(truth, segments, objects, count):
-    """Pixels of object i that are in segment j, and the sizes of both."""
+    """For each object i and segment j, the number of common pixels; and the sizes of all objects
+    and segments."""
     both = (truth >= 0) & (segments >= 0)
     common = numpy.bincount(truth[both] * count + segments[both], minlength=objects * count)
     size = lambda labels, n: numpy.bincount(labels[labels >= 0], minlength=n)
@@ -77,7 +79,7 @@ def overlaps(truth, segments, objects, count):
 
 
 def matching(common, objects, segments):
-    """Pairs (object, segment) whose F measures have the largest sum."""
+    """The one-to-one pairs (object, segment) with the largest sum of F measures."""
     f = 2 * common / (objects[:, None] + segments[None, :])
     if len(objects) <= len(segments):
         return list(enumerate(assignment(1 - f)))
@@ -85,14 +87,15 @@ def matching(common, objects, segments):
 
 
 def outside(mask):
-    """The pixels that are 4-connected to the border through pixels outside the mask. The mask has
-    no border pixels."""
+    """The pixels that 4-connected paths outside the mask join to the border of the image. No pixel
+    of the mask is on the border."""
     seen = numpy.zeros_like(mask)
     seen[0] = seen[-1] = seen[:, 0] = seen[:, -1] = True
     while True:
         before = numpy.count_nonzero(seen)
         for area, blocked in ((seen, mask), (seen.T, mask.T)):
-            # The border joins the end of a row to the beginning of the next, both outside.
+            # In one dimension, the end of a row is next to the start of the following row. Both are
+            # outside the mask.
             run = numpy.cumsum(blocked.ravel()).reshape(blocked.shape)
             reached = numpy.zeros(run[-1, -1] + 1, bool)
             reached[run[area]] = True
@@ -102,7 +105,8 @@ def outside(mask):
 
 
 def outer_boundary(mask):
-    """Rows and columns of the pixels of a mask with a 4-neighbour outside it and its holes."""
+    """Rows and columns of the pixels of a mask that have a 4-neighbour outside it. Holes count as
+    part of the mask."""
     rows, columns = numpy.flatnonzero(mask.any(axis=1)), numpy.flatnonzero(mask.any(axis=0))
     top, left = rows[0], columns[0]
     part = numpy.pad(mask[top : rows[-1] + 1, left : columns[-1] + 1], 1)
@@ -114,7 +118,8 @@ def outer_boundary(mask):
 
 
 def near(boundary, others, shape, radius):
-    """The number of pixels of a boundary that lie within the radius of another one."""
+    """The number of pixels of a boundary that lie within the radius of a pixel of the other
+    boundary."""
     around = numpy.zeros((shape[0] + 2 * radius, shape[1] + 2 * radius), bool)
     for dy in range(-radius, radius + 1):
         for dx in range(-radius, radius + 1):
@@ -128,7 +133,7 @@ def harmonic_mean(precision, recall):
 
 
 def boundary_scores(truth, segments, objects, count, pairs):
-    radius = math.ceil(0.003 * math.hypot(*truth.shape))  # 3 pixels at 640 x 480
+    radius = math.ceil(0.003 * math.hypot(*truth.shape))  # 3 pixels for an image of 640 x 480
     theirs = [outer_boundary(truth == i) for i in range(objects)]
     ours = [outer_boundary(segments == j) for j in range(count)]
     length = lambda boundaries: sum(len(rows) for rows, _ in boundaries)
@@ -138,14 +143,17 @@ def boundary_scores(truth, segments, objects, count, pairs):
 
 
 def truth_of(labels, parts):
-    """Ground truth as dense numbers of parts, or of the objects that consist of them."""
+    """The ground truth as numbers 0, 1, … of parts, or of objects, each of which consists of
+    parts."""
     return dense(labels if parts else labels // FIRST_OBJECT, labels >= FIRST_OBJECT)
 
 
 def score(labels, prediction, parts, boundaries=True):
-    """Scores of one frame; arrays of one shape, which is that of an image if boundaries count.
+    """Scores of one frame. All arrays have the same shape, which must be that of an image if
+    boundaries are scored.
 
     @param parts if true, the visible parts of an object count as separate objects.
+
     """
     truth, objects = truth_of(labels, parts)
     segments, count = dense(prediction, (labels > 0) & (prediction > 0))
@@ -175,7 +183,8 @@ class SupervoxelScores:
 
 
 def borders(labels):
-    """Pixels whose right or lower neighbour has a different label; both labels are at least 0."""
+    """Pixels whose right or lower neighbour has a different label. Both labels must be at least
+    0."""
     found = numpy.zeros(labels.shape, bool)
     for here, there, mark in (
         (labels[:, :-1], labels[:, 1:], found[:, :-1]),
@@ -186,12 +195,14 @@ def borders(labels):
 
 
 def supervoxel_scores(labels, prediction, radius=2):
-    """Scores of pieces of objects in one image.
+    """Scores of supervoxels, here called pieces, in one image.
 
-    Boundary recall: the share of pixels at borders between objects with a border of pieces within
-    the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and comparison,
-    2012): for each piece and each object that it overlaps, the smaller of its parts inside and
-    outside the object, summed and divided by the number of pixels of objects.
+    Boundary recall: the share of pixels at borders between objects that have a border of pieces
+    within the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and
+    comparison, 2012): each piece contributes, for each object that it overlaps, the smaller of its
+    two numbers of pixels inside and outside the object; the sum is divided by the number of pixels
+    of objects.
+
     """
     truth, objects = truth_of(labels, parts=False)
     pieces, count = dense(prediction, truth >= 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs programs that segment one frame: ph-segment and its peers, through one interface."""
+"""Runs programs that segment a single frame: ph-segment and its peers, through one interface."""
 import csv
 import json
 import pathlib
@@ -13,11 +13,13 @@ OURS = "libph"
 
 
 class Program:
-    """NAME and COMMAND. In the command, {input} stands for the PCD file, {folder} and {name} for
-    its folder and its name without .pcd, {output} for a path without an ending, to which .npy, .pgm
-    or .pcd is appended, and {outputs} for the folder of that path. Words KEY=VALUE may precede the
-    command: background=B means that labels up to B are not segments, and stages=FILE names the file
-    with the seconds of each stage: CSV with columns t_NAME, or the JSON of ph-segment.
+    """NAME and COMMAND of a program. In the command, {input} stands for the PCD file, {folder} and
+    {name} for its folder and its name without .pcd, {output} for a path without an ending, to which
+    the program appends .npy, .pgm or .pcd, and {outputs} for the folder of that path. Words
+    KEY=VALUE may precede the command: background=B means that labels up to B are not segments, and
+    stages=FILE names the file with the seconds of each stage, which is CSV with columns t_NAME or
+    the JSON of ph-segment.
+
     """
 
     def __init__(self, name, command):
@@ -32,7 +34,8 @@ class Program:
 
     @property
     def makes_supervoxels(self):
-        """True for pieces of objects, to which other scores apply."""
+        """True if the program makes supervoxels, which are pieces of objects and have their own
+        scores."""
         return "supervoxels" in self.name
 
     @property
@@ -53,7 +56,7 @@ class Program:
         return [self._filled(word, scene, folder / scene.stem) for word in self._words]
 
     def labels(self, scene, folder):
-        """Runs the program; returns one label per point, 0 for no segment."""
+        """Runs the program and returns one label per point; 0 means no segment."""
         folder.mkdir(parents=True, exist_ok=True)
         run = subprocess.run(
             self.command(scene, folder), capture_output=True, text=True, check=False
@@ -71,7 +74,7 @@ class Program:
         return labels
 
     def stages(self, scene, folder):
-        """Seconds of each stage of the last run, or nothing."""
+        """The seconds of each stage of the last run, or nothing."""
         if "stages" not in self.settings:
             return {}
         path = pathlib.Path(self._filled(self.settings["stages"], scene, folder / scene.stem))
@@ -90,7 +93,8 @@ class Program:
 
 def ours(build, options=""):
     program = shlex.quote(str(build / "apps/segment/ph-segment"))
-    # Stages on one thread; the check is part of the default and is timed as a separate stage.
+    # Measures the stages on one thread. The check is part of the default and is timed as a separate
+    # stage.
     return Program(
         f"{OURS} {options}".strip(),
         f"stages={{output}}.json {program} {{input}} --quiet --threads 1 "

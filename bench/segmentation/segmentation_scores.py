@@ -32,7 +32,8 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # shared code of all benchmarks
+# The code shared by all benchmarks.
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import perturbations
 import segmentation_curves
 import segmentation_tables
@@ -40,7 +41,7 @@ from compare_rips import processor, save
 from segmentation_benchmark import TRUTHS, Benchmark
 from segmentation_programs import Program
 
-# The constants that have an option, the default first.
+# The constants of ph-segment that have an option, with the values to try; the default is the first.
 GRID = (
     "min-persistence=1,0.7,1.4 min-part=200,100,400 voxel=0.005,0.004,0.006 "
     "plane-distance=0.005,0.006"
@@ -164,7 +165,7 @@ def parse():
 
 
 def fill(report, benchmark, arguments, keep):
-    """Adds the requested results to the report; calls keep() after each piece."""
+    """Adds the requested results to the report; calls keep() after each of them."""
     categories = report["categories"]
     for program in benchmark.programs if arguments.scores else []:
         report["scores"][program.name] = {

@@ -15,7 +15,7 @@ def table(header, rows):
 
 
 def share(value):
-    """A score such as 0.9 in the usual form .900."""
+    """A score in the usual form, for example .900 for 0.9."""
     return "–" if value is None else f"{value:.3f}".removeprefix("0")
 
 
@@ -25,7 +25,7 @@ def mean(values):
 
 
 def categories(report):
-    """The categories with their frames, and all frames together."""
+    """Each category with its frames, and finally all frames together."""
     frames = report["categories"]
     names = [name for name in ORDER if name in frames.values()]
     names += sorted(set(frames.values()) - set(ORDER))
@@ -36,7 +36,7 @@ def categories(report):
 
 
 def scores_of(report, kind):
-    """The programs that have scores of this kind."""
+    """The programs that have scores of this truth."""
     return {
         program: frames
         for program, frames in report["scores"].items()
@@ -81,7 +81,7 @@ def by_category(report, truth, key):
 
 
 def departures(options, grid):
-    """The chosen options that differ from the default, which is the first of each list."""
+    """The chosen options that differ from the default, which is the first value of each option."""
     words = options.split()
     others = [
         f"{name} {value}"

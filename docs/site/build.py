@@ -26,15 +26,15 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 DOCS = ROOT / "docs"
-# Pages that lie elsewhere in the repository.
+# Pages outside docs/, with their places on the site.
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
              "viewer/README.md": "development/viewer.md", "bench/README.md": "notes/measuring.md"}
-PROGRAMS = 4  # all of them, or none
+PROGRAMS = 4  # the programs that must be given together
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph"]
-# Declarations outside the public headers that readers need.
+# Headers outside the public ones with declarations that readers need.
 DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
           "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
 DETAIL_OF_REPORTS = ["provenance", "shown_tree"]
@@ -92,7 +92,7 @@ def print_options(folder, programs):
 
 
 def make_reports(folder, programs):
-    """Runs the commands of the page."""
+    """Makes the reports of the gallery by running the commands on its page."""
     sys.path.insert(0, str(ROOT / "tests/docs"))
     from commands_in_pages import commands_of, has_page
     if not all(map(has_page, programs)):

@@ -8,7 +8,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# The files that build.py made: the tree of sources, Doxygen's XML, the output of the programs.
+# The folder with build.py's results: the tree of sources, Doxygen's XML, the output of the
+# programs.
 MADE = Path(os.environ["PH_SITE_FOLDER"])
 sys.path[:0] = [str(HERE), str(HERE / "ext")]
 
@@ -27,23 +28,23 @@ site_root = str(ROOT)
 site_made = str(MADE)
 site_has_python = os.environ.get("PH_SITE_PYTHON") == "1"
 
-# Markdown. Anchors are the ones that a forge makes from headings.
+# Pages are Markdown. Anchors of headings are the ones that a forge makes.
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
 highlight_language = "text"
-# References in Python docstrings: `name` is a reference if such a name exists.
+# In Python docstrings, `name` is a reference if something has this name.
 default_role = "py:obj"
 
 smartquotes = False
 
-# Python: numpydoc's sections.
+# Python docstrings have numpydoc's sections.
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
-# Its names can be described even without it.
+# libph.torch can be described even if torch is not installed.
 autodoc_mock_imports = [] if importlib.util.find_spec("torch") else ["torch"]
 python_use_unqualified_type_names = True
 
@@ -57,8 +58,8 @@ cpp_maximum_signature_line_length = None
 primary_domain = "py"
 
 nitpicky = True
-# Names that are not ours or have no page: the standard library, template parameters, private parts
-# of a header.
+# Names that are not ours or have no page, such as names of the standard library, template
+# parameters, and private parts of a header.
 nitpick_ignore_regex = [("cpp:.*", ".*"), ("c:.*", ".*"), ("py:.*", ".*")]
 
 html_theme = "furo"
@@ -67,13 +68,14 @@ html_static_path = [str(HERE / "static")]
 html_css_files = ["site.css"]
 html_favicon = str(HERE / "static/icon.svg")
 html_search_scorer = str(HERE / "scorer.js")
-# A page opened as a file may not fetch other pages to search their words.
+# A summary of search results needs the text of the found pages, which a page opened as a file may
+# not fetch.
 html_show_search_summary = False
 html_copy_source = False
 html_show_sphinx = False
-html_use_index = False  # the search knows all of its names
+html_use_index = False  # the search finds the same names
 html_theme_options = {"navigation_with_keys": True}
-# Both have a contrast of at least 4.5 on the theme's backgrounds.
+# Both styles have a contrast of at least 4.5 on the theme's backgrounds.
 pygments_style = "default"
 pygments_dark_style = "github-dark"
 copybutton_prompt_text = r">>> |\.\.\. |\$ "

@@ -7,21 +7,21 @@ from pathlib import Path
 
 
 def group_of(header):
-    """`ph/io/read.hpp` is the group `ph_io_read`."""
+    """The name of a header's group: `ph/io/read.hpp` has the group `ph_io_read`."""
     return re.sub(r"\W", "_", header.rsplit(".", 1)[0])
 
 
 def head_of(text):
-    """The comment before all declarations of a header, which describes the whole header. Doxygen
-    ignores it."""
+    """The comment before all declarations of a header, which describes the header as a whole.
+    Doxygen ignores such comments."""
     head = re.match(r"// SPDX.*\n((?:///.*\n)+)#pragma once\n", text)
     return re.sub(r"^/// ?", "", head[1], flags=re.MULTILINE) if head else ""
 
 
 def grouped(text, group):
     begin = f"/** @addtogroup {group} */ /** @{{ */"
-    # Hashes of cells, friends and tables of names are of no interest to readers; definitions of
-    # class members would repeat their declarations.
+    # Removes friends, the hashes of cells and the tables of names, which are of no interest to readers,
+    # and definitions of class members, which would repeat their declarations.
     text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^template <>\ninline constexpr std::array names_of<.*?^\};$", "", text,

@@ -19,7 +19,7 @@ def torus():
         turn, tube = rng.uniform(0, 2 * math.pi), rng.uniform(0, 2 * math.pi)
         from_axis = 2 + math.cos(tube)
         if rng.random() * 3 > from_axis:
-            continue  # as many points on each part of the surface
+            continue  # rejected at random, for a uniform density on the surface
         point = (from_axis * math.cos(turn), from_axis * math.sin(turn), math.sin(tube))
         lines.append(",".join(f"{x + rng.gauss(0, 0.03):.4f}" for x in point))
     (HERE / "torus.csv").write_text("\n".join(lines) + "\n")
@@ -51,7 +51,7 @@ def phantom():
     header = bytearray(352)
     struct.pack_into("<i", header, 0, 348)
     struct.pack_into("<8h", header, 40, 3, *shape, 1, 1, 1, 1)
-    struct.pack_into("<2h", header, 70, 2, 8)  # unsigned bytes
+    struct.pack_into("<2h", header, 70, 2, 8)  # data type 2, 8 bits: unsigned bytes
     struct.pack_into("<8f", header, 76, 1, 5, 5, 5, 1, 1, 1, 1)
     struct.pack_into("<3f", header, 108, 352, 1, 0)
     header[344:348] = b"n+1\0"
@@ -60,7 +60,7 @@ def phantom():
 
 
 def hills():
-    """A piece of land of 30 x 30 vertices as PLY: two peaks, a pass between them, a crater."""
+    """A height field of 30 x 30 vertices as PLY: two peaks, a pass between them, and a crater."""
     rng = random.Random(3)
     n = 30
     lines = ["ply", "format ascii 1.0", f"element vertex {n * n}", "property float x", "property float y",
@@ -84,13 +84,13 @@ def hills():
 
 
 def waves(rng, count, samples):
-    """Signals of one wave, each one step later than the previous one."""
+    """Cosine waves with noise, each one step later than the previous one."""
     return [[math.cos(2 * math.pi * (5 * i / samples - k / count)) + rng.gauss(0, 0.2) for i in range(samples)]
             for k in range(count)]
 
 
 def correlations():
-    """Correlations of twelve sensors around a ring, as pandas writes a table."""
+    """Correlations of twelve sensors around a ring, as a table written by pandas."""
     signals = waves(random.Random(4), 12, 120)
     names = [f"sensor{k + 1}" for k in range(12)]
 

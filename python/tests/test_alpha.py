@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph.alpha: bars against a SciPy triangulation with values by the definition, weights, surfaces,
-refusals."""
+"""ph.alpha: compares bars with a SciPy triangulation whose values follow the definition; weights,
+surfaces, refused inputs."""
 import itertools
 import pickle
 
@@ -14,9 +14,10 @@ needs_cgal = pytest.mark.skipif(not _core.alpha_support(), reason="CGAL is not b
 
 
 def by_definition(points):
-    """Simplices of the Delaunay triangulation with squared alpha values: the least squared radius of
-    an empty sphere through the vertices. A simplex has its smallest sphere if no point is inside, else
-    the least value of its cofaces."""
+    """The simplices of the Delaunay triangulation with their squared alpha values: the least
+    squared radius of an empty sphere through the vertices. For a simplex whose smallest
+    circumsphere is empty, this is the squared radius of that sphere; otherwise it is the least
+    value of the simplex's cofaces."""
     from scipy.spatial import Delaunay
     cells = [tuple(sorted(cell)) for cell in Delaunay(points).simplices.tolist()]
     dim = points.shape[1]
@@ -33,7 +34,7 @@ def by_definition(points):
                 radius = min(value for other, value in values.items()
                              if len(other) == size + 1 and set(simplex) < set(other))
             values[simplex] = radius
-    # A face is no later than its cofaces, up to rounding.
+    # Makes sure that no face is later than a coface, in spite of rounding.
     for simplex in sorted(values, key=len, reverse=True):
         for face in itertools.combinations(simplex, len(simplex) - 1):
             if face:
@@ -71,7 +72,7 @@ def test_components_are_half_those_of_rips():
 
 
 def first_within(points, reach):
-    """For each point, the first of the points that it reaches by steps of at most `reach`."""
+    """For each point, the first point that can be reached from it by steps of at most `reach`."""
     apart = np.linalg.norm(points[:, None] - points, axis=2) <= reach
     first = np.arange(len(points))
     for _ in points:
@@ -85,7 +86,8 @@ def test_vertices_of_a_tree_are_points():
     random = np.random.default_rng(9)
     for size in (1, 2, 3, 10, 40):
         for dim in (1, 2, 3):
-            points = random.normal(size=(size, dim)).round(1)  # some are copies
+            # Rounded, so that some points coincide.
+            points = random.normal(size=(size, dim)).round(1)
             points[random.random(size) < 0.2, 0] = np.nan
             is_there = ~np.isnan(points[:, 0])
             tree = ph.merge_tree(points, complex="alpha", nan="drop")
@@ -127,7 +129,7 @@ def test_weights_and_hidden_points(tmp_path):
     bars.save(tmp_path / "bars.json")
     assert ph.read_barcode(tmp_path / "bars.json").meta["hidden"] == (2,)
     assert ph.read_barcode(tmp_path / "bars.json").meta["squared"] is True
-    # Equal weights shift what is squared.
+    # Equal weights shift the squared values by a constant.
     points = np.random.default_rng(2).normal(size=(50, 2))
     shifted = ph.alpha(points, weights=np.full(50, 0.25)).dgm(1)
     assert_allclose(shifted + 0.25, ph.alpha(points, squared=True).dgm(1), rtol=1e-9)
@@ -138,7 +140,7 @@ def test_a_file_keeps_what_values_are(tmp_path):
     points = np.random.default_rng(4).random((20, 2))
     for options in ({"squared": False}, {"squared": True}, {"squared": False, "period": 1}):
         bars = ph.alpha(points, **options)
-        for _ in range(2):  # a surface that was read is written again
+        for _ in range(2):  # writes a surface, reads it, and writes it again
             bars.save(tmp_path / "bars.json")
             bars = ph.read_barcode(tmp_path / "bars.json")
             assert bars.meta["squared"] is options["squared"]
@@ -152,16 +154,17 @@ def test_periodic_spaces():
     bars = ph.alpha(points, period=1, squared=True)
     assert np.bincount(bars.dims[np.isinf(bars.deaths)]).tolist() == [1, 3, 3, 1]
     assert bars.meta["period"] == (1.0, 1.0, 1.0)
-    # Moved around the torus by exact amounts.
+    # The points are moved around the torus by exactly representable amounts.
     moved = ph.alpha(np.round(points * 2**20) / 2**20 + [0.5, 0.25, 3], period=[1, 1, 1])
     still = ph.alpha(np.round(points * 2**20) / 2**20, period=1)
     for dim in range(4):
         assert_allclose(moved.dgm(dim), still.dgm(dim), rtol=1e-14)
-    # A cylinder; and no axis that closes up.
+    # With one axis that does not close up, the space is a cylinder; without any, it is ordinary
+    # space.
     cylinder = ph.alpha(points, period=[1, None, 0])
     assert np.bincount(cylinder.dims[np.isinf(cylinder.deaths)]).tolist() == [1, 1]
     assert ph.alpha(points, period=[0, 0, 0]) == ph.alpha(points)
-    # Components by definition: a minimum spanning tree of the distances around the torus.
+    # Components by definition: a minimum spanning tree of the distances on the torus.
     apart = np.abs(points[:, None] - points)
     distances = np.sqrt((np.minimum(apart, 1 - apart)**2).sum(axis=2))
     tree = ph.rips(distances, metric="precomputed", max_dim=0)
@@ -193,14 +196,14 @@ def test_surfaces(tmp_path):
     a, b, c = (points[surface.triangles[:, k]] for k in range(3))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
     assert 3 < volume < 4 * np.pi / 3
-    assert len(surface.triangles) == 2 * len(points) - 4  # all on the hull
+    assert len(surface.triangles) == 2 * len(points) - 4  # all points are on the hull
     assert not surface.singular.any()
     for name in ("a.ply", "a.off"):
         surface.save(tmp_path / name)
         mesh = ph.read(tmp_path / name)
         assert_array_equal(mesh.vertices, points)
         assert_array_equal(mesh.triangles, surface.triangles)
-    # Three points of space have a triangle and no tetrahedron.
+    # Three points in space form a triangle but no tetrahedron.
     flat = ph.alpha_shape([[0, 0, 0], [1, 0, 0], [0, 1, 0]], 1)
     assert len(flat.triangles) == 1
     assert len(ph.alpha_shape(points, 1e-6).triangles) == 0

@@ -89,7 +89,7 @@ def test_arrays(bars):
     for dim, dgm in enumerate(dgms):
         assert dgm.shape == (len(dgm), 2) and dgm.dtype == np.float64 and dgm.flags.writeable
         assert np.array_equal(dgm, table[table[:, 0] == dim][:, 1:])
-        dgm[...] = 7  # a copy: nothing else changes
+        dgm[...] = 7  # a copy: the barcode does not change
     assert np.array_equal(np.asarray(bars), table)
     for array in (bars.dims, bars.births, bars.deaths):
         with pytest.raises(ValueError):

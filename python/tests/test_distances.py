@@ -22,9 +22,9 @@ def random_diagram(rng, size, infinite=0, grid=None):
 
 
 def costs_of(a, b, ground):
-    """Costs of each pair and of each bar with the diagonal: rows of `a`, columns of `b`, then
-    copies."""
-    def to_diagonal(dgm):  # the midpoint is nearest, in any norm
+    """Costs of pairing each bar of `a` (row) with each bar of `b` (column). Further rows and
+    columns are copies of the diagonal, one for each bar."""
+    def to_diagonal(dgm):  # the point at the bar's midpoint is the nearest one, in any norm
         return np.linalg.norm(dgm - dgm.mean(axis=1, keepdims=True), ground, axis=1)
     size = len(a) + len(b)
     costs = np.zeros((size, size))
@@ -41,7 +41,7 @@ def wasserstein_by_scipy(a, b, order, ground):
 
 
 def bottleneck_by_scipy(a, b):
-    """The least cost at which an assignment of ones exists."""
+    """The least value for which an assignment exists whose costs are all at most this value."""
     costs = costs_of(a, b, np.inf)
     for value in np.unique(costs):
         rows, columns = optimize.linear_sum_assignment(costs > value)
@@ -167,7 +167,8 @@ def test_matrices(rng, distance, options):
 
 
 def test_barycentre(rng):
-    """No bar of it can be improved by moving, and no diagram is a better mean."""
+    """The barycentre cannot be improved by moving one of its bars, and no given diagram is a better
+    mean."""
     dgms = [random_diagram(rng, 8) + [[0, 0.3]] for _ in range(4)]
     found = ph.barycentre(dgms)
     distances = [ph.wasserstein(found.diagram, dgm, order=2, ground=2) for dgm in dgms]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Examples in docstrings and on pages give the stated results; each function has one."""
+"""Examples in docstrings and on pages give the stated results, and each function has an example."""
 import ast
 import doctest
 import importlib
@@ -18,9 +18,9 @@ import libph as ph
 from libph import _core
 
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
-HAS_ALPHA = bool(_core.alpha_support())  # otherwise examples with alpha complexes are skipped
+HAS_ALPHA = bool(_core.alpha_support())  # without CGAL, examples of alpha complexes are skipped
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
-# Those that need an optional package have their submodules here only where it is installed.
+# Submodules that need an optional package are listed only if the package is installed.
 MODULES = ["libph", *sorted(module.name for module in pkgutil.walk_packages(
     ph.__path__, "libph.", onerror=lambda name: None) if module.name != "libph._core")]
 PUBLIC = [getattr(ph, name) for name in ph.__all__ if callable(getattr(ph, name))]
@@ -43,17 +43,18 @@ def test_docstrings(name):
 
 
 OPTIONAL = {"distributed", "matplotlib", "open3d", "pandas", "scipy", "skimage", "sklearn"}
-# Names that pages use without an import.
+# Packages that a page needs although it does not import them.
 NEEDED = {"docs/how-to/coming-from.md": {"sklearn", "scipy"}, "docs/how-to/scikit-learn.md": {"pandas"}}
 PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs").rglob("*.md"))
          if ">>> " in page.read_text()]
 
 
-# Dask of Debian 12 starts the loop of its Tornado in the old way.
+# Debian 12's Dask starts the event loop of its Tornado in a deprecated way.
 @pytest.mark.filterwarnings("ignore:make_current is deprecated:DeprecationWarning")
 @pytest.mark.parametrize("name", PAGES)
 def test_pages(name, monkeypatch):
-    """Each runs in the root of the sources. The packages that a page imports must be installed."""
+    """Each page runs in the root of the repository. The packages that a page imports must be
+    installed."""
     page = SOURCE / name
     imported = set(re.findall(r">>> (?:import|from) (\w+)", page.read_text())) & OPTIONAL
     for package in sorted(imported | NEEDED.get(name, set())):
@@ -70,8 +71,8 @@ def test_pages(name, monkeypatch):
 
 
 def test_that_the_reference_has_all_names():
-    """The functions of libph, libph.sklearn and libph.torch; the latter from the source, because
-    torch may be missing."""
+    """The reference names all functions of libph, libph.sklearn and libph.torch. For libph.torch,
+    names are read from the source, because torch may be missing."""
     pages = "".join(page.read_text() for page in (SOURCE / "docs/reference/python-api").glob("*.md"))
     names = {f"libph.{name}" for name in ph.__all__} - {"libph.__version__", "libph.gradients"}
     names |= {f"libph.gradients.{name}" for name in ph.gradients.__all__}

@@ -42,7 +42,8 @@ def test_a_torus():
 
 
 def test_a_sphere_and_a_projective_plane_differ_by_field():
-    """The Rips complex of six points at distances 1 and 2: the projective plane on six vertices."""
+    """The projective plane, triangulated with six vertices, has other bars over Z/2 than over
+    Z/3."""
     triangles = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 1, 5), (1, 2, 4), (2, 3, 5),
                  (1, 3, 4), (2, 4, 5), (1, 3, 5)]
     plane = sorted({face for t in triangles for k in (1, 2, 3)
@@ -77,7 +78,8 @@ def test_metrics():
 
 
 def test_weights_by_hand():
-    """Two points at distance 4, born at 1 and 3: balls meet at max, or by exponent 1 at 4 + 2."""
+    """Two points at distance 4 are born at 1 and 3. For p = max, the balls meet at 4; for exponent
+    1, at 4 + 2."""
     points, weights = [[0.0], [4.0]], [1.0, 3.0]
     assert ph.rips(points, weights=weights, max_dim=0).dgm(0).tolist() == [[1, INF], [3, 4]]
     assert ph.rips(points, weights=weights, weight_exponent=1, max_dim=0).dgm(0).tolist() == [
@@ -169,7 +171,7 @@ def test_boundary():
     assert list(ph.boundary(sparse.csc_matrix(np.abs(columns)), [0, 0, 0, 1, 1, 1])) == list(bars)
 
 
-# ---- what is no barcode
+# ---- results that are not barcodes
 
 
 def test_point_image():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Calls that users of other packages try first get helpful messages, which name existing
-functions."""
+"""Calls that users of other packages try first are answered with helpful messages, which name
+existing functions."""
 import inspect
 import re
 import subprocess
@@ -47,7 +47,8 @@ def test_keywords_of_others(call, hint):
 def test_a_keyword_like_no_other_has_no_hint():
     with pytest.raises(TypeError, match="argument 'xyzzy'$"):
         ph.rips(POINTS, xyzzy=1)
-    with pytest.raises(TypeError, match="argument 'run'$"):  # the name of what collects them
+    # The parameter that collects these arguments.
+    with pytest.raises(TypeError, match="argument 'run'$"):
         ph.rips(POINTS, run=1)
 
 
@@ -83,7 +84,7 @@ def test_names_of_a_barcode(name, hint):
 
 
 def test_names_in_hints_are_there():
-    """Everything that a hint names as ph.X, libph.X.Y or a call exists."""
+    """Everything that a hint writes as ph.X, libph.X.Y or a call exists."""
     pytest.importorskip("sklearn", reason="scikit-learn is missing, which libph.sklearn needs")
     bars = ph.rips(POINTS)
     for table, owner in ((_hints.MODULE, ph), (_hints.BARCODE, bars), (_hints.SKLEARN, ph.sklearn)):

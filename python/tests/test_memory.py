@@ -15,7 +15,8 @@ MIB = 1 << 20
 
 
 def peak_above_the_data(code):
-    """MiB of a separate process: the peak of its resident memory beyond the initial value."""
+    """MiB by which the peak resident memory of a separate process exceeds its memory before the
+    call."""
     script = textwrap.dedent("""
         import numpy as np, libph as ph
 
@@ -41,7 +42,7 @@ def peak_above_the_data(code):
     ("f8", "condensed"), ("f4", "condensed"), ("f8", "square"), ("f4", "square"),
     ("f8", "F order"), ("f8", "backwards")])
 def test_ten_million_distances_are_not_copied(dtype, layout):
-    """76 MiB of distances, condensed, in float64."""
+    """The distances take 76 MiB, condensed, as float64."""
     taken = peak_above_the_data(f"""
         n = 4473
         if "{layout}" == "condensed":
@@ -65,7 +66,7 @@ def test_ten_million_distances_are_not_copied(dtype, layout):
 
 @pytest.mark.parametrize("layout", ["points", "points[::-1]", "points[:, ::1]"])
 def test_points_are_not_copied(layout):
-    """73 MiB of points; the memory for H0 depends only on their number."""
+    """The points take 73 MiB; the memory for H0 depends only on their number."""
     taken = peak_above_the_data(f"""
         points = np.random.default_rng(0).random((1500, 6400))
         def compute(warm_up):
@@ -76,7 +77,7 @@ def test_points_are_not_copied(layout):
 
 
 def test_an_image_is_not_copied():
-    """128 MiB of bytes, processed four layers at a time."""
+    """The image is 128 MiB of bytes, which are processed four layers at a time."""
     taken = peak_above_the_data("""
         image = np.zeros((512, 512, 512), np.uint8)
         image[::2] = 1
@@ -91,7 +92,7 @@ def test_an_image_is_not_copied():
 @pytest.mark.parametrize("how", ["", ", range=(0, 255), resolution=256"])
 @pytest.mark.parametrize("layout", ["image", "image[::-1, ::-1, ::-1]"])
 def test_an_euler_curve_does_not_copy_the_image(layout, how):
-    """128 MiB of bytes; only an array that runs backwards is copied into order first."""
+    """The image is 128 MiB of bytes. Only an array that runs backwards is copied first."""
     taken = peak_above_the_data(f"""
         image = np.zeros((512, 512, 512), np.uint8)
         image[::2] = 1
@@ -184,7 +185,7 @@ def test_arrays_outlive_what_they_came_from():
 
 
 def test_data_live_as_long_as_they_are_needed():
-    """Nobody else holds the array, nor what it was made from."""
+    """Nothing else holds a reference to the array or to the array that it is a view of."""
     for _ in range(50):
         assert len(ph.rips(np.array(POINTS)).dgm(0)) == 60
         assert len(ph.rips(np.array(POINTS)[::2], timeout=10).dgm(0)) == 30

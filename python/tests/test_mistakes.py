@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""First mistakes: likely misunderstandings cause a warning, or a refusal with a way out."""
+"""First mistakes: likely misunderstandings cause a warning, or an error that names the right
+call."""
 import inspect
 import warnings
 from pathlib import Path
@@ -45,7 +46,7 @@ def test_correlations_given_as_distances(dtype):
         ph.rips(missing, metric="precomputed")
     bars = ph.rips(1 - CORRELATIONS, metric="precomputed")
     assert len(bars.dgm(0)) == 8
-    # An explicit request is obeyed.
+    # An option that is given explicitly is obeyed.
     births = ph.rips(np.ones((3, 3)), metric="precomputed", diagonal="births")
     assert births.dgm(0).tolist() == [[1, np.inf]]
 
@@ -100,13 +101,15 @@ def test_a_limit_that_is_met_says_what_takes_less():
         assert str(caught.value).endswith("; or a larger memory_limit")
         changes = {name: int(value) if name in ("max_dim", "subsample") else value
                    for name, value in caught.value.remedies}
-        ph.rips(X, memory_limit="20MB", **{**options, **changes})  # it does fit
+        # With this change, the computation fits.
+        ph.rips(X, memory_limit="20MB", **{**options, **changes})
     for less in ({"max_dim": 0}, {"threshold": 0.02}, {"subsample": 20}, {"approximation": 0.5}):
         assert ph.estimate(X, **less).bytes_high < ph.estimate(X).bytes_high
 
 
 def test_a_barcode_is_no_data(tmp_path):
-    bars = ph.rips(SERIES).filter(dim=1)  # no bar is infinite: its table could be points
+    # No bar is infinite, and therefore the table could be taken for points.
+    bars = ph.rips(SERIES).filter(dim=1)
     for name in ("bars.csv", "bars.json"):
         bars.save(tmp_path / name)
         with pytest.raises(ph.DataError, match="found a barcode, .*ph.read_barcode"):
@@ -131,7 +134,7 @@ def test_a_dimension_is_a_number():
         ph.rips(SERIES).filter(dim="H1")
 
 
-# ---- in Python's terms
+# ---- messages in Python's terms
 
 NO_KEYWORDS = {"allow_empty", "labels", "plane_guess", "report"}
 METHODS = {"first_meeting"}

@@ -23,7 +23,8 @@ from jupyter_client.manager import AsyncKernelManager  # noqa: E402
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 FOLDER = SOURCE / "python/notebooks"
 
-# The statements of the text, and the conditions that must hold in the kernel after the last cell.
+# Statements in the text of each notebook, and conditions that must hold in the kernel after the
+# last cell.
 FACTS = {
     "circle_and_torus": [
         ("These 60 points", "circle.shape == (60, 2)"),
@@ -139,7 +140,7 @@ FACTS = {
         ("voxels are 0.005 m wide", "own.meta['voxel'] == 0.005"),
     ],
 }
-# Numbers that need no check, because they are definitions.
+# Statements with numbers that need no check, because they are definitions.
 DEFINITIONS = ["is 1 if one rises whenever", "−1 if it falls then, and near 0 if it does neither",
                "where two groups of variables join"]
 NUMBER = re.compile(r"(?<![\w.])(?:\d+(?:[.]\d+)?|two|three|four|five|six|seven|eight|nine|ten)\b")
@@ -150,13 +151,13 @@ def read(name):
 
 
 def words_of(notebook):
-    """Without code and sources of methods, a blank between words."""
+    """The text of a notebook's Markdown cells, with single blanks between words."""
     text = " ".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     return re.sub(r"\s+", " ", text)
 
 
 def execute(notebook, facts, folder, specs):
-    """A copy that was executed. Errors, warnings and wrong facts are errors."""
+    """An executed copy of the notebook. Errors, warnings and wrong facts make the test fail."""
     done = copy.deepcopy(notebook)
     first = nbformat.v4.new_code_cell("import warnings\nwarnings.simplefilter('error')")
     checks = [nbformat.v4.new_code_cell(f"assert {fact}, {words!r}") for words, fact in facts]
@@ -175,7 +176,8 @@ def outputs_of(notebook, kind):
 
 @pytest.fixture(scope="session")
 def specs(tmp_path_factory):
-    """A kernel that is this Python, finds the modules that this one finds, and leaves no files."""
+    """The specification of a kernel that runs this Python, finds the same modules, and leaves no
+    files behind."""
     folder = tmp_path_factory.mktemp("kernels")
     (folder / "this").mkdir()
     argv = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
@@ -192,7 +194,7 @@ def specs(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def _sockets_that_are_left():
-    """jupyter_client leaves some to the collector of garbage, which warns."""
+    """jupyter_client leaves sockets to the garbage collector, which warns about them."""
     yield
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)

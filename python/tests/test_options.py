@@ -12,7 +12,7 @@ SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 IMAGE = np.arange(12).reshape(3, 4)
 NAN, INF = float("nan"), float("inf")
 
-# (function, its data, option, values that are refused)
+# (function, its data, option, refused values)
 WHOLE = ["x", None, 1.5, NAN, INF, [1], (1,), {}, 2**70, -2**70, True, np.array([1, 2]), 1j]
 REFUSED = [
     (ph.rips, SQUARE, "max_dim", [-1, *[v for v in WHOLE if v is not None]]),
@@ -140,7 +140,8 @@ def test_axes_that_close_up():
 
 
 def test_defaults_are_those_of_the_program():
-    """max_dim 1 of Rips, all dimensions of images; H0 of points needs no threshold."""
+    """The default max_dim is 1 for Rips and all dimensions for images; H0 of points needs no
+    threshold."""
     assert ph.rips(SQUARE).meta["max_dim"] == 1
     assert ph.rips(SQUARE, max_dim=0).meta["engine"] == "union-find"
     assert "threshold" not in ph.rips(SQUARE, max_dim=0).meta

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package itself: its exports, wheels."""
+"""The package as a whole: its exports, wheels."""
 import os
 import re
 import shutil
@@ -23,7 +23,7 @@ def test_version():
 
 def test_names():
     assert sorted(ph.__all__) == ph.__all__
-    # Modules that need other packages appear once they are imported.
+    # Modules that need other packages become attributes once they are imported.
     optional = {"compat", "sklearn", "torch"}
     assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__) | optional
     assert (Path(ph.__file__).parent / "py.typed").exists()
@@ -81,7 +81,7 @@ def test_settings(backend, monkeypatch, tmp_path):
     ran = []
     monkeypatch.setattr(backend, "ROOT", tmp_path)
     monkeypatch.setattr(backend, "run", lambda *command: ran.append([str(word) for word in command]))
-    for given in ("-DA=1 '-DB=2 3'", ["-DA=1", "'-DB=2 3'"]):  # newer versions of pip make a list
+    for given in ("-DA=1 '-DB=2 3'", ["-DA=1", "'-DB=2 3'"]):  # newer versions of pip pass a list
         backend.build({"cmake-args": given})
         assert ran[-2][-2:] == ["-DA=1", "-DB=2 3"] and "--fresh" in ran[-2]
     with pytest.raises(SystemExit, match="found setting cmake-arg, expected build-dir or cmake-args"):
@@ -97,7 +97,7 @@ def test_sources_where_nothing_can_be_written(backend, monkeypatch, tmp_path):
 
 @pytest.fixture(scope="module")
 def environment(tmp_path_factory):
-    """A virtual environment with the package in it, installed by pip without a network."""
+    """A virtual environment into which pip has installed the package without a network."""
     build = os.environ.get("PH_BUILD_DIR")
     if not build:
         pytest.skip("PH_BUILD_DIR names no build folder")

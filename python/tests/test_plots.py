@@ -19,7 +19,7 @@ def vertices(births):
 
 
 def path(births, joins):
-    """Vertices in a row, of which each joins the next."""
+    """A path of vertices, each joined to the next."""
     n = len(births)
     return ph.filtered([(k,) for k in range(n)] + [(k, k + 1) for k in range(n - 1)],
                        [*births, *joins])

@@ -41,7 +41,7 @@ def numbers(cell):
 
 
 def check(bars, expected):
-    """All output of the program about each bar."""
+    """Compares bars with all output of the program about them."""
     assert [(b["dim"], b["birth"], np.inf if b["death"] is None else b["death"])
             for b in expected["bars"]] == list(bars)
     births = [row for d in range(bars._top_dim + 1) for row in bars.birth_cells(d).tolist()]
@@ -222,7 +222,7 @@ def test_sparse_distances(ph_barcode, seed):
     rng = np.random.default_rng(seed)
     n = int(rng.integers(2, 25))
     matrix = np.triu(rng.integers(1, 9, size=(n, n)) * (rng.random((n, n)) < 0.4), 1).astype(float)
-    matrix[0, n - 1] = 2  # the file does not say how many points there are
+    matrix[0, n - 1] = 2  # a sparse matrix in a file does not say how many points there are
     upper = sparse.coo_matrix(matrix)
     lines = "\n".join(f"{i} {j} {d}" for i, j, d in zip(upper.row, upper.col, upper.data))
     expected = ph_barcode(ph_barcode.file("s.txt", lines), "--format", "sparse", "--max-dim", "2")
@@ -299,7 +299,8 @@ def test_points_in_voxels(ph_barcode, seed, value):
 
 
 def random_complex(rng, n=9):
-    """All faces of some simplices, each with a value no smaller than those of its faces."""
+    """All faces of some random simplices. The value of each simplex is at least the values of its
+    faces."""
     simplices = set()
     for _ in range(12):
         top = sorted(rng.choice(n, size=rng.integers(1, 5), replace=False).tolist())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Types of the package itself and of the stub of _core, and their use for users."""
+"""Types of the package itself, of the stub of _core, and of code that uses the package."""
 import ast
 import os
 import re
@@ -15,7 +15,7 @@ from libph import _core
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 CONFIG = SOURCE / "pyproject.toml"
 
-# User code. The comment of a line: the code of mypy's error, and a part of its message.
+# Code of a user. The comment of a line has the code of mypy's error and a part of its message.
 USE = '''
 from __future__ import annotations
 
@@ -110,8 +110,8 @@ scene.labels.sort(axes=0)                            # call-arg: "axes"
 
 @pytest.fixture(scope="module")
 def mypy(tmp_path_factory):
-    """Runs mypy or a part of it in an empty folder and returns its remarks. Its cache is kept
-    between runs."""
+    """A function that runs mypy, or a tool of mypy, in an empty folder and returns its messages.
+    The cache is kept between runs."""
     pytest.importorskip("mypy", reason="mypy is missing, which looks at types")
     cache = tmp_path_factory.mktemp("cache")
     settings = {**os.environ, "PYTHONPATH": str(Path(ph.__file__).parents[1])}
@@ -156,7 +156,7 @@ def test_stub_names_all_that_there_is(mypy):
 
 
 def arguments_of(function):
-    """For each parameter except self: its name (None if it has none), and True if it may be
+    """For each parameter except self: its name (None if it has none), and whether it may be
     None."""
     arguments = function.args.args + function.args.kwonlyargs
     return [(None if a.arg.startswith("__") else a.arg,
@@ -165,7 +165,8 @@ def arguments_of(function):
 
 
 def signature_of(thing):
-    """The same, as pybind11 writes it into the docstring."""
+    """The parameters of a function in the same form, read from the signature that pybind11 writes
+    into the docstring."""
     text = re.search(r"\((.*)\) ->", thing.__doc__.split("\n")[0])[1]
     return [(None if re.fullmatch(r"arg\d", name) else name, kind.startswith("Optional["))
             for name, kind in re.findall(r"(\w+): (\S+)", text) if name != "self"]
@@ -185,11 +186,12 @@ def functions_of_stub():
 
 @pytest.mark.parametrize("name, function", functions_of_stub())
 def test_stub_knows_arguments(name, function):
-    """stubtest cannot: the module has them in its docstrings only."""
+    """stubtest does not check this, because the module has the parameters only in its
+    docstrings."""
     thing = _core
     for part in name.split("."):
         thing = getattr(thing, part)
     stated, found = arguments_of(function), signature_of(thing)
-    # Objects and null pointers may be None, which pybind11 does not state.
+    # Parameters for objects and null pointers may be None, which pybind11 does not state.
     may = {"progress", "stop", "recipe"}
     assert [(n, o and n not in may) for n, o in stated] == found

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Fixes the defects of Debian's Furo, which other tools build. Its script imports another one,
-which a page opened as a file must not do. Its style sheet requests normalize.css from a web server,
-and lacks dark colours for browsers that ask for them. Keyboard users have to pass the menu on each
-page."""
+"""Fixes the defects of Debian's theme Furo, which was built with other tools. The theme's script
+imports a second script, which a page opened as a file must not do. The style sheet requests
+normalize.css from a web server, and lacks dark colours for browsers that ask for them. Keyboard
+users have to step through the menu on each page."""
 import re
 from pathlib import Path
 
@@ -10,7 +10,7 @@ NORMALIZE = Path("/usr/share/javascript/normalize.css/normalize.css")
 
 
 def whole_script(script, spy):
-    """The scroll spy and the script combined; unchanged if the script imports nothing."""
+    """The script with the scroll spy that it imports; unchanged if the script imports nothing."""
     first, _, rest = script.partition("\n")
     return f"{spy}\n(() => {{\n{rest}\n}})();\n" if first.startswith("import Gumshoe") else script
 

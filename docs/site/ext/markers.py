@@ -41,8 +41,8 @@ def text_of(app, header):
 
 
 def members(thing):
-    """The members of a class from libph itself, in the order of the source; foreign bases are left
-    out."""
+    """The members of a class that libph itself defines, in the order of the source; members of
+    foreign base classes are left out."""
     own = [name for base in thing.__mro__ if base.__module__.startswith("libph") for name in vars(base)]
     return [name for name in dict.fromkeys(own) if not name.startswith("_")]
 
@@ -70,7 +70,7 @@ def options(app, program):
     if not file.exists():
         return fence("warning", "This copy of the site was built without the programs: their options "
                                 "are left out.")
-    return file.read_text().partition("\n")[2]  # the page has a title
+    return file.read_text().partition("\n")[2]  # without the first line: the page has its own title
 
 
 def schema(app, name):
@@ -84,7 +84,7 @@ def report(app, name):
 
 
 def copy_reports(app):
-    """Placed beside the pages, as separate files."""
+    """Copies the reports beside the pages, as separate files."""
     made = Path(app.config.site_made, "reports")
     if app.builder.format == "html" and made.exists():
         shutil.copytree(made, Path(app.outdir, "reports"), dirs_exist_ok=True)

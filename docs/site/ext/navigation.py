@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""The menu of the site. A page `index` lists its pages as links, for readers of the files; the menu
-has the same pages in the same order."""
+"""Makes the menu of the site. An `index` page lists its pages as links for readers of the file; the
+menu has the same pages in the same order."""
 import posixpath
 import re
 from pathlib import Path
 
-# The first link of an item.
+# The first link of a list item.
 LINK = re.compile(r"^\* (?:[^\n]|\n  )*?\]\(([\w./-]+\.md)\)", re.MULTILINE)
 
 
 def pages_below(file, text, pages):
-    """The pages that an index lists, each once."""
+    """The pages that an index links to, each once."""
     for link in dict.fromkeys(LINK.findall(text)):
         page = pages.get(str((file.parent / link).resolve()))
         if page:

@@ -5,7 +5,7 @@ import json
 
 
 def type_of(schema):
-    """The type in a few words: "integer or null", `"rips"`, a list of bar."""
+    """The type in a few words, for example "integer or null", `"rips"` or "list of bar"."""
     if "$ref" in schema:
         return name_of(schema["$ref"])
     if "const" in schema:

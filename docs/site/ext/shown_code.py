@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The look of code. Short code within a line, such as `--min-size`, is not broken, although
-browsers break at each hyphen. The empty line that doctest needs at the end of a block is
+"""Changes how code looks. Short code within a line, such as `--min-size`, is not broken, although
+browsers break lines at each hyphen. The empty line that doctest needs at the end of a block is
 removed."""
 from docutils import nodes
 from sphinx.transforms import SphinxTransform

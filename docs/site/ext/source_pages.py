@@ -60,8 +60,8 @@ class LinksOutside(SphinxTransform):
 
 
 class PathsInComments(SphinxTransform):
-    """A page named in a source comment, such as docs/explanation/approximation.md, becomes a
-    link."""
+    """Turns the path of a page in a source comment, such as docs/explanation/approximation.md, into
+    a link."""
     default_priority = 399
 
     def apply(self):
@@ -94,7 +94,8 @@ def is_folder(config, path):
 
 
 def find_pages(app, config):
-    """Maps pages to files of the repository: the tree of sources consists of links to the files."""
+    """Maps each page to its file in the repository; the tree of sources consists of links to these
+    files."""
     tree = Path(app.srcdir)
     config.site_docs = {str(file.resolve()): file.relative_to(tree).as_posix()[:-len(".md")]
                         for file in tree.rglob("*.md")}
@@ -115,7 +116,7 @@ def merge(app, env, docnames, other):
 
 
 def shown(app):
-    """All paths that have a page: the targets of links, and the files of linked folders."""
+    """The paths that have a page: the targets of links, and the files of linked folders."""
     root = app.config.site_root
     tracked = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, text=True,
                              check=False).stdout.split("\0")
@@ -153,8 +154,8 @@ def page_of_folder(path, names, files, inside):
 
 
 def page(app, menus, name, title, body):
-    """In the form that Sphinx expects. The menu is the same for all pages of one depth, and is
-    reused because making it takes long."""
+    """A page in the form that Sphinx expects. Pages of the same depth share one menu, because
+    making it takes long."""
     def menu(**how):
         key = (name.count("/"), *sorted(how.items()))
         if key not in menus:

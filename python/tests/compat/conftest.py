@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fixtures shared by the tests of drop-ins."""
+"""Fixtures shared by the tests of the drop-ins."""
 import pytest
 
 from libph.compat import gudhi

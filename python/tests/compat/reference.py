@@ -8,13 +8,14 @@ INF = np.inf
 
 
 def sign(vertices):
-    """The sign of the permutation that sorts them."""
+    """The sign of the permutation that sorts the vertices."""
     pairs = itertools.combinations(vertices, 2)
     return -1 if sum(a > b for a, b in pairs) % 2 else 1
 
 
 class Flag:
-    """A flag filtration from a matrix of distances (inf: never joined) and births of vertices."""
+    """A flag filtration. `distances` is a matrix, with inf for vertices that are never joined;
+    `births` are the births of the vertices."""
 
     def __init__(self, distances, births=None, limit=INF):
         self.n = len(distances)
@@ -27,13 +28,13 @@ class Flag:
         return max(pairs + [self.births[v] for v in simplex])
 
     def simplices(self, dim):
-        """With finite values."""
+        """All simplices of a dimension that have a finite value."""
         found = [(self.value(s), s) for s in itertools.combinations(range(self.n), dim + 1)]
         return [(value, s) for value, s in found if value < INF]
 
     def bars(self, max_dim, p=2):
-        """For each dimension the bars of positive length, sorted: (k, 2) each. Columns of the
-        boundary matrix are reduced from left to right."""
+        """For each dimension, the sorted bars of positive length as a (k, 2) array. Reduces the
+        columns of the boundary matrix from left to right."""
         cells = sorted((value, len(s), s) for dim in range(max_dim + 2)
                        for value, s in self.simplices(dim))
         place = {s: i for i, (_, _, s) in enumerate(cells)}
@@ -61,8 +62,9 @@ class Flag:
         return [np.array(sorted(b)).reshape(-1, 2) for b in bars]
 
     def check_cocycle(self, rows, p, birth, death):
-        """Rows of vertices and a coefficient. It is zero before the birth, its coboundary is zero
-        before the death, and at the birth it is not a coboundary."""
+        """Checks a cocycle. Each row has the vertices of a simplex and its coefficient. The cocycle
+        is zero on simplices before the birth, its coboundary is zero before the death, and at the
+        birth it is not a coboundary."""
         dim = len(rows[0]) - 2
         cochain = {}
         for *vertices, coefficient in np.asarray(rows).tolist():
@@ -86,7 +88,7 @@ class Flag:
 
 
 def rank(matrix, p):
-    """Over Z/p."""
+    """The rank of a matrix over Z/p."""
     rows, found = [list(row) for row in matrix % p], 0
     for column in range(matrix.shape[1]):
         pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
@@ -108,13 +110,13 @@ def sorted_rows(dgm):
 
 
 def same(dgms, others):
-    """True if lists of diagrams have the same bars."""
+    """True if two lists of diagrams have the same bars."""
     return len(dgms) == len(others) and all(
         np.array_equal(sorted_rows(a), sorted_rows(b)) for a, b in zip(dgms, others))
 
 
 def random_distances(rng, n, ties):
-    """Symmetric, zero on the diagonal."""
+    """A random symmetric matrix with a zero diagonal."""
     upper = rng.integers(1, 4, (n, n)).astype(float) if ties else rng.random((n, n))
     upper = np.triu(upper, 1)
     return upper + upper.T

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares the statements of docs/coming-from.md about GUDHI's calls with GUDHI."""
+"""Compares the statements of docs/how-to/coming-from.md about GUDHI's calls with GUDHI."""
 import numpy as np
 import pytest
 

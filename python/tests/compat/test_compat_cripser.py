@@ -17,7 +17,8 @@ def dgm_of(rows, dim):
 
 
 def components(image, is_vertices):
-    """H0 of the graph of voxels: neighbours along an axis, or at a corner."""
+    """H0 of the graph of voxels, in which voxels are neighbours along an axis or, for the other
+    construction, also at a corner."""
     places = list(np.ndindex(image.shape))
     n = len(places)
     distances = np.full((n, n), np.inf)
@@ -66,7 +67,8 @@ def test_known_answers():
 
 @pytest.mark.parametrize("axes", [2, 3, 4])
 def test_embedded_images_are_dual(rng, axes):
-    """Alexander duality: H_k of one construction is H_(axes - 1 - k) of the other, embedded one."""
+    """Alexander duality: H_k of one construction equals H_(axes - 1 - k) of the other one, when it
+    is embedded."""
     image = rng.random((6,) * axes)
     for one, other in ((cripser.computePH, tcripser.computePH),
                        (tcripser.computePH, cripser.computePH)):

@@ -96,7 +96,7 @@ def test_of_a_sparse_matrix_both_triangles_are_read_and_the_upper_one_wins(rng):
                                (np.concatenate([j, i]), np.concatenate([i, j]))), shape=(8, 8))
     for stored in (up, up.T, up.tocsr(), wrong, wrong.tocsr()):
         assert same(of_matrix(stored)["dgms"], expected)
-    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # (1, 4): points without a row
+    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # shape (1, 4): points without a row
     assert of_matrix(oblong)["dgms"][0].tolist() == [[0, 1], [0, INF], [0, INF], [0, INF]]
     empty = sparse.coo_matrix((0, 0))
     assert [d.shape for d in of_matrix(empty)["dgms"]] == [(0, 2), (0, 2)]
@@ -131,7 +131,8 @@ def test_points(rng):
 @pytest.mark.parametrize("p", [1, 2, INF])
 @pytest.mark.parametrize("is_sparse", [False, True])
 def test_weights(rng, p, is_sparse):
-    """Balls that are born late meet at the root t of an equation, or already touch."""
+    """Two balls meet at the root t of an equation; if they touch before the later one is born, they
+    meet at that birth."""
     distances, births = random_distances(rng, 7, False), 3 * rng.random(7)
     meet = np.zeros((7, 7))
     for i, j in itertools.combinations(range(7), 2):
@@ -151,7 +152,7 @@ def test_weights(rng, p, is_sparse):
     data = sparse.coo_matrix(distances) if is_sparse else distances
     found = of_matrix(data, weights=births, weight_params={"p": p}, maxdim=1, dtype=float)["dgms"]
     for dgm, other in zip(found, Flag(meet, births).bars(1)):
-        other = other[other[:, 1] - other[:, 0] > 1e-9]  # roots are rounded
+        other = other[other[:, 1] - other[:, 0] > 1e-9]  # the roots are rounded
         assert dgm.shape == other.shape
         assert np.allclose(dgm[np.lexsort(dgm.T[::-1])], other)
 
@@ -168,8 +169,8 @@ def test_of_weighted_sparse_distances_the_upper_entry_wins(rng):
 
 @pytest.mark.parametrize("r", [1, 2, 3])
 def test_distance_to_measure(rng, r):
-    """Vertices are born at twice the mean with exponent r of the distances to the neighbours and to
-    themselves."""
+    """A vertex is born at twice the power mean, with exponent r, of its distances to its neighbours
+    and to itself."""
     distances = random_distances(rng, 9, False)
     nearest = np.sort(distances, axis=1)[:, 1:5]
     births = 2 * ((nearest**r).sum(axis=1) / 5)**(1 / r)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for a part of GUDHI: against results by hand, and against GUDHI if it is
-installed."""
+"""The drop-in for a part of GUDHI: compares its results with results worked out by hand, and with
+GUDHI if it is installed."""
 import itertools
 
 import numpy as np
@@ -31,7 +31,7 @@ def test_a_tree():
     assert tree.persistence() == [(1, (1, DIAGONAL)), (0, (0, INF))] + 3 * [(0, (0, 1))]
     assert tree.betti_numbers() == [1, 0] and tree.persistent_betti_numbers(0.5, 0.9) == [4, 0]
     assert tree.persistent_betti_numbers(1, 1.2) == [1, 1]
-    assert tree.persistent_betti_numbers(1, INF) == [1, 0]  # the bars that never die
+    assert tree.persistent_betti_numbers(1, INF) == [1, 0]  # only the bars that never die are left
     assert tree.persistence_intervals_in_dimension(0).tolist() == 3 * [[0, 1]] + [[0, INF]]
     assert tree.persistence_intervals_in_dimension(2).shape == (0, 2)
     assert tree.persistence(min_persistence=0.5) == [(0, (0, INF))] + 3 * [(0, (0, 1))]
@@ -44,8 +44,8 @@ def test_a_tree():
 
 
 def test_the_dimension_of_the_complex():
-    """Bars of the highest dimension are returned on demand; they never die, because there are no
-    cells above."""
+    """Bars of the highest dimension are returned on demand. They never die, because there are no
+    cells of a higher dimension."""
     rips = gudhi.RipsComplex(points=SQUARE)
     for dim in (0, 1):
         tree = rips.create_simplex_tree(dim)
@@ -103,7 +103,7 @@ def test_distance_to_measure(rng, q):
 
 
 def test_the_dimension_of_the_complex_over_fields():
-    """The projective plane has a void over Z/2, but none over other fields."""
+    """The projective plane has a void over Z/2, but not over other fields."""
     faces = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 1, 5), (1, 2, 4), (2, 4, 5),
              (2, 3, 5), (1, 3, 5), (1, 3, 4)]
     cells = sorted({cell for face in faces for k in (1, 2, 3)
@@ -155,7 +155,7 @@ def test_trees_of_gudhi(gudhi_itself, seed):
     data = {"points": points} if seed % 4 else {"distance_matrix": squareform(pdist(points))}
     trees = [module.RipsComplex(**data, max_edge_length=limit).create_simplex_tree(max_dimension=3)
              for module in (gudhi, gudhi_itself)]
-    # If GUDHI's complex has a lower dimension, it has no bars of that dimension.
+    # If GUDHI's complex has a lower dimension, GUDHI returns no bars of that dimension.
     top = trees[1].dimension()
     for options in ({}, {"homology_coeff_field": 3}, {"min_persistence": 0.2},
                     {"min_persistence": -1}, {"persistence_dim_max": top == 3}):
@@ -171,7 +171,7 @@ def test_weighted_trees_of_gudhi(gudhi_itself, seed):
     from gudhi.dtm_rips_complex import DTMRipsComplex
     from gudhi.weighted_rips_complex import WeightedRipsComplex
     rng = np.random.default_rng(seed)
-    # Weights that differ by more than the distance of the points, and others.
+    # Some seeds give weights that differ by more than the distance of their points.
     points, weights = rng.random((8, 2)), [0.2, 0.6][seed // 3] * rng.random(8)
     limit = [INF, 0.9][seed % 2]
     distances = squareform(pdist(points))

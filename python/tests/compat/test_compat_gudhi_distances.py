@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for a part of GUDHI: distances, edge collapse, classes for scikit-learn."""
+"""The drop-in for a part of GUDHI: distances of diagrams, edge collapse, classes for
+scikit-learn."""
 import numpy as np
 import pytest
 import scipy.sparse as sparse

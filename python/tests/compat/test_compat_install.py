@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests how the drop-ins are loaded, and the drop-in for persim."""
+"""Tests how Python loads the drop-ins, and tests the drop-in for persim."""
 import itertools
 import subprocess
 import sys
@@ -14,7 +14,7 @@ INF = np.inf
 
 
 def run(code):
-    """In a separate process."""
+    """Runs code in a separate process."""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -155,7 +155,7 @@ def test_install_refuses():
 
 
 def by_hand(a, b):
-    """The bottleneck distance of a few bars: the best of all pairings."""
+    """The bottleneck distance of a few bars: the best value over all pairings."""
     best = INF
     for size in range(min(len(a), len(b)) + 1):
         for some in itertools.combinations(range(len(a)), size):

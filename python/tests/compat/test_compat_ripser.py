@@ -55,7 +55,7 @@ def test_bars_are_those_of_rounded_distances(rng, p, ties):
 
 
 def test_thresholds_and_distances_are_compared_in_single_precision():
-    step = 2.0**-24  # half of a step of single precision above 1
+    step = 2.0**-24  # half the distance between 1 and the next larger number of single precision
     for above, joined in ((0.5 * step, True), (step, True), (1.001 * step, False)):
         matrix = [[0, 1 + above], [1 + above, 0]]
         assert len(of_matrix(np.array(matrix), thresh=1)["dgms"][0]) == 2
@@ -77,7 +77,8 @@ def test_order(rng):
     assert (np.diff(found[0][:, 1]) >= 0).all() and found[0][-1, 1] == INF
     for dgm in found[1:]:
         assert len(dgm) > 1 and (np.diff(dgm[:, 0]) <= 0).all()
-    cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]  # infinite bars among the others
+    # Infinite bars are sorted among the others.
+    cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]
     assert np.isinf(cut[:, 1]).any() and (np.diff(cut[:, 0]) <= 0).all()
     squares = [np.array([[0, 1, d, 1], [1, 0, 1, d], [d, 1, 0, 1], [1, d, 1, 0]])
                for d in (1.25, 1.75, 1.5)]
@@ -92,11 +93,12 @@ def test_num_edges():
     for maxdim in (0, 1):
         assert ripser(SQUARE, thresh=1, maxdim=maxdim)["num_edges"] == 7
     line = np.array([[0.0], [1.0], [2.0], [10.0], [11.0]])
-    assert ripser(line)["num_edges"] == 7  # up to the enclosing radius 9
-    assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6  # no zero is stored
+    assert ripser(line)["num_edges"] == 7  # edges no longer than the enclosing radius 9
+    # The sparse matrix stores no zeros.
+    assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6
     births = squareform(pdist(line))
     np.fill_diagonal(births, 0.5)
-    assert of_matrix(births)["num_edges"] == 10  # with births, ripser.py has no such radius
+    assert of_matrix(births)["num_edges"] == 10  # with births, ripser.py has no enclosing radius
     close = 1 + 2.0**-26
     nearly = np.array([[0, 1, 1], [1, 0, close], [1, close, 0]])
     assert of_matrix(nearly)["num_edges"] == 3 and of_matrix(nearly, dtype=float)["num_edges"] == 2
@@ -142,7 +144,8 @@ def test_n_perm(rng):
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)
     angles = ripser(rng.random((40, 7)), n_perm=12, metric="cosine")
-    assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()  # not even by rounding
+    # Exactly 0, in spite of rounding.
+    assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()
     for n_perm in (0, None, 40):
         found = ripser(points, n_perm=n_perm)
         assert found["idx_perm"].tolist() == list(range(40)) and found["r_cover"] == 0.0
@@ -264,7 +267,7 @@ def test_the_class(capsys):
 
 
 def by_hand(image):
-    """H0 of the graph of pixels with eight neighbours."""
+    """H0 of the graph of pixels in which each pixel has eight neighbours."""
     image = np.asarray(image, dtype=float)
     places = list(np.ndindex(image.shape))
     distances = np.array([[max(image[a], image[b]) if max(abs(a[0] - b[0]), abs(a[1] - b[1])) == 1

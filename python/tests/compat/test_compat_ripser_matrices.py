@@ -38,7 +38,7 @@ def test_a_point_that_enters_beyond_the_threshold_never_dies():
 
 
 def test_the_point_that_is_near_to_all_may_be_late():
-    """Its enclosing radius holds from its birth on."""
+    """The enclosing radius of this point holds only from the point's birth on."""
     matrix = np.array([[0, 2, 3, 2, 1], [2, 0, 2, 3, 1], [3, 2, 0, 2, 1], [2, 3, 2, 0, 1],
                        [1, 1, 1, 1, 5.0]])
     found = of_matrix(matrix)["dgms"]
@@ -74,7 +74,7 @@ def test_sparse_matrices(rng):
 def test_zeros_that_are_stored_are_distances():
     stored = sparse.coo_matrix(([0.0], ([0], [1])), shape=(2, 2))
     assert of_matrix(stored)["dgms"][0].tolist() == [[0, INF]]
-    dense = np.array([[1.0, 0, 2], [0, 0, 2], [2, 2, 0]])  # an edge older than its end
+    dense = np.array([[1.0, 0, 2], [0, 0, 2], [2, 2, 0]])  # an edge older than its endpoint
     assert of_matrix(dense)["dgms"][0].tolist() == [[0, 2], [0, INF]]
 
 
@@ -95,9 +95,9 @@ def test_asymmetry_by_rounding_is_none_and_the_upper_entry_counts():
 
 
 def test_large_matrices_are_looked_at_in_strips(rng):
-    """Beyond 512 rows."""
+    """A matrix of more than 512 rows."""
     points = rng.random((700, 2))
-    points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # the centre, and points far from it
+    points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # a corner, and the centre
     matrix = squareform(pdist(points))
     exact = ph.rips(matrix, metric="precomputed")
     assert same(of_matrix(matrix, dtype=float)["dgms"], exact.dgms())

@@ -19,7 +19,7 @@ IMAGE = RNG.integers(0, 200, size=(9, 8, 7))
 
 
 class HasArray:
-    """Arrays in the form of other libraries."""
+    """An array in the form that other libraries use."""
 
     def __init__(self, array):
         self.array = array
@@ -40,7 +40,7 @@ class HasDlpack:
 
 
 class Tensor(HasArray):
-    """Like torch's: with a gradient, it gives no array before it is detached."""
+    """Like torch's tensors: a tensor with a gradient gives an array only after `detach`."""
 
     def __init__(self, array, gradient):
         super().__init__(array)
@@ -56,7 +56,7 @@ class Tensor(HasArray):
 
 
 def unaligned(array):
-    """The same numbers one byte off."""
+    """A copy of the array whose address is one byte off alignment."""
     room = np.empty(array.nbytes + 1, dtype=np.uint8)
     moved = room[1:].view(array.dtype).reshape(array.shape)
     moved[...] = array
@@ -64,7 +64,7 @@ def unaligned(array):
 
 
 def padded(array):
-    """A field of records: steps that are not multiples of the item size."""
+    """The array as a field of records: its strides are not multiples of the item size."""
     records = np.zeros(array.shape, dtype=[("x", array.dtype), ("flag", "u1")])
     records["x"] = array
     return records["x"]
@@ -112,7 +112,8 @@ def copied(data):
 
 
 def of_type(array, name):
-    """Numbers that the type can hold, and the same numbers in float64."""
+    """The array's values reduced to numbers that the type can hold, and the same numbers as
+    float64."""
     kept = array % 2 if name == "bool" else np.abs(array) % 100
     return kept.astype(name), kept.astype(float)
 
@@ -168,7 +169,7 @@ def test_memory_maps(tmp_path, mode):
 
 
 def test_a_memory_map_that_was_written_to(tmp_path):
-    """Its pages are not pages of the file: they must not be dropped."""
+    """Pages that were written to are no longer pages of the file: they must not be dropped."""
     image = mapped(np.zeros((64, 64, 64), dtype=np.uint8), tmp_path, "c")
     image[...] = np.random.default_rng(0).integers(0, 255, size=image.shape)
     expected = image.copy()
@@ -226,8 +227,8 @@ def test_few_or_no_points():
         assert list(ph.rips(empty)) == []
     assert list(ph.rips(np.empty((0, 0)), metric="precomputed")) == []
     assert list(ph.rips([[1.0, 2.0]])) == [ph.Bar(0, 0.0, np.inf)]
-    assert len(ph.rips(np.empty(0), metric="precomputed")) == 1  # no pair: one point
-    assert len(ph.rips(np.empty((3, 0)))) == 1  # three equal points of R^0
+    assert len(ph.rips(np.empty(0), metric="precomputed")) == 1  # no distances: one point
+    assert len(ph.rips(np.empty((3, 0)))) == 1  # three equal points of R⁰
     assert list(ph.rips([], metric=lambda a, b: 1.0)) == []
 
 
@@ -345,5 +346,5 @@ def test_delay_embedding_needs_room_for_what_it_copies(monkeypatch):
     for arguments, given in (((3, 2), series), ((3, 1), np.asfortranarray(series))):
         with pytest.raises(ph.MemoryLimitError, match="a result of shape .* exceed the memory"):
             ph.delay_embedding(given, *arguments)
-    assert np.shares_memory(ph.delay_embedding(series, 3), series)  # no copy
+    assert np.shares_memory(ph.delay_embedding(series, 3), series)  # a view, not a copy
     assert ph.delay_embedding(np.empty((6, 0)), 2).shape == (5, 0)

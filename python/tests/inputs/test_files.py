@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of data, as arrays."""
+"""Data files, read as arrays."""
 import gzip
 import logging
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Inputs that are not arrays of numbers are refused with a message that names the place, and are
-never modified."""
+"""Inputs that are not arrays of numbers are refused with a message that names the place of the
+fault, and are never modified."""
 import re
 
 import numpy as np
@@ -16,7 +16,7 @@ pre = {"metric": "precomputed"}
 
 
 def matrix(*entries, n=4):
-    """A matrix of ones with some other entries."""
+    """A matrix of ones in which some entries are replaced."""
     made = np.ones((n, n)) - np.eye(n)
     for i, j, value in entries:
         made[i, j] = value
@@ -29,7 +29,7 @@ def pairs(*entries, n=4):
 
 
 def point(i, k, value, dtype=None):
-    """Points with one coordinate replaced."""
+    """Points of which one coordinate is replaced."""
     made = np.zeros((5, 3)) if dtype is None else np.zeros((5, 3), dtype)
     made[i, k] = value
     return made
@@ -45,9 +45,9 @@ class Cuda:
         raise TypeError("can't convert cuda:0 device type tensor to numpy")
 
 
-# (name, function, arguments, keywords, words of the message)
+# (name, function, arguments, keyword arguments, words of the message)
 BAD = [
-    # no arrays
+    # data that are not arrays
     *[(f"{type(data).__name__} {data!r:.20}", ph.rips, (data,), {}, "found")
       for data in (None, "abc", b"abc", {}, {1: 2}, {1, 2}, 3, 2.5, object(), len, ph, Broken(),
                    Cuda(), [None], [[None, 1]], ["a", "b"], [["a"]], [[1], ["b"]], [[{}]],
@@ -58,13 +58,13 @@ BAD = [
     *[(f"image of an Euler curve {data!r:.20}", ph.euler_curve, (data,), {}, "image: found")
       for data in (None, "abc", 3, object(), np.zeros((1,) * 9), Broken(),
                    np.zeros((3, 2), "complex128"), np.zeros((3, 2), "U3"))],
-    # ragged
+    # ragged rows
     ("rows of two lengths", ph.rips, ([[1, 2], [3]],), {}, "row 1: found 1 numbers, expected 2"),
     ("a number among rows", ph.rips, ([[1, 2], 3],), {}, "row 1: found one number, expected 2"),
     ("rows of three lengths", ph.rips, ([[1], [2], [3, 4, 5]],), {}, "row 2: found 3 numbers"),
     ("a ragged image", ph.cubical, ([[1, 2], [3]],), {}, "row 1"),
     ("ragged objects", ph.rips, (np.array([[1, 2], [3]], dtype=object),), {}, "found"),
-    # shapes
+    # wrong shapes
     ("numbers for points", ph.rips, ([1.0, 2.0],), {}, "reshape(-1, 1)"),
     ("three axes for points", ph.rips, (np.zeros((2, 2, 2)),), {}, "ph.cubical takes images"),
     ("no square", ph.rips, (np.zeros((3, 4)),), pre, "(3, 4), expected distances: a square"),
@@ -80,7 +80,7 @@ BAD = [
     ("a text as diagrams", ph.diagram_kernels, ("abc",), {}, "diagrams: found 'abc', expected a list"),
     ("an Euler curve without voxels", ph.euler_curve, (np.zeros((3, 0)),), {}, "0"),
     ("three columns of a diagram", ph.bottleneck, (np.zeros((2, 3)), [[0, 1]]), {}, "(2, 3)"),
-    # types
+    # refused types
     *[(f"points of {kind}", ph.rips, (np.zeros((3, 2), kind),), {}, words)
       for kind, words in (("complex128", "complex"), ("complex64", "complex"), ("U3", "text"),
                           ("S3", "bytes"), ("M8[s]", "dates"), ("m8[s]", "times"),
@@ -103,7 +103,7 @@ BAD = [
      "found str"),
     ("a frame with NA", ph.rips, (pandas.DataFrame({"x": [1, None]}, dtype="Int64"),), {},
      "point 1"),
-    # whole numbers that are not doubles
+    # whole numbers that a double cannot represent
     *[(f"{BIG} as {kind}", ph.rips, (point(2, 1, BIG, kind),), {}, f"row 2, column 1: found {BIG}")
       for kind in ("int64", "uint64", ">i8", "object")],
     ("a large negative one", ph.rips, (point(4, 0, -BIG, "int64"),), {}, f"found -{BIG}"),
@@ -205,7 +205,7 @@ BAD = [
      (pairs((0, 2, 1), (1, 2, 1), (2, 3, 1)), [0, 0, 1, 2]), {}, "cell 3"),
     ("values of another count", ph.boundary, (sparse.coo_matrix((2, 2)), [0, 0], [1]), {},
      "2 numbers, one for each cell"),
-    # other data
+    # other arguments
     ("weights of another count", ph.rips, ([[0], [1]],), {"weights": [1]}, "2 numbers, one for"),
     ("negative weights", ph.rips, ([[0], [1]],), {"weights": [0, -1]}, "entry 1: found -1"),
     ("infinite weights", ph.rips, ([[0], [1]],), {"weights": [0, INF]}, "entry 1: found inf"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Samples of libph.sklearn."""
+"""Sample data for the tests of libph.sklearn."""
 import pytest
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares estimators for one cloud, including clusters, with plain loops and GUDHI."""
+"""Compares estimators that take one cloud, including clustering, with plain loops and with
+GUDHI."""
 import math
 import warnings
 
@@ -105,7 +106,8 @@ def test_farthest_points(rng):
 
 
 def tomato(function, neighbours, least):
-    """The published algorithm, one point at a time. Labels: the peak of the cluster."""
+    """The published algorithm, ToMATo, one point at a time. The label of a point is the peak of its
+    cluster."""
     n = len(function)
     order = sorted(range(n), key=lambda i: (function[i], i))
     rank = {point: r for r, point in enumerate(order)}
@@ -158,11 +160,12 @@ def test_clusters_are_those_of_the_algorithm(rng, k, least):
 
 
 def test_ties(rng):
-    """For points on a grid, the densities are equal in whole regions."""
+    """For points on a grid, large regions have the same density."""
     X = np.argwhere(rng.random((12, 12)) < 0.8).astype(float)
     density = rng.integers(1, 4, len(X)).astype(float)
     found = PersistenceClustering(5, min_persistence=0.5, density=lambda _: density).fit(X)
-    search = sklearn.neighbors.NearestNeighbors(n_neighbors=5).fit(X)  # because it breaks ties
+    # The search of the estimator, with the same choice between equal distances.
+    search = sklearn.neighbors.NearestNeighbors(n_neighbors=5).fit(X)
     expected = tomato(-np.log(density), search.kneighbors(X)[1], 0.5)
     assert np.array_equal(found.peaks_[found.labels_], expected)
 
@@ -199,7 +202,8 @@ def test_the_number_of_clusters(rng):
     ([0.5, 0.45, 0.4, 0.2, 0.19], 4), ([0.5, 0.4, 0.35, 0.3, 0.28, 0.25, 0.22], 8),
     ([0.5, 0.38, 0.36, 0.30, 0.25, 0.2, 0.16, 0.11, 0.06], 1)])
 def test_the_number_that_is_guessed(lengths, expected):
-    """Hills in a row, the first being the highest, with passes of these depths."""
+    """Hills in a row, of which the first is the highest. The other hills rise above their passes by
+    these lengths."""
     values = [0.0, 10.0]
     for length in lengths:
         values += [5.0 - length, 5.0]
@@ -244,7 +248,7 @@ def test_parts_are_joined_by_their_densest_points(rng):
         with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="has 7 parts"):
             found = PersistenceClustering(6, n_clusters=wanted).fit(X)
         assert len(found.barcode_) > 14  # components have several hills
-        last = tree[6 - wanted, 2]  # the longest link needed
+        last = tree[6 - wanted, 2]  # the longest link that is needed
         expected = scipy.cluster.hierarchy.fcluster(tree, last, "distance")[part]
         assert adjusted_rand_score(expected, found.labels_) == 1 and found.n_clusters_ == wanted
 

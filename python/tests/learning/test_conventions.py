@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Compares vectors as other packages define them with ours, with the options and factors that
-docs/explanation/vectors.md names. The packages themselves are not called: their formulas are
-written here."""
+"""Compares our vectors with the definitions of other packages. The options and factors are those of
+docs/explanation/vectors.md. The packages themselves are not called: the tests contain their
+formulas."""
 import math
 
 import numpy as np
@@ -36,7 +36,8 @@ GRID = np.linspace(-1, 2, 31)
 
 @pytest.mark.parametrize("height, factor", [("tent", 1.0), ("euclidean", math.sqrt(2))])
 def test_heights(dgm, height, factor):
-    """giotto-tda and persim: tents. GUDHI: distances from the diagonal, √2 times as high."""
+    """giotto-tda and persim use tents; GUDHI's heights are distances from the diagonal, which are
+    √2 times as large."""
     how = {"resolution": 31, "range": (-1, 2), "height": height}
     layers = np.sort(tents(dgm, GRID), axis=0)[::-1][:3] * factor
     assert np.allclose(of(Landscape(layers=3, **how), dgm).reshape(3, 31), layers, atol=1e-14)
@@ -48,7 +49,7 @@ def test_heights(dgm, height, factor):
 
 def test_the_height_is_a_distance_from_the_diagonal():
     bar = np.array([0.0, 3.0])
-    nearest = np.array([1.5, 1.5])  # on the diagonal
+    nearest = np.array([1.5, 1.5])  # a point on the diagonal
     (layer,) = Landscape(layers=1, resolution=1, range=(1.5, 2), height="euclidean").fit_transform(
         [bar[None]])[0]
     assert layer == pytest.approx(np.linalg.norm(bar - nearest))
@@ -58,15 +59,15 @@ def test_the_height_is_a_distance_from_the_diagonal():
 
 
 def test_betti_curves(dgm):
-    """GUDHI and giotto-tda: bars with birth <= t < death, at equal steps. giotto-tda includes both
-    ends; so does GUDHI with `keep_endpoints=True`, or if the range is given."""
+    """GUDHI and giotto-tda count bars with birth <= t < death, at equal steps. giotto-tda includes
+    both ends of the range; GUDHI does so with `keep_endpoints=True`, or if the range is given."""
     alive = (dgm[:, :1] <= GRID) & (GRID < dgm[:, 1:])
     assert np.array_equal(of(BettiCurve(31, (-1, 2)), dgm), alive.sum(axis=0))
 
 
 @pytest.mark.parametrize("normalised", [False, True])
 def test_life_entropies(dgm, normalised):
-    """GUDHI's mode="vector"; its `normalized` divides by the sum of absolute values."""
+    """GUDHI's mode="vector"; `normalized` divides by the sum of the absolute values."""
     share = (dgm[:, 1] - dgm[:, 0]) / (dgm[:, 1] - dgm[:, 0]).sum()
     alive = (dgm[:, :1] <= GRID) & (GRID < dgm[:, 1:])
     expected = (-share * np.log(share)) @ alive
@@ -95,15 +96,15 @@ def test_entropies(dgm):
 
 
 def density(dgm, sigma, births, lengths):
-    """Rows are lengths."""
+    """The density of the bars at each (birth, length); the rows of the result are lengths."""
     x = (births - dgm[:, :1]) / sigma
     y = (lengths - (dgm[:, 1:] - dgm[:, :1])) / sigma
     return np.einsum("nl,nb->lb", np.exp(-y**2 / 2), np.exp(-x**2 / 2)) / (2 * math.pi * sigma**2)
 
 
 def test_images_of_gudhi(dgm):
-    """Densities at points, including both ends of a range: the centres of pixels of a range that is
-    half a step longer at both ends."""
+    """GUDHI computes densities at points, including both ends of a range: these points are the
+    centres of pixels for a range that is half a step longer at both ends."""
     sigma, (b, p), (low, high), longest = 0.2, (7, 5), (-1.0, 1.0), 2.0
     points = np.linspace(low, high, b), np.linspace(0, longest, p)
     step = (high - low) / (b - 1), longest / (p - 1)
@@ -126,7 +127,8 @@ def test_an_integral_is_a_density_times_an_area(dgm):
 
 
 def test_images_of_persim(dgm):
-    """Integrals; the weight is the length, rows are births, and sigma is a variance."""
+    """persim integrates; its weight is the length, its rows are births, and its sigma is a
+    variance."""
     variance, edges_b, edges_p = 0.04, np.linspace(-1, 1, 11), np.linspace(0, 2, 11)
     phi = np.vectorize(lambda x: 0.5 * (1 + math.erf(x / math.sqrt(2 * variance))))
     lengths = dgm[:, 1] - dgm[:, 0]
@@ -138,7 +140,8 @@ def test_images_of_persim(dgm):
 
 
 def blurred(counts, sigma):
-    """Along both axes by a discrete normal distribution that ends at 4 sigma and has the sum 1."""
+    """Blurs the counts along both axes by a discrete normal distribution that is cut off at 4 sigma
+    and has the sum 1."""
     reach = int(4 * sigma + 0.5)
     weights = np.exp(-np.arange(-reach, reach + 1)**2 / (2 * sigma**2))
     weights /= weights.sum()
@@ -148,9 +151,9 @@ def blurred(counts, sigma):
 
 
 def test_images_of_giotto(rng):
-    """Bars are counted at points, including both ends of a range, and the counts are blurred; the
-    top row is the longest. For bars at these points, the result is the density, except beyond 4
-    sigma."""
+    """giotto-tda counts bars at points, including both ends of a range, and blurs the counts; the
+    top row has the longest bars. For bars exactly at these points, the result is the density,
+    except beyond 4 sigma."""
     n, sigma, low, step = 60, 0.15, -1.0, 0.05
     places = rng.integers(20, 40, (12, 2))  # far from the border
     counts = np.zeros((n, n))
@@ -170,7 +173,8 @@ def test_images_of_giotto(rng):
 
 @pytest.mark.parametrize("ours, theirs", [("gauss", "gaussian"), ("laplace", "laplacian")])
 def test_atol_of_gudhi(dgm, ours, theirs):
-    """The same sums for the same centres; its quantiser may find other centres."""
+    """For the same centres, both packages compute the same sums. Their quantisers may find
+    different centres."""
     fitted = Atol(centres=5, contrast=ours).fit([dgm])
     centres, = fitted.centres_
     between = np.array([[math.dist(c, d) for d in centres] for c in centres])
@@ -188,8 +192,8 @@ def gauss_sum(a, b, weights_a, weights_b, bandwidth):
 
 
 def test_scale_space_kernel_of_gudhi(dgm):
-    """Half of the sum over each diagram and its mirror image, which counts -1: sigma = bandwidth² /
-    4, and a factor."""
+    """GUDHI's kernel is half of the sum over each diagram and its mirror image, which counts -1:
+    sigma = bandwidth² / 4, and a constant factor."""
     other = dgm[::2] + [0.03, 0.08]
     bandwidth = 0.7
     sides = [np.concatenate([bars, bars[:, ::-1]]) for bars in (dgm, other)]
@@ -202,7 +206,7 @@ def test_scale_space_kernel_of_gudhi(dgm):
 
 
 def test_heat_of_persim(dgm):
-    """The distance that the kernel of Reininghaus et al. induces."""
+    """persim computes the distance that the kernel of Reininghaus et al. induces."""
     def kernel(a, b):
         return sum(math.exp(-math.dist(p, q)**2 / 3.2) - math.exp(-math.dist(p, q[::-1])**2 / 3.2)
                    for p in a for q in b) / (3.2 * math.pi)
@@ -213,7 +217,7 @@ def test_heat_of_persim(dgm):
 
 
 def test_weighted_gaussian_kernel_of_gudhi(dgm):
-    """With the weight arctan(slope · length^power): a factor."""
+    """GUDHI's kernel with the weight arctan(slope · length^power) equals ours up to a factor."""
     weights = np.arctan(2 * (dgm[:, 1] - dgm[:, 0])**1.5)
     expected = gauss_sum(dgm, dgm[::3], weights, weights[::3], 0.7)
     ours = ph.diagram_kernels([dgm], [dgm[::3]], kernel="weighted_gaussian", sigma=0.7, slope=2,

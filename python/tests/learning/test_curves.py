@@ -73,11 +73,14 @@ def test_functions_are_values(bars):
 
 
 def plain_euler(image, construction, t):
-    """Counts the cells of a small image that are present at t, one by one."""
+    """The Euler characteristic of a small image at the value t: counts the cells that are present,
+    one by one."""
     cells = {}
-    for corner in np.ndindex(*(2 * n + 1 for n in image.shape)):  # odd: a unit interval
+    # An odd coordinate is a unit interval.
+    for corner in np.ndindex(*(2 * n + 1 for n in image.shape)):
         if construction == "vertices":
-            # Voxels are at even places, except the last: cells between them.
+            # Even coordinates are voxels, and odd ones the cells between them; the last two do not
+            # exist.
             if any(c >= 2 * n - 1 for c, n in zip(corner, image.shape)):
                 continue
             around = [(c // 2, c // 2 + 1) if c % 2 else (c // 2,) for c in corner]
@@ -166,7 +169,8 @@ def test_exact_landscapes(rng, count):
     dgm = np.column_stack([births, births + rng.random(count).round(2)])
     cells = [(i,) for i in range(count)] + [(i, count + i) for i in range(count)]
     vertices = [(count + i,) for i in range(count)]
-    values = [*dgm[:, 0], *dgm[:, 1], *([-9.0] * count)]  # each bar an edge that ends a vertex
+    # Each bar is born at a vertex and dies at an edge.
+    values = [*dgm[:, 0], *dgm[:, 1], *([-9.0] * count)]
     made = ph.filtered(cells + vertices, values)
     finite = made.dgm(0)[np.isfinite(made.dgm(0)[:, 1])] if count else dgm
     layers = made.exact_landscape(0, layers=50, infinity="drop")

@@ -14,7 +14,8 @@ STEP = 1e-6
 
 
 def differences(barcode, X, d_births, d_deaths):
-    """The gradient of sum(d * births) + sum(d * deaths), one coordinate at a time."""
+    """The gradient of sum(d * births) + sum(d * deaths) by finite differences, one coordinate at a
+    time."""
 
     def total(Y):
         bars = barcode(Y)
@@ -105,7 +106,7 @@ def test_some_of_the_bars(rng):
 
 
 def test_far_points(rng):
-    """Squares of such distances would overflow."""
+    """The squares of such distances would overflow."""
     X = rng.random((8, 2))
     d = np.array([1.0] * 7 + [0])
     small = pullback(ph.rips(X, max_dim=0), X, d_deaths=d)
@@ -144,7 +145,7 @@ def test_condensed_distances(rng, distances):
 
 @pytest.mark.parametrize("dtm", [{}, {"weights": "dtm", "dtm_neighbors": 3}])
 def test_a_matrix(rng, distances, dtm):
-    """Both entries of a pair are changed together, and each has half of the derivative."""
+    """Both entries of a symmetric pair change together, and each has half of the derivative."""
     barcode = functools.partial(ph.rips, metric="precomputed", **dtm)
     bars = barcode(distances)
     d = rng.standard_normal(len(bars)) * np.isfinite(bars.deaths)
@@ -252,7 +253,8 @@ def test_vertices_of_a_mesh(rng):
 
 
 def test_cells_of_a_complex(rng):
-    """Each cell has its own value: an edge that closes a loop, a triangle that fills it."""
+    """Each cell has its own value, for example an edge that closes a loop and a triangle that fills
+    it."""
     edges = [(0, 1), (0, 2), (1, 2)]
     matrix = np.zeros((7, 7), dtype=int)
     for k, (u, v) in enumerate(edges):
@@ -267,7 +269,8 @@ def test_cells_of_a_complex(rng):
 
 
 def test_ties_of_points():
-    """A square: the loop is born at one of four equal sides, and dies at one of two diagonals."""
+    """For a square, the loop is born at one of four equal sides and dies at one of two equal
+    diagonals."""
     square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
     bars = ph.rips(square).filter(dim=1)
     births, deaths = deciders(bars, square)
@@ -319,7 +322,7 @@ def test_deciders(rng):
     births, deaths = deciders(bars, values)
     assert np.array_equal(values[births[:, 0]], bars.births)
 
-    weights = np.full(20, 5.0)  # only the births of points decide
+    weights = np.full(20, 5.0)  # so large that only the births of points decide
     births, deaths = deciders(ph.rips(X, weights=weights), X, weights=weights)
     assert (births[:, 0] == births[:, 1]).all()
 

@@ -106,7 +106,7 @@ def test_what_is_not_fitted(kind, clouds, dgms):
 
 
 def labelled_clouds(rng, count):
-    """Circles and blobs."""
+    """Clouds with labels: circles and blobs."""
     labels = np.arange(count) % 2
     angles = rng.uniform(0, 2 * np.pi, (count, 25))
     radii = np.where(labels[:, None], 1, rng.random((count, 25))**0.5)
@@ -116,7 +116,8 @@ def labelled_clouds(rng, count):
 
 def test_pipeline_and_grid_search(rng):
     X, y = labelled_clouds(rng, 40)
-    steps = make_pipeline(RipsPersistence(homology_dimensions=(1,), n_jobs=2),  # threads in threads
+    # Threads within threads.
+    steps = make_pipeline(RipsPersistence(homology_dimensions=(1,), n_jobs=2),
                           PersistenceImage(resolution=5, infinity=2.0),
                           RandomForestClassifier(10, random_state=0))
     search = GridSearchCV(steps, {"persistenceimage__bandwidth": [0.05, 0.2],
@@ -150,7 +151,7 @@ def test_pandas(clouds, dgms):
         points.columns = ["x", "y"]
         assert list(DistanceToMeasure(3).fit_transform(points).columns) == ["distancetomeasure0"]
         assert list(FarthestPoints(2).fit_transform(points).index) == list(range(5, 17))
-    # A table keeps its index.
+    # A pandas table keeps its index.
     series = pandas.Series(clouds, index=list("abcd"))
     assert list(RipsPersistence().set_output(transform="pandas").transform(series).index) == list(
         "abcd")

@@ -38,7 +38,8 @@ def test_rips(clouds):
 def test_options_of_rips(clouds, how):
     found = RipsPersistence(**how).fit_transform(clouds)
     assert same(found, [[ph.rips(c, **how).dgm(d) for d in (0, 1)] for c in clouds])
-    # Each option has an effect, except merging, a field or collapses, which do not change the bars.
+    # Each option changes the result, except merging, the field and collapses, which do not change
+    # the bars.
     if not {"field", "collapse"} & set(how):
         assert not same(found, RipsPersistence().fit_transform(clouds))
 
@@ -83,7 +84,7 @@ def test_an_image_with_holes(rng):
 
 
 def test_signals(rng):
-    signals = rng.random((4, 30))  # of one axis
+    signals = rng.random((4, 30))  # signals with one axis
     found = CubicalPersistence(homology_dimensions=0).fit_transform(signals)
     assert same([found], [[ph.cubical(s).dgm(0) for s in signals]])
 
@@ -116,7 +117,7 @@ def test_bars_that_never_die(clouds):
     assert RipsPersistence(infinity=9.0).fit_transform(clouds)[0][0][-1].tolist() == [0, 9]
     with pytest.raises(ph.UsageError, match="H0: row 11: found a bar that never dies"):
         RipsPersistence(infinity="error").fit_transform(clouds)
-    # The eldest of the two components is left out.
+    # The component that is born first is left out.
     image = [[0.0, np.inf, 1.0]]
     assert CubicalPersistence(homology_dimensions=0, reduced=True).fit_transform(image)[0].tolist() \
         == [[1, np.inf]]
@@ -167,7 +168,7 @@ def test_limits_reach_the_threads(clouds):
 
 @pytest.fixture
 def slow():
-    """H4 would take minutes; a test that ends has therefore stopped it."""
+    """Computing H4 would take minutes: if the test ends, the computation was stopped."""
     return np.random.default_rng(0).random((1000, 8))
 
 

@@ -17,7 +17,8 @@ OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths, Statis
 
 
 def expected_columns(kind, dgm, all_of_it):
-    """With the parameters below, by the functions that test_vectors.py checks."""
+    """The columns with the parameters below, computed by the functions that test_vectors.py
+    checks."""
     from libph._vectors import _functions
     values = np.concatenate(all_of_it)
     grid = (values.min(), values.max()), 6
@@ -53,7 +54,7 @@ SMALL = {PersistenceImage: PersistenceImage(resolution=(3, 2)),
 @pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
 def test_ranges_are_those_of_the_samples_that_were_fitted(kind, dgms):
     fitted = clone(SMALL[kind]).fit(dgms[:3])
-    found = fitted.transform(dgms)  # with one more than was fitted
+    found = fitted.transform(dgms)  # these have one diagram more than the estimator was fitted to
     for i, row in enumerate(dgms):
         expected = np.concatenate([
             expected_columns(kind, dgm, [other[j] for other in dgms[:3]])
@@ -64,7 +65,7 @@ def test_ranges_are_those_of_the_samples_that_were_fitted(kind, dgms):
 
 @pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
 def test_layouts(kind, clouds, dgms):
-    """Lists, arrays of lists, barcodes, padded arrays and tables are the same diagrams."""
+    """Lists, arrays of lists, barcodes, padded arrays and tables can hold the same diagrams."""
     expected = clone(SMALL[kind]).fit_transform(dgms)
     objects = np.empty((len(dgms), 2), dtype=object)
     for i, row in enumerate(dgms):
@@ -73,7 +74,7 @@ def test_layouts(kind, clouds, dgms):
     table = RipsPersistence(reduced=True).set_output(transform="pandas").fit_transform(clouds)
     for other in (list(objects), objects, giotto, table, [tuple(row) for row in dgms]):
         assert np.array_equal(clone(SMALL[kind]).fit_transform(other), expected)
-    if kind is PersistenceImage:  # where bars of length 0 would count
+    if kind is PersistenceImage:  # images with weight 1 would count bars of length 0
         flat = PersistenceImage(weight_power=0, resolution=2)
         assert np.array_equal(flat.fit_transform(giotto), flat.fit_transform(dgms))
     bars = RipsPersistence(output="barcode").fit_transform(clouds)
@@ -110,7 +111,8 @@ def test_names(clouds, dgms):
 
 @pytest.mark.parametrize("orientation", ["ascending", "descending", "births"])
 def test_a_name_is_that_of_its_number(orientation):
-    """The pixel of the highest persistence and the largest birth has the corresponding name."""
+    """The column of the pixel with the highest persistence and the largest birth has the
+    corresponding name."""
     image = PersistenceImage(resolution=(2, 3), bandwidth=1e-3, birth_range=(0, 2),
                              persistence_range=(0, 3), orientation=orientation)
     (row,) = image.fit_transform([[[1.5, 4.0]]])
@@ -147,7 +149,7 @@ def test_ranges_that_are_given(dgms):
 
 
 def test_fitted_grids_are_used_again(dgms):
-    """The ranges of one batch, stored as text, are given to another transformer."""
+    """The ranges fitted to one batch are stored as text and given to another transformer."""
     import json
     for kind in (Landscape, BettiCurve, Silhouette, LifeEntropy):
         fitted = kind(resolution=7).fit(dgms[:2])

@@ -79,7 +79,7 @@ def test_what_torch_cannot(rng):
 
 
 def test_code_of_the_page():
-    """The code in docs/how-to/gradients.md without prompts."""
+    """The code blocks of docs/how-to/gradients.md, without their prompts."""
     torch.manual_seed(0)
     source = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[3]))
     page = (source / "docs/how-to/gradients.md").read_text()
@@ -87,4 +87,4 @@ def test_code_of_the_page():
     names = {}
     exec(code, names)
     length = (names["h1"][:, 1] - names["h1"][:, 0]).max()
-    assert length > 0.3  # it begins at 0.1
+    assert length > 0.3  # it was 0.1 at the start

@@ -15,7 +15,8 @@ EMPTY = np.empty((0, 2))
 
 @pytest.fixture(params=[0, 1, 7, 40])
 def dgm(request, rng):
-    births = rng.uniform(-1, 1, request.param).round(1)  # many are equal
+    # Rounded, because equal values are tested as well.
+    births = rng.uniform(-1, 1, request.param).round(1)
     return np.column_stack([births, births + rng.uniform(0, 2, request.param).round(1)])
 
 
@@ -61,7 +62,7 @@ def plain_life_entropy(dgm, t):
 
 
 def plain_statistics(dgm):
-    """By NumPy, in the order of the names."""
+    """Statistics computed with NumPy, in the order of their names."""
     dgm = dgm[dgm[:, 0] < dgm[:, 1]]
     if not len(dgm):
         return [0.0] * 38
@@ -92,7 +93,7 @@ def test_image(dgm, power):
 
 
 def test_image_is_an_integral():
-    """A pixel is the mean of the density over it, times its area."""
+    """Each pixel is the mean of the density over the pixel, times the pixel's area."""
     bar, width = np.array([[0.2, 1.1]]), 0.25
     (pixel,), = _functions.image(bar, width, (1, 1), (0.0, 0.5), (0.6, 1.2), 1)
     x, y = np.meshgrid((np.arange(400) + 0.5) / 800, 0.6 + (np.arange(400) + 0.5) * 0.6 / 400)
@@ -101,7 +102,7 @@ def test_image_is_an_integral():
 
 
 def test_image_far_from_its_bars():
-    """The omitted part is less than a bar's share beyond eight standard deviations."""
+    """The function may omit only the share of a bar that lies beyond eight standard deviations."""
     bars = np.array([[0.0, 1.0], [50.0, 51.0]])
     pixels = _functions.image(bars, 0.01, (2, 1), (-50.0, 50.5), (0.0, 2.0), 0)
     assert pixels.tolist() == [[pytest.approx(1, abs=2e-15), pytest.approx(1, abs=2e-15)]]
@@ -109,7 +110,8 @@ def test_image_far_from_its_bars():
 
 
 def test_betti_curve(dgm):
-    found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)  # including births and deaths
+    # The steps of the range include the births and deaths.
+    found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)
     grid = np.linspace(-1.5, 3.5, 51)
     assert found.tolist() == [sum(b <= t < d for b, d in dgm) for t in grid]
 
@@ -154,7 +156,7 @@ def test_atol(rng, contrast):
     assert centres.shape == (4, 2) and centres.tolist() == sorted(centres.tolist())
     apart = np.linalg.norm(centres[:, None] - centres, axis=2) + np.diag([np.inf] * 4)
     assert np.allclose(widths, apart.min(axis=1) / 2, rtol=1e-14)
-    points = np.concatenate(dgms)  # k-means has converged: each centre is the mean of its points
+    points = np.concatenate(dgms)  # k-means has converged if each centre is the mean of its points
     nearest = np.linalg.norm(points[:, None] - centres, axis=2).argmin(axis=1)
     assert np.allclose(centres, [points[nearest == k].mean(axis=0) for k in range(4)], rtol=1e-14)
     distances = np.linalg.norm(dgms[2][:, None] - centres, axis=2) / widths
@@ -251,11 +253,13 @@ def test_what_is_no_diagram(data, words):
 def test_ranges():
     assert _ranges.range_of_values([EMPTY]) == (0, 1)
     assert _ranges.range_of_values([EMPTY, ENDLESS]) == (0, 1)
-    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)  # a bar that does not count
+    # An empty bar, which does not count.
+    assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)
     assert _ranges.range_of_values([np.array([[3.0, np.inf]])]) == (2.5, 3.5)
     assert _ranges.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))
     births, lengths = _ranges.ranges_of_image([np.array([[0.0, 1.0], [0.0, 4.0]])], None, None)
-    assert lengths == (0, 4) and births == (-2, 2)  # all born at 0: as wide as the other range
+    # Births are all 0: their range is as wide as that of the lengths.
+    assert lengths == (0, 4) and births == (-2, 2)
     assert _ranges.ranges_of_image([np.array([[1.0, 2.0]])], (0, 3), (0, 5)) == ((0, 3), (0, 5))
     low, high = _ranges.widened(1e300, 1e300)
     assert low < 1e300 < high
@@ -342,7 +346,7 @@ def test_options_of_others(bars, method, how):
 
 
 def test_an_entropy_that_has_no_norm():
-    bars = ph.rips([[0], [0.25], [1]])  # lengths 0.25 and 0.75
+    bars = ph.rips([[0], [0.25], [1]])  # bars of lengths 0.25 and 0.75
     with pytest.raises(ph.DataError, match="normalised: found bars whose lengths add up to 1"):
         bars.entropy(0, normalised="total")
     assert ph.rips([[0], [1]]).entropy(0, normalised="total") == 0
@@ -364,7 +368,7 @@ def test_of_no_bars():
 
 
 def test_beside_gudhi(dgm):
-    """Its landscapes equal ours times the square root of 2."""
+    """GUDHI's landscapes equal ours times √2."""
     theirs = pytest.importorskip("gudhi.representations", reason="GUDHI is missing")
     if not len(dgm):
         pytest.skip("GUDHI 3.7 fails without bars")

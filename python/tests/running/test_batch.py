@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Many inputs at a time."""
+"""Computes many inputs in one call."""
 import threading
 import time
 

@@ -23,7 +23,7 @@ VOLUME = RNG.random((12, 8, 7)).astype(np.float32)
 
 
 def begun(image, count, field=2, **options):
-    """The whole, and the loops of all parts, already started."""
+    """The joined parts, and the loops of each part, which have begun."""
     parts = [ph.image_part(image, i, count, loops=True, **options) for i in range(count)]
     whole = ph.join_parts(random.Random(1).sample(parts, count))
     loops = [ph.ImageLoops(part, field=field) for part in parts]
@@ -33,7 +33,7 @@ def begun(image, count, field=2, **options):
 
 
 def rounds(loops):
-    """Runs until no message is in transit."""
+    """Exchanges messages until none is in transit."""
     while True:
         letters = []
         for some in loops:
@@ -62,7 +62,7 @@ def test_the_same_bars(count, options):
 
 
 def test_the_order_of_all_is_free():
-    """Parts work in small steps; messages arrive late and in any order, even before `begin`."""
+    """The parts work in small steps. Messages arrive late and in any order, even before `begin`."""
     chance = random.Random(3)
     for _ in range(5):
         count = 4
@@ -92,7 +92,8 @@ def test_the_order_of_all_is_free():
 
 
 def _actor(number, count, field, mine, others, to_whole, to_rank):
-    """One process: a part, its loops, and a mailbox. Rounds are kept in step by the messages."""
+    """The work of one process, which has a part, its loops, and a mailbox. The messages keep the
+    rounds of all processes in step."""
     part = ph.image_part(VOLUME, number, count, loops=True, threads=1)
     loops = ph.ImageLoops(part, field=field, threads=1)
     to_whole.put((number, part))
@@ -110,7 +111,8 @@ def _actor(number, count, field, mine, others, to_whole, to_rank):
             heard[sender] = is_busy
             if message is not None:
                 loops.receive(message)
-        to_whole.put(("round", number))  # no part continues before all have received everything
+        # No process continues before all have received the messages of the round.
+        to_whole.put(("round", number))
         if to_rank.get() == "done" and not letters and not any(heard.values()):
             break
     to_whole.put(("bars", loops.barcode()))
@@ -168,7 +170,7 @@ if whole:
 
 def test_the_page_on_the_ranks_of_mpi4py(tmp_path):
     pytest.importorskip("mpi4py")
-    mpirun = shutil.which("mpirun.openmpi")  # the MPI of Debian's mpi4py
+    mpirun = shutil.which("mpirun.openmpi")  # Debian's mpi4py uses this MPI
     if mpirun is None:
         pytest.skip("there is no mpirun.openmpi")
     page = SOURCE / "docs/how-to/scale-out.md"
@@ -195,7 +197,7 @@ def test_calls_out_of_order():
     for field in (4, 1, "two"):
         with pytest.raises(ph.UsageError, match="field"):
             ph.ImageLoops(part, field=field)
-    loops = ph.ImageLoops(part)  # it was not consumed
+    loops = ph.ImageLoops(part)  # the refused message was not consumed
     with pytest.raises(ph.UsageError, match="has lent its voxels"):
         ph.ImageLoops(part)
     assert repr(loops) == "ImageLoops(0 of 2, shape=(12, 8, 7))" and loops.is_idle
@@ -246,7 +248,7 @@ def test_damage_is_seen():
         loops[to].receive(wrong)
     assert to != 2
     with pytest.raises(ph.DataError):
-        loops[2].receive(message)  # it was meant for another part
+        loops[2].receive(message)  # the message was meant for another part
 
 
 def test_what_is_lost_is_seen():
@@ -296,7 +298,7 @@ def test_limits_hold():
     with pytest.raises(ph.Cancelled):
         loops.work(stop=stop)
     with pytest.raises(ph.UsageError, match="found work to do"):
-        loops.barcode()  # the call ended before it changed anything
+        loops.barcode()  # the failed call changed nothing
     with pytest.raises(ph.Timeout):
         loops.work(timeout=1e-5)
     with pytest.raises(ph.UsageError, match="a call has failed"):

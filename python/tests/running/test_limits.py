@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Limits of memory, and defaults of a block."""
+"""Limits of memory, and default options that hold within a `with` block."""
 import textwrap
 import threading
 
@@ -25,7 +25,7 @@ def test_memory_limit(compute):
     with pytest.raises(ph.MemoryLimitError, match="memory limit") as caught:
         compute(memory_limit="1MiB")
     assert isinstance(caught.value, MemoryError) and isinstance(caught.value, ph.Error)
-    assert len(ph.rips([[0], [1]])) == 2  # the process survives
+    assert len(ph.rips([[0], [1]])) == 2  # the process can still compute
 
 
 def test_a_limit_that_suffices_changes_nothing():
@@ -34,7 +34,7 @@ def test_a_limit_that_suffices_changes_nothing():
 
 
 def test_memory_that_the_system_refuses():
-    """Beyond the counted memory, the kernel refuses."""
+    """The counted memory is within its limit, but the kernel refuses to provide it."""
     code = textwrap.dedent("""
         import resource, numpy as np, libph as ph
         points = np.random.default_rng(0).normal(size=(6000, 3))
@@ -51,7 +51,7 @@ def test_memory_that_the_system_refuses():
 
 
 def test_a_copy_beyond_the_memory_is_refused():
-    """Four bytes that look like 16 TiB."""
+    """A broadcast array takes four bytes but looks like 16 TiB."""
     huge = np.broadcast_to(np.float32(0), (2**40, 2))
     with pytest.raises(ph.MemoryLimitError, match="X: found"):
         ph.rips(huge)

@@ -35,7 +35,7 @@ def test_threads_do_not_change_the_result(compute):
 
 
 def test_the_gil_is_released():
-    """Python goes on while a computation runs."""
+    """Other threads of Python continue while a computation runs."""
     ticks, stop = [], threading.Event()
 
     def tick():

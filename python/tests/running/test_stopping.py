@@ -13,14 +13,14 @@ import pytest
 import libph as ph
 from workloads import VOLUME, normal, run_python, symmetric
 
-SOON = 1.0  # seconds; 0.02 to 0.1 as a rule, but machines that run tests are busy
+SOON = 1.0  # seconds; usually 0.02 to 0.1, but machines that run tests are busy
 
 
 def diagram(n):
     return np.sort(np.random.default_rng(n).random((n, 2)), axis=1)
 
 
-# Each takes several seconds at least.
+# Computations that take at least several seconds each.
 LONG = {
     "edge links": lambda **o: ph.rips(normal(6000, 5), max_dim=2, **o),
     "edge links, field 3": lambda **o: ph.rips(normal(6000, 5), max_dim=2, field=3, **o),
@@ -51,7 +51,7 @@ one_of_the_long = pytest.mark.parametrize("name", LONG)
 
 
 def interrupt_after(seconds):
-    """Sends Ctrl-C; returns the time."""
+    """Sends Ctrl-C after some seconds; returns the time when it was sent."""
     fired = []
 
     def fire():
@@ -77,7 +77,7 @@ def test_timeout(name):
     start = time.monotonic()
     with pytest.raises(ph.Timeout, match="0.4 s"):
         LONG[name](timeout=0.4)
-    assert time.monotonic() - start < 0.4 + SOON + 1.5  # creating the data counts as well
+    assert time.monotonic() - start < 0.4 + SOON + 1.5  # includes the time to create the data
 
 
 def test_ctrl_c_while_python_is_told_of_progress():
@@ -138,7 +138,7 @@ def test_what_is_stopped_before_it_begins_is_not_done():
 
 
 def test_ctrl_c_reaches_the_main_thread_only():
-    """Others end by their own stop."""
+    """Other threads stop only when their own `stop` is set."""
     stop, outcome = threading.Event(), []
 
     def compute():
@@ -159,7 +159,8 @@ def test_ctrl_c_reaches_the_main_thread_only():
     assert outcome == [ph.Cancelled]
 
 
-# ---- progress
+# Without a second thread, the computation itself checks the time, its stop and signals, and reports
+# its progress.
 
 
 def test_progress_is_told():

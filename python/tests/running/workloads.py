@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Data for computations, and separate programs."""
+"""Data for computations, and code for separate processes."""
 import subprocess
 import sys
 

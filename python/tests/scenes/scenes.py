@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes to segment."""
+"""Scenes for the tests of segmentation."""
 import os
 from pathlib import Path
 
@@ -10,7 +10,7 @@ CAMERA = (260.0, 255.0, 79.5, 59.5)
 
 
 def points_of_scene(rng, noise=0.001):
-    """Boxes and balls on a table, as a sensor at the origin sees it from above: z is forward."""
+    """Boxes and balls on a table, seen from above by a sensor at the origin: z points forward."""
     parts = [np.column_stack([rng.uniform(-0.4, 0.4, (9000, 2)), np.full(9000, 0.9)])]
     for _ in range(rng.integers(1, 5)):
         centre, edge = rng.uniform(-0.25, 0.25, 2), rng.uniform(0.06, 0.14)
@@ -28,7 +28,7 @@ def points_of_scene(rng, noise=0.001):
 
 
 def depth_of_scene(rng):
-    """Metres: boxes on a table, with holes."""
+    """A depth image in metres of boxes on a table, with holes."""
     depth = np.full((120, 160), 0.9)
     for _ in range(4):
         row, column = rng.integers(0, 90), rng.integers(0, 120)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ten frames of a still scene in front of a nearly still camera."""
+"""Makes ten frames of a still scene, seen by a nearly still camera."""
 import struct
 import zlib
 
@@ -7,9 +7,9 @@ import numpy as np
 
 FRAMES = 10
 TURN, SHIFT = np.deg2rad(0.2), 0.002  # standard deviations of the camera's pose
-EYE = np.array([0.0, -0.9, 0.9])      # x right, y away, z up; it looks down at 45 degrees
+EYE = np.array([0.0, -0.9, 0.9])      # x right, y away, z up; the camera looks down at 45 degrees
 ROOM_CAMERA = (340.0, 340.0, 319.5, 239.5)
-BLOCKS = np.array([                   # least and largest corners
+BLOCKS = np.array([                   # the least and largest corner of each block
     [(-0.6, -0.5, -0.02), (0.6, 0.5, 0.0)], [(-0.12, -0.05, 0.0), (0.06, 0.09, 0.13)],
     [(-0.07, -0.02, 0.13), (0.02, 0.07, 0.2)], [(0.13, -0.05, 0.0), (0.27, 0.07, 0.11)],
     [(-0.5, 0.6, -0.1), (0.5, 0.62, 1.5)]])
@@ -17,7 +17,7 @@ TABLE, LARGE, SMALL, BESIDE, WALL = range(5)
 
 
 def turned(vector):
-    """The rotation about a vector by its length."""
+    """The rotation about a vector, by an angle equal to its length."""
     angle = np.linalg.norm(vector)
     x, y, z = vector / angle if angle else vector
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -29,11 +29,13 @@ def pose(rng):
 
 
 def room(rng, moves=True):
-    """The depth of a table with boxes in front of a wall, metres, and the block of each pixel."""
+    """The depth in metres of a table with boxes in front of a wall, and the block that each pixel
+    shows."""
     fx, fy, cx, cy = ROOM_CAMERA
     v, u = np.mgrid[:480, :640]
     c = np.sqrt(0.5)
-    from_camera = np.array([[1, 0, 0], [0, -c, c], [0, -c, -c]])  # forward is away and down
+    # The camera's forward axis points away and down.
+    from_camera = np.array([[1, 0, 0], [0, -c, c], [0, -c, -c]])
     rays = np.stack([(u - cx) / fx, (v - cy) / fy, np.ones(u.shape)], -1)
     turn, shift = pose(rng) if moves else (np.eye(3), np.zeros(3))
     rays = rays @ turn.T @ from_camera.T
@@ -48,8 +50,9 @@ def room(rng, moves=True):
 
 
 def seen_again(depth, camera, noise, rng):
-    """A frame from a camera that moved a little. @param noise of depth at one metre, metres; it
-    grows with the square. Single pixels that the resampling tore are filled."""
+    """A frame from a camera that has moved a little. @param noise standard deviation of depth at
+    one metre, in metres; it grows with the square of the depth. Single pixels left empty by the
+    resampling are filled."""
     fx, fy, cx, cy = camera
     height, width = depth.shape
     z = depth + noise * depth**2 * rng.normal(size=depth.shape)
@@ -71,7 +74,8 @@ def seen_again(depth, camera, noise, rng):
 
 
 def noise_on(depth, camera, plane):
-    """The scatter of depth about a plane at one metre, if it grows with the square."""
+    """The scatter of depth about a plane, as its value at one metre; it grows with the square of
+    the depth."""
     fx, fy, cx, cy = camera
     v, u = np.mgrid[:depth.shape[0], :depth.shape[1]]
     a, b, c, d = plane
@@ -81,7 +85,7 @@ def noise_on(depth, camera, plane):
 
 
 def read_png(path):
-    """An image of 16 bits and one channel."""
+    """Reads an image with 16 bits and one channel."""
     data = path.read_bytes()
     at, packed, width, height = 8, b"", 0, 0
     while at < len(data):
@@ -101,7 +105,7 @@ def read_png(path):
 
 
 def _unfiltered(filter_, line, above):
-    """A row of a PNG with two bytes per pixel."""
+    """Undoes the filter of a row of a PNG with two bytes per pixel."""
     if filter_ in (0, 2):
         return (line + (above if filter_ else 0)) & 255
     if filter_ == 1:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Pages equal those of --report, except for their stated origin; frames in notebooks."""
+"""Reports from Python equal the pages of --report, except for their stated origin. Frames are shown
+in notebooks."""
 import html.parser
 import json
 import os
@@ -20,20 +21,20 @@ META = re.compile(r'<script type="application/json" id="ph-meta">(.*?)</script>'
 
 
 def parts(page):
-    """The page's metadata, and the rest of the page."""
+    """The metadata of a page, and the rest of the page."""
     meta = json.loads(META.search(page)[1])
     return meta, META.sub("", page, count=1)
 
 
 def differing(mine, its):
-    """The lines that differ, by their beginnings, which hold a name."""
+    """The lines that differ, cut off after the beginning, which contains a name."""
     mine, its = mine.split("\n"), its.split("\n")
     return [(a[:120], b[:120]) for a, b in zip(mine, its) if a != b] + [len(mine)] * (
         len(mine) != len(its))
 
 
 def check(report, written):
-    """Only these may differ: version, command line, file, times, memory, and notes."""
+    """Checks that the pages differ only in version, command line, file, times, memory and notes."""
     (mine, my_rest), (its, its_rest) = parts(report.html), parts(written)
     assert differing(my_rest, its_rest) == []
     origin, other = mine.pop("provenance"), its.pop("provenance")
@@ -46,7 +47,7 @@ def check(report, written):
 
 @pytest.fixture
 def barcode_page(program, tmp_path):
-    """The page that ph-barcode writes of an array or text."""
+    """A function that returns the page that ph-barcode writes for an array or a text."""
     def page(data, name, *arguments):
         path = tmp_path / name
         if isinstance(data, np.ndarray):
@@ -61,7 +62,7 @@ def barcode_page(program, tmp_path):
     return page
 
 
-# + 0.0, as readers of files turn -0 into 0.
+# Adding 0.0 turns -0 into 0, as the readers of files do.
 POINTS = np.random.default_rng(3).normal(size=(50, 2)).round(2) + 0.0
 SOLID = np.random.default_rng(4).normal(size=(40, 5))
 
@@ -189,7 +190,8 @@ def test_pages_of_bars_alone(program, tmp_path):
         for page in (meta, expected):
             del page["provenance"], page["program"]
         assert meta == expected
-    # A barcode from a file also shows its data: the file states how it was computed.
+    # The report of a barcode that was read from a file also shows its data, because the file states
+    # how it was computed.
     weighted = ph.rips(POINTS, metric="manhattan")
     weighted.save(tmp_path / "bars.json")
     read = ph.read_barcode(tmp_path / "bars.json")
@@ -276,7 +278,7 @@ def test_a_frame_of_a_notebook():
     ((tag, attributes),) = frames.tags
     assert tag == "iframe" and attributes["srcdoc"] == report.html
     assert attributes["title"] == report.title
-    # It may run its own script, and offer files; it has no access to the notebook.
+    # The page may run its own script and offer files; it has no access to the notebook.
     assert attributes["sandbox"].split() == ["allow-scripts", "allow-downloads"]
     assert parts(report.html)[0]["title"] == report.title
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Poses and grasps of python/examples, against boxes with known poses."""
+"""Compares poses and grasps of python/examples with boxes whose poses are known."""
 import json
 import os
 import subprocess
@@ -16,7 +16,8 @@ EXAMPLES = SOURCE / "python/examples"
 sys.path.insert(0, str(EXAMPLES))
 from grasps import CannotGrasp, Gripper, from_above, pose  # noqa: E402
 
-# On the table: the middle, the turn about the vertical in degrees, the size. Metres.
+# Boxes on the table: the middle, the rotation about the vertical in degrees, and the size. Lengths
+# are in metres.
 BOXES = [((-0.16, 0.02), 25, (0.14, 0.06, 0.09)), ((0.03, 0.10), 70, (0.11, 0.05, 0.07)),
          ((0.17, -0.04), -35, (0.16, 0.07, 0.05)), ((-0.02, -0.11), 10, (0.15, 0.12, 0.06))]
 
@@ -27,7 +28,8 @@ def turned(degrees):
 
 
 def poses_of_boxes():
-    """In the frame of the table: z is up, 0 on its top."""
+    """The poses of the boxes in the frame of the table, in which z points up and is 0 on the
+    table's top."""
     for (x, y), degrees, size in BOXES:
         result = np.eye(4)
         result[:3, :3], result[:3, 3] = turned(degrees), (x, y, size[2] / 2)
@@ -35,7 +37,8 @@ def poses_of_boxes():
 
 
 def table_from_camera():
-    """A camera 0.75 m above the table and 0.45 m off, which looks at its middle."""
+    """The pose of a camera 0.75 m above the table and 0.45 m beside it, which looks at the middle
+    of the table."""
     place = np.array([0.1, -0.45, 0.75])
     z = -place / np.linalg.norm(place)
     x = np.cross(z, [0, 0, 1])
@@ -47,12 +50,12 @@ def table_from_camera():
 
 @pytest.fixture(scope="module")
 def cloud():
-    """The view in the camera's frame: (rows, columns, 3), with noise of half a millimetre."""
+    """The cloud in the camera's frame: (rows, columns, 3), with noise of half a millimetre."""
     rows, columns = np.mgrid[0:360, 0:480]
     rays = np.stack([(columns - 239.5) / 450, (rows - 179.5) / 450, np.ones(rows.shape)], axis=2)
     camera = table_from_camera()
     origin, along = camera[:3, 3], rays @ camera[:3, :3].T
-    depth = -origin[2] / along[..., 2]  # of the table
+    depth = -origin[2] / along[..., 2]  # depth of the table
     depth[depth <= 0] = np.inf
     for box, size in poses_of_boxes():
         start = box[:3, :3].T @ (origin - box[:3, 3])
@@ -71,12 +74,12 @@ def scene(cloud):
 
 
 def angle(a, b):
-    """Between two directions or their opposites, in degrees."""
+    """The angle between two directions or their opposites, in degrees."""
     return np.degrees(np.arccos(min(1, abs(a @ b))))
 
 
 def pairs(scene):
-    """Each box with the object that is nearest to it, in the frame of the camera."""
+    """Each box with its nearest object, in the frame of the camera."""
     into_camera = np.linalg.inv(table_from_camera())
     for box, size in poses_of_boxes():
         known = into_camera @ box
@@ -93,13 +96,13 @@ def test_poses_of_known_boxes(scene):
         assert np.linalg.det(found[:3, :3]) == pytest.approx(1)
         assert (found[3] == [0, 0, 0, 1]).all()
         assert angle(found[:3, 0], known[:3, 0]) < 2
-        assert found[:3, 2] @ known[:3, 2] > np.cos(np.radians(0.5))  # up, not down
+        assert found[:3, 2] @ known[:3, 2] > np.cos(np.radians(0.5))  # z points up, not down
         assert np.abs(thing.size - size).max() < 0.006
         assert np.linalg.norm(found[:3, 3] - known[:3, 3]) < 0.004
 
 
 def test_grasps_of_known_boxes(scene):
-    """In the frame of the table, as for an arm mounted on it."""
+    """Grasps in the frame of the table, as for an arm mounted on the table."""
     gripper, grasped = Gripper(opening=0.085), 0
     for known, size, thing in pairs(scene):
         box = table_from_camera() @ known
@@ -110,8 +113,9 @@ def test_grasps_of_known_boxes(scene):
         grasp = from_above(thing.centre, thing.axes, thing.size, scene.meta["plane"], gripper)
         found = table_from_camera() @ grasp.pose
         assert np.linalg.det(found[:3, :3]) == pytest.approx(1)
-        assert found[:3, 2] @ [0, 0, -1] > np.cos(np.radians(0.5))  # down, against the normal
-        assert angle(found[:3, 0], box[:3, 1]) < 2  # along the shorter side
+        # z points down, against the normal.
+        assert found[:3, 2] @ [0, 0, -1] > np.cos(np.radians(0.5))
+        assert angle(found[:3, 0], box[:3, 1]) < 2  # x is along the shorter side
         assert grasp.width == pytest.approx(size[1], abs=0.006)
         assert found[:3, 3] == pytest.approx([*box[:2, 3], size[2] - gripper.finger], abs=0.004)
         grasped += 1
@@ -173,7 +177,7 @@ def test_the_frame_of_the_cloud_does_not_matter(rng):
 def test_fingers_stay_above_the_plane():
     grasp = from_above(*box((0.1, 0.04, 0.02)), TABLE)
     assert grasp.pose[2, 3] == pytest.approx(Gripper().clearance)
-    # On another object, they may reach down along all of it.
+    # On top of another object, a grasp may use the full length of the fingers.
     stacked = from_above(*box((0.1, 0.04, 0.02), bottom=0.1), TABLE)
     assert stacked.pose[2, 3] == pytest.approx(0.12 - Gripper().finger)
 

@@ -64,7 +64,7 @@ def check(found, expected):
     assert own.read_bytes() == tree.read_bytes()
 
 
-# ---- same as the program
+# ---- the same results as the program
 
 
 @pytest.mark.parametrize("options, arguments", [
@@ -114,7 +114,8 @@ def test_clouds_with_rows_and_columns(program, seed):
     found = ph.segment(cloud)
     check(found, program(path))
     assert found.labels.shape == found.voxels.of_point.shape == (120, 160)
-    assert found.meta["viewpoint"] == pytest.approx((0.1, 0, 0), abs=1e-3)  # where the rays meet
+    # The point where the rays meet.
+    assert found.meta["viewpoint"] == pytest.approx((0.1, 0, 0), abs=1e-3)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -139,7 +140,7 @@ def test_depth_images(program, seed):
 
 
 def png(array):
-    """A PNG file of bytes, RGB."""
+    """A PNG file with an RGB image of bytes."""
     rows = b"".join(b"\0" + row.tobytes() for row in array)
 
     def chunk(name, data):
@@ -168,7 +169,7 @@ def test_colours_go_into_files(program, rng):
         assert own.read_bytes() == written.read_bytes()
     points = points_of_scene(rng)
     colours = rng.integers(0, 256, (len(points), 3))
-    colours[0, 0] = 200  # otherwise the program may read them as numbers from 0 to 1
+    colours[0, 0] = 200  # without a large number, the program may read them as numbers from 0 to 1
     np.save(program.folder / "points.npy", np.hstack([points, colours]))
     for name in ("labelled.ply", "labelled.pcd"):
         program(program.folder / "points.npy", more=("-o", program.folder / name))

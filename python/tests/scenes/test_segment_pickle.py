@@ -42,7 +42,8 @@ def table():
 
 
 def same(a, b):
-    """True if all properties of two segmentations are the same, to the last bit and in type."""
+    """True if all properties of two segmentations are equal to the last bit and have the same
+    types."""
     if isinstance(a, np.ndarray):
         return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
     if isinstance(a, tuple):
@@ -96,7 +97,7 @@ def test_report(table):
         pages = [one.report().html for one in (table, pickle.loads(pickle.dumps(table)))]
     except ph.NotBuiltIn:
         pytest.skip("libph was built without npm")
-    timings = re.compile(r' "timings": \{[^}]+\},')  # they are not kept
+    timings = re.compile(r' "timings": \{[^}]+\},')  # timings are not kept
     assert timings.search(pages[0]) and timings.sub("", pages[0]) == pages[1]
 
 

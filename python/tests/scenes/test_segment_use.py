@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Segmentation: cuts into a number of objects, arrays of all kinds, messages, limits."""
+"""How segmentations are used: cuts into a number of objects, arrays of all kinds, messages,
+limits."""
 import os
 import re
 import threading
@@ -197,7 +198,7 @@ def test_doubts_are_warnings():
     assert not found.objects and "are these millimetres" in " ".join(found.meta["notes"])
     with pytest.warns(UserWarning, match=r"see viewpoint|viewpoint X,Y,Z|no plane|no point"):
         ph.segment(CLOUD * 0.1 + 3)
-    offset = np.array([5e5, 4e6, 100])  # of a map
+    offset = np.array([5e5, 4e6, 100])  # coordinates as in a map
     with pytest.warns(UserWarning, match="single precision has steps of 0.25 m; subtract"):
         ph.segment(points / 1000 + offset, viewpoint=offset)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Labels, roles and the plane of ten frames of one scene."""
+"""Labels, roles and the plane are steady over ten frames of one scene."""
 import json
 import os
 import pickle
@@ -32,8 +32,8 @@ def tracked(depths, camera, **options):
 
 
 def changes(frames, what):
-    """For each object, how often a property differs from the previous frame, and out of how many
-    frames."""
+    """For each object, how often a property differs from its value in the previous frame; and the
+    total number of comparisons."""
     before, count, all_ = {}, Counter(), 0
     for scene, objects in frames:
         now = {}
@@ -50,7 +50,7 @@ def held_role(thing, found, objects):
 
 
 def held_support(thing, found, objects):
-    """Its support, by a name that is the same in all frames."""
+    """What an object stands on, under a name that is the same in all frames."""
     if thing.on and thing.on[0] == "object":
         return objects[thing.on[1] - 1].number
     return thing.on
@@ -141,7 +141,7 @@ def test_ten_frames_of_a_real_scene(name):
           f"{roles.total()} roles and {support.total()} supports changed ({single.total()} by "
           f"single frames); "
           f"large ones kept: {min(kept):.2f}; the plane turned by {turn:.2f} degrees")
-    # The first frame may have been wrong. No role alternates.
+    # A role may change once, because the first frame may have been wrong. No role alternates.
     assert max(roles.values(), default=0) <= 1 and roles.total() <= 1
     assert support.total() <= max(1, single.total() / 4)
     assert min(kept) >= 0.8
