@@ -74,7 +74,7 @@ $name.tar.xz builds the programs anew, with another one if you like.
 END
 }
 
-# Builds from the archive of the sources; success shows that the archive is complete.
+# Builds the programs from the archive of the sources, which shows that the archive is complete.
 make_binary() {
   scripts/setup.sh build
   [ -f "$dist/$name.tar.xz" ] || make_source

@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# The compiler cache shares results between clones, including precompiled headers.
+# Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
@@ -29,7 +29,8 @@ unpack_arm64() {
   touch "$root/complete"
 }
 
-# Available packages are unpacked, as above; libpng and FreeType are built from Debian's sources.
+# Packages for Windows are unpacked in the same way; libpng and FreeType are built from Debian's
+# sources.
 unpack_mingw() {
   local root=$PWD/build/mingw-root
   [ -e "$root/complete" ] && return
@@ -48,7 +49,7 @@ unpack_mingw() {
   for file in "$root"/apt/*.deb; do dpkg -x "$file" "$root"; done
   for file in "$root"/apt/*.dsc; do dpkg-source -x "$file" "${file%%_*}"; done
   local here=$root/usr/x86_64-w64-mingw32
-  rm "$here/lib/libz.dll.a"  # programs need no library beside them
+  rm "$here/lib/libz.dll.a"  # without it, zlib is linked statically
   build_archive() {
     local source=$1
     shift
@@ -68,7 +69,8 @@ test_libph() {
     --output-junit "$PWD/build/$1/tests.xml"
 }
 
-# Checks that programs print and write the same bytes as here.
+# Checks that the programs of another platform print and write the same bytes as the programs built
+# here.
 compare_outputs() {
   cmake --preset release >/dev/null
   cmake --build --preset release -j "$jobs" --target ph-barcode ph-distance ph-segment ph-vectorise
@@ -82,9 +84,10 @@ run() {
     aarch64) unpack_arm64 ;;
     mingw) unpack_mingw
       export WINEPREFIX=$PWD/build/wine WINEDEBUG=-all
-      # Otherwise programs that start together would each set it up.
+      # Sets up Wine's folder first: programs that start together would each set it up.
       [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1
-      # This also prevents a program from starting while the previous server ends.
+      # The server stays for 60 s, because a program cannot start while the previous server is
+      # ending.
       /usr/lib/wine/wineserver -p60 || true ;;
   esac
   cmake --preset "$platform"
@@ -92,7 +95,7 @@ run() {
   case $platform in
     clang-libcxx) test_libph "$platform" || status=$?
       compare_outputs "build/$platform" || status=$? ;;
-    aarch64)  # instructions are emulated: a tenth of the random inputs, ten times the time limit
+    aarch64)  # emulated, hence a tenth of the random inputs and ten times the time limit
       PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?
       compare_outputs "build/$platform" qemu-aarch64-static || status=$? ;;
     mingw) PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?

@@ -15,13 +15,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
-# The compiler cache shares results between clones, including precompiled headers.
+# Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
-export PATH=/usr/lib/llvm-19/bin:$PATH  # llvm-symbolizer
-export PH_TEST_PATIENCE=20  # checked programs run longer
+export PATH=/usr/lib/llvm-19/bin:$PATH  # the folder of llvm-symbolizer
+export PH_TEST_PATIENCE=20  # programs with checks run longer
 export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 summary=()
 
@@ -39,7 +39,8 @@ build() {
     { summary+=("$kind: not built"); return 1; }
 }
 
-# outputs KIND BUILD [LAUNCHER…]: runs the commands and prints the line that counts them.
+# outputs KIND BUILD [LAUNCHER…]: runs the commands of tests/platforms and prints the line with
+# their number.
 outputs() {
   local kind=$1 status=0
   shift
@@ -64,7 +65,7 @@ run() {
     asan-ubsan|tsan|debug)
       build "$kind" || return
       tests "$kind" || status=$?
-      # In debug mode, each search in a sorted range checks the whole range.
+      # The debug mode is slow: each search in a sorted range checks the whole range.
       if [ "$kind" = debug ]; then SECONDS_EACH=${SECONDS_EACH:-20}; fi
       outputs "$kind" "build/$kind" || status=$? ;;
     valgrind)
@@ -75,7 +76,7 @@ run() {
       build integers --target "${programs[@]}" || return
       rm -rf build/integers/reports && mkdir build/integers/reports
       UBSAN_OPTIONS=log_path=$PWD/build/integers/reports/run outputs integers build/integers || status=$?
-      # Lists each place once, however often it occurs.
+      # Lists each place in the code once, however often it was reported.
       cat build/integers/reports/* 2>/dev/null | grep 'runtime error' | sed "s#$PWD/##" |
         sed -E 's/(: runtime error: [a-z -]*).*/\1/' | sort -u | tee build/integers/places.txt
       counts="$(wc -l <build/integers/places.txt) places; $counts" ;;

@@ -5,14 +5,14 @@ FOLDER].
 
 The contents are found in a build folder with PH_STATIC_PROGRAMS, not listed by hand:
 
-archives    the maps that the linker wrote (apps/*/*.map): those of which a member was taken
-headers     the dependencies that Ninja knows of each object of the programs
+archives    the linker's maps (apps/*/*.map), which name each archive with a linked member
+headers     the dependencies of each object of the programs, as Ninja recorded them
 the font    PH_PLOT_FONT in CMakeCache.txt
 the page    report-template.inputs, which viewer/build.mjs writes beside the page
 
 dpkg knows the package and version of a file; package.json states them for npm packages. A package
-whose licence is missing from LICENCES is an error, so that whoever links something new checks its
-licence. --licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH sets the
+whose licence is missing from LICENCES is an error: whoever links something new has to check its
+licence first. --licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH sets the
 date.
 """
 import argparse
@@ -29,8 +29,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAMS = "apps/*/*.map"
-# By source package, as SPDX expressions. All of them allow passing on a program under any terms,
-# together with its source or with a way to relink it (glibc: LGPL).
+# The licences of source packages, as SPDX expressions. All of them allow passing on a program under
+# any terms, together with its source or with a way to relink it (glibc: LGPL).
 LICENCES = {
     "brotli": "MIT",
     "cli11": "BSD-3-Clause",
@@ -44,7 +44,7 @@ LICENCES = {
     "linux": "GPL-2.0-only WITH Linux-syscall-note",
     "zlib": "Zlib",
 }
-# Headers that contain declarations and numbers, but no code.
+# Packages whose headers contain declarations and numbers, but no code.
 BUILD_ONLY = {"linux"}
 
 
@@ -58,8 +58,8 @@ def output_of(*command):
 
 
 def linked_files(build):
-    """Archives and objects that are not ours and were linked in; an archive counts if one of its
-    members was."""
+    """The archives and objects that were linked into a program and are not ours. An archive counts
+    if one of its members was linked."""
     maps = sorted(build.glob(PROGRAMS))
     if not maps:
         fail(f"found no {build}/{PROGRAMS}, expected a build with PH_STATIC_PROGRAMS")
@@ -72,7 +72,7 @@ def linked_files(build):
 
 
 def included_files(build):
-    """Third-party headers that the objects of the programs include."""
+    """Third-party headers that were included in the compilation of the programs."""
     programs = [path.relative_to(build).with_suffix("") for path in sorted(build.glob(PROGRAMS))]
     inputs = set(output_of("ninja", "-C", build, "-t", "inputs", *programs).splitlines())
     files, wanted = set(), False
@@ -95,10 +95,11 @@ def is_on(value):
 
 
 def debian_packages(files):
-    """@return {name: (version, source, source version, architecture)} of the packages of files."""
+    """@return {name: (version, source, source version, architecture)} of the packages that contain
+    the files."""
     files = sorted({os.path.realpath(file) for file in files})
     owners, found = set(), set()
-    # On systems whose /lib is a link, package lists have the old names of files.
+    # On systems whose /lib is a link to /usr/lib, dpkg may know a file under its old name in /lib.
     names = files + [file[len("/usr"):] for file in files if file.startswith("/usr/lib")]
     said = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True, check=False).stdout
     for line in said.splitlines():
@@ -205,7 +206,7 @@ def document(build):
 
 
 def write_licences(folder, debian, npm):
-    """One file per package, and the texts that these files refer to."""
+    """Writes one file per package, and the licence texts that these files refer to."""
     folder.mkdir(parents=True, exist_ok=True)
     common = Path("/usr/share/common-licenses")
     named = set()

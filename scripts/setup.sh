@@ -6,7 +6,7 @@ set -euo pipefail
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
        zlib1g-dev libpng-dev libfreetype-dev fonts-dejavu-core libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
-# Other programs that tests compare with, and tools that tests use.
+# Programs that tests compare with, and tools that tests use.
 test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       python3-open3d jq strace
       locales zsh fish man-db groff mandoc abigail-tools slurm-wlm
@@ -18,8 +18,8 @@ python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn pyt
 # The tools that bundle the page of the reports; Node may come from elsewhere.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
-viewer=("${page[@]}" chromium)  # also its tests in a browser
-# The site of the documentation.
+viewer=("${page[@]}" chromium)  # the tests in a browser need it as well
+# Tools that make the site of the documentation.
 docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
       python3-jsonschema hunspell hunspell-en-gb)
 # Tools that make Debian packages, and tools that test them.
@@ -29,10 +29,10 @@ lint=(clang-format-14 clang-tidy-19 cppcheck libgtest-dev libcgal-dev)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
 coverage=(gcovr libgtest-dev libcgal-dev)
 determinism=(clang-19 libcgal-dev qemu-user-static)
-# Valgrind needs the symbols of the C library; in libstdc++'s debug mode, fmt and GoogleTest must be
-# compiled as well.
+# Valgrind needs the symbols of the C library. For libstdc++'s debug mode, fmt and GoogleTest are
+# compiled from source.
 sanitize=(clang-19 libclang-rt-19-dev llvm-19 valgrind libc6-dbg googletest libgtest-dev libcgal-dev)
-# For scripts/platforms.sh; GoogleTest and fmt are compiled as well.
+# Packages for scripts/platforms.sh, which compiles GoogleTest and fmt from source.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
 aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
 mingw=(g++-mingw-w64-x86-64-posix wine64 googletest dpkg-dev)

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
-# The compiler cache shares results between clones, including precompiled headers.
+# Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
@@ -14,17 +14,18 @@ cmake --preset release -DPH_WERROR=ON -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_
   -DPH_BUILD_BENCHMARKS=ON -DPH_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 cmake --build --preset release -j "$jobs"
 
-# Builds as on a machine without PCL and CGAL; the compiler cache has the same objects.
+# Builds as on a machine without PCL and CGAL; most objects come from the compiler cache.
 cmake --preset release -B build/core -DPH_WERROR=ON -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF \
   -DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON
 cmake --build build/core -j "$jobs"
 
 results=$PWD/build/release/tests.xml
 status=0
-# Tests labelled `quick` repeat the C++ tests with few seeds.
+# The tests labelled `quick` are left out, because they repeat C++ tests with few seeds.
 ctest --test-dir build/release -j "$jobs" -LE quick --output-on-failure --no-tests=error \
   --output-junit "$results" "$@" || status=$?
-# A test of many parts passes even if some were skipped; this lists what the machine lacks.
+# A test with many parts passes even if some parts were skipped. This list shows what the machine
+# lacks.
 awk '/^[0-9]+\/[0-9]+ Testing: / { test = $3 }
   /^skipped: / || / \.\.\. skipped / || /^SKIPPED / { print "skipped in " test ": " $0; ++parts }
   END { if (parts) printf "%d parts of tests skipped\n", parts }' build/release/Testing/Temporary/LastTest.log

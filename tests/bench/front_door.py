@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bench/front_door.py: its judgement of known figures, and the doors of this build on small
+"""bench/front_door.py: tests its judgement of known figures, and the doors of this build on small
 inputs."""
 import csv
 import math
@@ -21,8 +21,8 @@ sys.path.insert(0, str(BENCH))
 import front_door  # noqa: E402
 from front_door import Cost, Result  # noqa: E402
 
-# The largest ratios of CPU time and memory that a door may have on inputs of a fifth of the size.
-# On a quiet machine, all are 1 or below; the margin is for a busy one.
+# The largest allowed ratios of CPU time and memory, for inputs of a fifth of the size. On a quiet
+# machine, all ratios are 1 or below; the margin is for a busy machine.
 CPU_BOUND, MEMORY_BOUND = 2, 1.5
 SCALE = 0.2
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bench/parts/compare_ranks.py on a small volume, compared with a foreign program."""
+"""bench/parts/compare_ranks.py on a small volume, with another program as a peer."""
 import pathlib
 import shutil
 import subprocess

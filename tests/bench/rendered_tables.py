@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""bench/render_tables.py: the page of benchmarks has the figures of bench/results, and a planted
-difference is seen."""
+"""bench/render_tables.py: the benchmark page has the figures of bench/results, and a planted
+difference is found."""
 import pathlib
 import shutil
 import subprocess

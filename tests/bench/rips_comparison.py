@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""bench/compare_rips.py on a tiny input, with peers that are right, wrong, endless and greedy."""
+"""bench/compare_rips.py on a tiny input, with peers that are right, wrong, never end, or take too
+much memory."""
 import json
 import math
 import pathlib
@@ -62,7 +63,7 @@ class RipsComparison(unittest.TestCase):
                                "--output-format", "ripser"], capture_output=True, text=True, check=True).stdout
         (self.folder / "bars.txt").write_text(ours)
         self.compare("--rows", ROW, "--peer", self.peer("right"), "--peer", self.peer("endless"), "--time-limit", "1")
-        # A separate test, because sanitizers reserve more than this limit.
+        # This is a separate test, because sanitizers reserve more memory than the limit.
         self.compare("--rows", ROW, "--peer", self.peer("greedy"), "--only", "greedy", "--memory-limit", "1GiB",
                      "--no-check")
         row, results = self.results()
@@ -120,7 +121,8 @@ class RipsLimit(unittest.TestCase):
         return run.stdout
 
     def test_edges_up_to_the_enclosing_radius(self):
-        # A path of three steps: the radius is 2, so the pair of its ends is not an edge.
+        # Four points in a row with steps of 1: the enclosing radius is 2, and therefore the pair of
+        # the ends is not an edge.
         points = self.run_limit("points", b"0,0\n1,0\n\n2 0\n3 0")
         self.assertTrue(points.startswith("4 points, 5 edges, sorted"), points)
         lower = struct.pack("<6f", 1, 2, 1, 3, 2, 1)

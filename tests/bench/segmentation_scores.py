@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""bench/segmentation/segmentation_scores.py on small made scenes, with peers whose scores are known."""
+"""bench/segmentation/segmentation_scores.py on small synthetic scenes, with peers whose scores are
+known."""
 import itertools
 import json
 import pathlib
@@ -47,7 +48,7 @@ with open(output + ".csv", "w") as file:
 
 
 def table_scene(name):
-    """A table seen from above with two boxes, the second of which counts as two parts."""
+    """A table seen from above with two boxes; the second box consists of two parts."""
     truth = numpy.ones((240, 320), int)
     depth = numpy.full((240, 320), 1.0)
     for label, (rows, columns, z) in BOXES.items():
@@ -114,11 +115,12 @@ class Metrics(unittest.TestCase):
         self.assertEqual(both(metrics.score(table, 0 * table, False)), (1, 1, 1, 1))
         self.assertEqual(both(metrics.score(box, 0 * box, False)), (1, 0, 0, 0))
         self.assertEqual(both(metrics.score(table, table, False)), (0, 1, 0, 0))
-        self.assertEqual(both(metrics.score(0 * box, box, False)), (1, 1, 1, 1))  # no depth
+        # A frame without depth.
+        self.assertEqual(both(metrics.score(0 * box, box, False)), (1, 1, 1, 1))
 
     def test_supervoxels(self):
         truth = numpy.ones((8, 20), int)
-        truth[1:7, 2:10], truth[1:7, 10:18] = 20, 30  # two objects of 48 pixels, side by side
+        truth[1:7, 2:10], truth[1:7, 10:18] = 20, 30  # two objects of 48 pixels each, side by side
         halves = numpy.where(truth > 9, truth, 0)
         perfect = metrics.supervoxel_scores(truth, halves)
         self.assertEqual(
@@ -127,8 +129,9 @@ class Metrics(unittest.TestCase):
         self.assertEqual(metrics.supervoxel_scores(truth, halves + (truth == 1)), perfect)
         one = metrics.supervoxel_scores(truth, numpy.full(truth.shape, 7))
         self.assertEqual((one.supervoxels, one.boundary_recall), (1, 0))
-        self.assertEqual(one.under_segmentation, 1)  # for both objects, all of the other one
-        for step, recall in ((2, 1), (3, 0)):  # the border moves by this many columns
+        # For each object, the smaller part is the whole other object.
+        self.assertEqual(one.under_segmentation, 1)
+        for step, recall in ((2, 1), (3, 0)):  # the number of columns by which the border moves
             moved = numpy.where(numpy.indices(truth.shape)[1] < 10 + step, 1, 2)
             found = metrics.supervoxel_scores(truth, moved)
             self.assertEqual(found.boundary_recall, recall)
@@ -143,7 +146,7 @@ class Metrics(unittest.TestCase):
         objects = truth // 10 * (truth > 9)
         f = lambda step: metrics.score(truth, numpy.roll(objects, step, axis=1), False).boundary_f
         self.assertEqual((f(0), f(2)), (1, 1))
-        self.assertLess(f(3), 0.8)  # the rows above and below still agree
+        self.assertLess(f(3), 0.8)  # the rows of the upper and lower border still agree
 
 
 class Clouds(unittest.TestCase):

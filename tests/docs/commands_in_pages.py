@@ -28,7 +28,7 @@ BLOCK = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def commands_of(page):
-    """@return pairs (command, expected lines)."""
+    """@return pairs (command, lines of its expected output)."""
     commands = []
     for block in BLOCK.findall(page.read_text(encoding="utf-8")):
         for line in block.splitlines():
@@ -52,7 +52,8 @@ def matches(expected, printed):
 
 
 def why_left_out(command, path):
-    """True if the command writes a report and its program cannot, or needs a missing program."""
+    """The reason to skip a command: it writes a report but its program has none built in, or it
+    needs a program that is missing. Empty if it can run."""
     if "--report" in command and not has_page(shutil.which(command.split()[0], path=path)):
         return "reports are not built in"
     if "| jq " in command and not shutil.which("jq", path=path):
@@ -66,7 +67,7 @@ def pages_with_commands():
 
 
 def failures_of(page, path):
-    """Runs the commands of a page. @return the numbers of commands, of skipped ones, and of
+    """Runs the commands of a page. @return the numbers of commands, of skipped commands, and of
     differences."""
     commands, skipped, failures = commands_of(page), 0, 0
     if not commands:

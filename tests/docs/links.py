@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Follows each relative link of the Markdown files to a file, and to a heading in it; looks up each path in
-backticks: links.py ROOT."""
+"""Follows each relative link in the Markdown files to its file and to its heading, and looks up
+each path in backticks: links.py ROOT."""
 import os
 import re
 import sys
@@ -11,12 +11,13 @@ LINK = re.compile(r"\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\"")
 BLOCK = re.compile(r"```.*?```", re.DOTALL)
 SPAN = re.compile(r"`([^`\n]*)`")
 PATH = re.compile(r"((?:[\w.+-]+/)*)[\w.+-]+\.(\w+)")
-# A name with such an ending is looked up even without a folder. `ripser.h` is not ours.
+# File names with these extensions are looked up even without a folder. `ripser.h` belongs to
+# another project.
 OURS = {"cpp", "hpp", "ipp"}
-# A name with such an ending is looked up in any folder.
+# File names with these extensions are looked up in any folder.
 SOURCES = OURS | {"c", "cmake", "h", "in", "md", "mjs", "py", "sh", "ts"}
 NOT_OURS = {"build", "node_modules", ".git", "violations"}
-# This page may name files that are gone.
+# This page may name files that no longer exist.
 HISTORY = "CHANGELOG.md"
 
 
@@ -27,13 +28,13 @@ def files_of(root):
 
 
 def endings_of(files, root):
-    """Each path below the root and its ends: a/b/c, b/c, c."""
+    """Each path below the root with all its endings: for a/b/c, also b/c and c."""
     return {"/".join(file.relative_to(root).parts[first:]) for file in files
             for first in range(len(file.relative_to(root).parts))}
 
 
 def anchors_of(text):
-    """The anchors that GitHub makes from the headings."""
+    """The anchors that GitHub makes from the headings of a page."""
     found = set()
     for heading in re.findall(r"^#+ +(.*?)\s*$", BLOCK.sub("", text), re.MULTILINE):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
@@ -59,18 +60,19 @@ def dead_links(root, page):
 
 
 def is_of_source(word, root):
-    """True for a path in this repository. `examples/data/stack.pcd` is one; `out/a.csv` may be an
-    example."""
+    """True if the word is a path in this repository, such as `examples/data/stack.pcd`. In
+    contrast, `out/a.csv` may be an example."""
     match = PATH.fullmatch(word)
     if not match:
         return False
     folder, end = match.groups()
-    top = folder.split("/")[0]  # out: the output of scripts/demo.sh
+    top = folder.split("/")[0]  # out/ is where scripts/demo.sh writes
     return end in OURS or bool(folder) and (end in SOURCES or top != "out" and (root / top).is_dir())
 
 
 def dead_paths(root, page, endings):
-    """A path may be the end of a longer one, like `ph/rips.hpp`."""
+    """The paths on a page that do not exist. A path may be the ending of a longer one, like
+    `ph/rips.hpp`."""
     for span in SPAN.findall(BLOCK.sub("", page.read_text())):
         for word in span.split():
             if is_of_source(word, root) and word not in endings:

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Checks the rules for pages: pages.py ROOT.
 
-* It has one title, in its first line, and can be reached from docs/index.md by links.
+* A page has one title, in its first line, and can be reached from docs/index.md by links.
 * Prose is at most 100 characters wide.
-* A picture has an alternative text, and a picture in docs/images is on a page.
-* A block of code says its language. One of Python, C, C++ or a console is run by a test, or the
-  line before it says why not: <!-- not run: REASON -->.
-* The reference of C++ has all public headers.
+* A picture has an alternative text, and each picture in docs/images is shown on a page.
+* A block of code states its language. A block in Python, C, C++ or a console is run by a test, or
+  the preceding line says why not: <!-- not run: REASON -->.
+* The reference of C++ lists all public headers.
 """
 import re
 import sys
@@ -28,7 +28,7 @@ def pages_of(root):
 
 
 def without_code(text):
-    """Replaces each block of code by empty lines."""
+    """Replaces each block of code by as many empty lines."""
     return FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
 
 
@@ -39,7 +39,7 @@ def title_faults(text):
 
 
 def is_prose(line):
-    """Tables, comments and unbreakable text may be wider."""
+    """True for prose. Tables, comments and unbreakable text may be wider."""
     return not line.lstrip().startswith(("|", "<!--", "!", "[![")) and " " in line.strip()
 
 
@@ -77,7 +77,8 @@ def code_faults(text, page, compiled):
 
 
 def reachable(start):
-    """Pages to which links lead from one page, and pictures that these show."""
+    """The pages that can be reached from a page by links, and the pictures that these pages
+    show."""
     pages, pictures, ahead = set(), set(), [start]
     while ahead:
         page = ahead.pop()
@@ -94,13 +95,14 @@ def reachable(start):
 
 
 def compiled_pages(root):
-    """The pages whose programs CMake compiles."""
+    """The pages whose programs are compiled in the build."""
     lists = root / "tests/docs/CMakeLists.txt"
     return set(re.findall(r"^ph_page_programs\((\S+)", lists.read_text(), re.MULTILINE)) if lists.exists() else set()
 
 
 def missing_headers(root):
-    """Public headers that no page of the reference links to; ph.hpp only includes others."""
+    """Public headers that no page of the reference links to. ph.hpp is left out, because it only
+    includes the others."""
     pages = " ".join(page.read_text(encoding="utf-8") for page in (root / "docs/reference/cpp").glob("*.md"))
     for folder in ("libph", "libsegment", "libsegment/pcl", "libreport"):
         for header in sorted((root / folder / "include/ph").rglob("*.h*")):

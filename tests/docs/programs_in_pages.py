@@ -18,7 +18,7 @@ BLOCK = re.compile(r"^```(cpp|text)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def programs_of(page):
-    """@return pairs (source, what it prints)."""
+    """@return pairs (source, expected output)."""
     blocks = BLOCK.findall(Path(page).read_text(encoding="utf-8"))
     programs = []
     for (kind, text), (next_kind, printed) in zip(blocks, [*blocks[1:], ("", "")]):

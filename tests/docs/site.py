@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Checks the built site, page by page, as a browser reads it: site.py FOLDER.
 
-* A link within the site leads to a file, and to an element of it if it names one. Other links are
-not checked.
-* Nothing is loaded from elsewhere.
-* Each picture has an alternative text, each page a title and a heading.
-* index.html leads to each page.
+* A link within the site leads to an existing file, and to an existing element if it names one.
+  Other links are not checked.
+* Nothing is loaded from other servers.
+* Each picture has an alternative text, and each page has a title and a heading.
+* Each page can be reached from index.html.
 * No markup is left in the text: entities, fields, and sentences that were cut off.
 
 Exit code 77: there is no such folder.
@@ -19,13 +19,13 @@ import sys
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-# Pages that other tools make and test.
+# Pages that other tools make and other tests check.
 REPORTS = "reports/"
 LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 LEFTOVERS = {"an entity as text": r"&amp;#\w+;", "half a sentence": r"<p>\.\s[^<]{0,20}",
              "a field of a named tuple without words": r"Alias for field number \d+",
              "a link in a link": r"<a [^>]*></a>"}
-# A browser asks for these only when the reader does.
+# The browser loads these links only on the reader's request.
 NOT_LOADED = {"canonical", "index", "search", "next", "prev"}
 
 
@@ -63,7 +63,8 @@ class Page(html.parser.HTMLParser):
 
 @functools.cache
 def target_of(folder, link):
-    """The file that a link in a folder leads to ("": the page itself), and the element; None: it leads elsewhere."""
+    """The pair (file, element) that a link in a folder leads to; the file is "" for the page
+    itself. None if the link leads out of the site."""
     parts = urlsplit(link)
     if parts.scheme or parts.netloc:
         return None
@@ -77,7 +78,7 @@ def is_file(path):
 
 
 def dead(file, link, pages, root):
-    """The fault of a link within the site, or None."""
+    """What is wrong with a link within the site, or None."""
     target = target_of(os.path.dirname(file), link)
     if target is None:
         return None
@@ -90,7 +91,8 @@ def dead(file, link, pages, root):
 
 
 def leftovers(text):
-    """Text that Doxygen, Breathe or napoleon misread. @param text the file."""
+    """Markup that Doxygen, Breathe or napoleon misread and left in the text. @param text the
+    content of a file."""
     for what, pattern in LEFTOVERS.items():
         for found in re.findall(pattern, text):
             yield f"{found}: found {what}"
@@ -133,7 +135,7 @@ def main():
     pages = {str(file): Page(file) for file in files}
     found = reached(pages, str(root))
     faults = [f"{file}: {fault}" for file, page in pages.items() for fault in faults_of(file, page, pages, str(root))]
-    # The search field of each page leads to it.
+    # search.html is left out, because each page leads to it by its search field.
     faults += [f"{file}: index.html does not lead to it" for file in pages
                if file not in found and os.path.basename(file) != "search.html"]
     print("\n".join([*(fault.removeprefix(f"{root}{os.sep}") for fault in faults),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Lists words of the pages that are neither in hunspell's British dictionary nor in words.txt:
-spelling.py ROOT. words.txt has terms and names, one per line. Exit code 77: there is no hunspell,
-or it has no such dictionary."""
+spelling.py ROOT. words.txt has terms and names, one per line. Exit code 77: hunspell or its
+dictionary is missing."""
 import re
 import shutil
 import subprocess
@@ -12,7 +12,8 @@ from pathlib import Path
 from pages import pages_of, without_code
 
 WORDS = Path(__file__).with_name("words.txt")
-# Not prose: comments, code, targets of links, addresses, names of files, numbers with letters.
+# Text that is not prose: comments, code, targets of links, addresses, names of files, numbers with
+# letters.
 NO_PROSE = [re.compile(pattern, re.DOTALL) for pattern in (
     r"<!--.*?-->", r"`[^`]*`", r"\]\([^)]*\)", r"<[^>\n]*>", r"\bhttps?:\S+", r"\S*[/_@\\]\S*",
     r"\b\w+\.\w[\w.]*", r"\S*\d\S*", r"--?\w[\w-]*")]
@@ -20,7 +21,7 @@ WORD = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
 
 
 def words_of(page):
-    """Each word with the number of its first line."""
+    """Each word with the number of the first line where it occurs."""
     text = without_code(page.read_text(encoding="utf-8"))
     for pattern in NO_PROSE:
         text = pattern.sub(lambda match: " " + "\n" * match[0].count("\n"), text)
@@ -32,7 +33,7 @@ def words_of(page):
 
 
 def unknown(words):
-    """The words that the dictionary does not have."""
+    """The words that are missing from the dictionary."""
     result = subprocess.run(["hunspell", "-d", "en_GB", "-i", "utf-8", "-l"], input="\n".join(sorted(words)),
                             capture_output=True, text=True, check=False)
     if result.returncode != 0 or "Can't open" in result.stderr:

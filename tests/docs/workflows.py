@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that everything that a forge is asked to run exists: workflows.py ROOT.
+"""Checks that everything exists that a forge is asked to run: workflows.py ROOT.
 
 ROOT/.github/workflows has YAML files. Each job says where it runs and has steps, and each step runs
 a command or uses an action of a stated version. A program must belong to the image or be an
-executable file of this repository. Presets must exist in CMakePresets.json, with a build and a test
-preset of that name if they are built and tested. Sets must exist in scripts/setup.sh, platforms in
-scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a
-body. Exit code 77: PyYAML is missing, or, as in an archive of the sources, there is no such folder.
+executable file of this repository. Presets must exist in CMakePresets.json, with a build preset and
+a test preset of the same name if they are built and tested. Sets must exist in scripts/setup.sh,
+platforms in scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a
+description and a body. Exit code 77: PyYAML is missing, or there is no such folder, as in an
+archive of the sources.
 """
 import itertools
 import json
@@ -28,14 +29,16 @@ def names_of_presets(kind):
 
 
 def cases_of(script):
-    """The words that a script accepts: the patterns of the `case` that reports what it expected."""
+    """The words that a script accepts, which are the patterns of the `case` that reports invalid
+    ones."""
     text = (SOURCE / script).read_text(encoding="utf-8")
     patterns = re.findall(r"^ +([a-z][\w|-]*)\)(?: |$)", text, re.MULTILINE)
     return {word for pattern in patterns for word in pattern.split("|")}
 
 
 def variants(text, matrix):
-    """The command for each combination of the matrix's values that it names."""
+    """A command with its matrix variables replaced: one text for each combination of their
+    values."""
     names = sorted(set(WORD.findall(text)))
     for values in itertools.product(*(matrix.get(name, [None]) for name in names)):
         chosen = dict(zip(names, values))
@@ -80,7 +83,7 @@ def job_faults(job):
 
 
 def workflow_faults(content):
-    # YAML reads a bare `on` as true.
+    # PyYAML reads the key `on` as true.
     if not content.get("on", content.get(True)):
         yield "found no events"
     if not content.get("permissions"):

@@ -15,7 +15,7 @@ struct ColumnEngine {
   }
   template <ph::Filtration F>
   static ph::Suitability suitability(const F&, const ph::Task&) {
-    return {};  // only if asked for
+    return {};  // selected only if named explicitly
   }
   static constexpr int listed_dim(int max_dim) { return max_dim + 1; }
 
@@ -23,7 +23,8 @@ struct ColumnEngine {
   static void run(const F& f, const K& field, ph::BarcodeBuilder<F>& bars,
                   const ph::RunContext& context) {
     using Cell = typename F::Cell;
-    using Column = std::vector<std::pair<std::size_t, typename K::Element>>;  // rows ascend
+    // Rows in ascending order.
+    using Column = std::vector<std::pair<std::size_t, typename K::Element>>;
     const auto precedes = [&](const Cell& a, const Cell& b) { return f.precedes(a, b); };
     ph::prepare_cells(f, context);
     ph::Ticker ticker(context, "columns");
@@ -34,7 +35,7 @@ struct ColumnEngine {
       f.for_each_cell(dim, [&](const Cell& c) { columns.push_back(c); });
       std::sort(columns.begin(), columns.end(), precedes);
       is_cycle.assign(columns.size(), false);
-      std::unordered_map<std::size_t, Column> reduced;  // by lowest row
+      std::unordered_map<std::size_t, Column> reduced;  // keyed by their lowest rows
       for (std::size_t j = 0; j < columns.size(); ++j) {
         ticker.tick();
         Column column;
@@ -67,7 +68,7 @@ struct ColumnEngine {
   }
 
  private:
-  /// a + scale * b.
+  /// The sum a + scale * b.
   template <class Column, ph::Field K>
   static Column sum(const Column& a, typename K::Element scale, const Column& b, const K& field) {
     Column result;

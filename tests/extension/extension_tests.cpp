@@ -40,7 +40,7 @@ TEST(Extension, SimplicesOfAFunctionPassTheSuite) {
   for_each_seed(400, [&](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(1, 7);
     SimplexList list = random.simplices(n, 3, random.integer(0, 8), ties);
-    for (double& value : list.values) value -= 1;  // some below 0
+    for (double& value : list.values) value -= 1;  // some values are negative
     const LookedUp simplices(n, list);
     const auto listed_ones = ExplicitComplex::from_simplices(list);
     EXPECT_EQ(simplices.top_dim(), listed_ones.top_dim());
@@ -58,7 +58,8 @@ TEST(Extension, DiametersAreTheRipsFiltration) {
     const DistanceMatrix distances = random.distances(random.integer(2, 8), ties);
     const Diameters simplices(distances);
     check(simplices, 2, {field});
-    // With all simplices, because the enclosing radius leaves out only bars of length zero.
+    // The threshold keeps all simplices, because the enclosing radius would leave out only bars of
+    // length zero.
     const Rips rips(distances, {.threshold = 10});
     const Options options{.max_dim = 2, .field = field};
     EXPECT_EQ(first_difference(persistence(simplices, options), persistence(rips, options)), "");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Complexes with the bases of ph/custom.hpp and only the functions that these require.
+// Complexes with the base classes of ph/custom.hpp and only the functions that these base classes
+// require.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -9,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// Simplices from a list: simplices that are not in it never enter.
+/// Simplices from a list; other simplices never enter.
 class LookedUp : public ph::SimplexFiltration<LookedUp, 3> {
  public:
   LookedUp(ph::Index vertices, const ph::SimplexList& simplices) : vertices_(vertices) {
@@ -29,7 +30,7 @@ class LookedUp : public ph::SimplexFiltration<LookedUp, 3> {
   std::map<std::vector<ph::Index>, double> values_;
 };
 
-/// The Rips filtration of any metric, simplex by simplex.
+/// The Rips filtration of any metric, evaluated simplex by simplex.
 template <ph::Metric M>
 class Diameters : public ph::SimplexFiltration<Diameters<M>, 3> {
  public:
@@ -47,7 +48,7 @@ class Diameters : public ph::SimplexFiltration<Diameters<M>, 3> {
   M metric_;
 };
 
-/// The cells of another complex, by number.
+/// The cells of another complex, each named by its number.
 class Numbered : public ph::CellFiltration<Numbered, 4> {
  public:
   explicit Numbered(const ph::ExplicitComplex& cells) : cells_(cells) {}

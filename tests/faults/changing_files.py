@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Inputs that another process changes or cuts short while they are read: large ones are mapped."""
+"""Inputs that another process changes or truncates while they are read: large files are
+memory-mapped."""
 import os
 import random
 import signal
@@ -13,7 +14,7 @@ import files  # noqa: E402
 import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
-SHAPE = (96, 256, 256)  # 24 MiB of float32: files from 16 MiB on are mapped
+SHAPE = (96, 256, 256)  # 24 MiB of float32; files of at least 16 MiB are mapped
 
 
 class ChangingFiles(ProgramTest):
@@ -27,7 +28,7 @@ class ChangingFiles(ProgramTest):
         self.table = row * (17 * 2 ** 20 // len(row) + 1)
 
     def while_it_runs(self, arguments, change):
-        """@return exit code, standard error, seconds."""
+        """Changes the input during a run. @return exit code, standard error, seconds."""
         begin = time.monotonic()
         run = subprocess.Popen([program.PROGRAM, *arguments, "--quiet", "-o", "out.csv"], cwd=self.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

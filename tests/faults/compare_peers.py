@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """compare_peers.py PH_BARCODE PH_SEGMENT PEAK READ_WITH_PCL [-v]: runs the corpus of faults through
-other programs that read the format, and through ours. Writes the table of
-docs/explanation/reliability.md between its two markers. Run by hand: `-v` prints each run. Needs
+our programs and through other programs that read the same formats. Writes the table of
+docs/explanation/reliability.md between its two markers. Run by hand; `-v` prints each run. Needs
 ripser and python3-gudhi."""
 import collections
 import contextlib
@@ -33,10 +33,10 @@ GROUPS = {
     "PCD": ("pcd",), "PLY": ("ply",),
 }
 GROUP_OF_FORM = {form: group for group, forms in GROUPS.items() for form in forms}
-# Not its `binary` format: Debian's build aborts on sound files.
+# Ripser's format `binary` is left out: Debian's build aborts on valid files.
 RIPSER_FORMATS = {"points": "point-cloud", "distance": "distance", "lower-distance": "lower-distance",
                   "upper-distance": "upper-distance", "sparse": "sparse", "dipha": "dipha"}
-# Misuse that both command lines know: ours, Ripser's.
+# Misuse that both command lines allow: our arguments, and Ripser's.
 COMMANDS = [
     (["--max-dim", "-1"], ["--dim", "-1"]),
     (["--max-dim", "x"], ["--dim", "x"]),
@@ -80,13 +80,13 @@ class Run:
             self.kib = int((file.read().split() or ["0"])[0])
 
     def kind(self, expected, result):
-        """@param expected the right result of a valid file; None: the file is faulty.
-        @param result what was computed; nothing: none."""
+        """@param expected the right result of a valid file; None if the file is faulty.
+        @param result the computed result; empty if there is none."""
         if self.timed_out or self.kib > MOST_KIB:
             return ENDLESS
         if self.code < 0:
             return CRASH
-        # A message without a result is also an error, whatever the exit code.
+        # A message without a result is an error as well, whatever the exit code.
         if self.code != 0 or (not result and self.err.strip() and expected is None):
             return CLEAN if expected is None else REFUSED
         return RIGHT if expected is not None and same(result, expected) else WRONG
@@ -102,7 +102,7 @@ def same(result, expected):
 
 
 def bars_of_rows(text):
-    """Lines `dim birth death`, or our CSV."""
+    """The bars in lines `dim birth death`, or in our CSV."""
     rows = [re.split(r"[ ,]+", line.strip()) for line in text.splitlines()]
     bars = [(int(r[0]), float(r[1]), float(r[2])) for r in rows
             if len(r) == 3 and r[0].isdigit()]
@@ -120,7 +120,7 @@ def bars_of_ripser(text):
 
 
 def points_of_pcl(text):
-    """The last line; what PCL has to say comes before it."""
+    """The number of points, which is in the last line. PCL prints its messages before it."""
     lines = text.split()
     return int(lines[-1]) if lines and lines[-1].isdigit() else 0
 
@@ -130,9 +130,10 @@ def content_of(entry):
 
 
 def is_for_peers(entry):
-    """True if the entry tests more than a rule of our own: a file read as its format, without
-    options. Left out are lines that are too long for us, infinity as text, data after the declared
-    end (the data before it may be complete), and packed files."""
+    """True if the entry is a fair test of other programs: a file read in its own format without
+    options. Entries that only test rules of libph are left out: lines that are too long for libph,
+    infinity as text, data after the declared end (the preceding data may be complete), and packed
+    files."""
     options = set(entry.arguments[1:]) - {"--check", "--format", *FORMS[entry.form].options, entry.form}
     return (entry.row not in (8, 41) and not (entry.row in (10, 11) and entry.code == 0)
             and not content_of(entry).startswith(b"\x1f\x8b")
@@ -145,9 +146,10 @@ class Ripser:
     def takes(self, entry):
         if entry.form not in RIPSER_FORMATS or not is_for_peers(entry):
             return False
-        if entry.form == "dipha":  # of these it reads distance matrices
+        if entry.form == "dipha":  # of DIPHA's files, Ripser reads distance matrices
             return content_of(entry)[8:9] == b"\7" or len(content_of(entry)) < 16
-        # Header rows are no part of its formats; it computes in single precision, as it says.
+        # Ripser's formats have no header rows. Ripser computes in single precision, as its
+        # documentation says.
         return entry.code != 0 or entry.row not in (18, 88, 89)
 
     def command(self, entry, _folder, file):
@@ -161,21 +163,23 @@ class Gudhi:
         content = content_of(entry)
         if entry.form not in ("lower-distance", "off", "perseus") or not is_for_peers(entry):
             return False
-        if entry.form == "lower-distance":  # a row a line
+        if entry.form == "lower-distance":  # GUDHI expects one row per line
             return b"\n" in content.rstrip(b"\n")
-        if entry.form == "off":  # the points of it; faces are not read, as it says
+        # GUDHI reads only the points of OFF files, as its documentation says.
+        if entry.form == "off":
             return not re.match(rb"OFF\s(#.*\s)?\d+ -?[1-9]", content)
-        # Neither infinity, nor periodic axes, nor Perseus' list of cubes.
+        # GUDHI supports neither infinity nor periodic axes nor Perseus' list of cubes.
         return (b"inf" not in content and b"\n-" not in content and "cube" not in entry.name
                 and "coordinate" not in entry.name)
 
     def command(self, entry, folder, file):
         content = content_of(entry)
-        if entry.form == "lower-distance":  # its triangle has a first, empty, row and semicolons
+        # GUDHI's triangle begins with an empty row and has semicolons.
+        if entry.form == "lower-distance":
             content = b"\n" + content.replace(b" ", b";")
-        elif entry.form == "perseus":  # it reads a number a line
+        elif entry.form == "perseus":  # GUDHI expects one number per line
             content = re.sub(b"[ \t]+", b"\n", content)
-        else:  # the counts on a line of their own
+        else:  # GUDHI expects the counts on a separate line
             content = re.sub(rb"^OFF ", b"OFF\n", content)
         with open(os.path.join(folder, file), "wb") as copy:
             copy.write(content)
@@ -210,7 +214,7 @@ class Ours:
 
 
 def expected_of(entry, peer):
-    """@return the right result, or None for a faulty file."""
+    """@return the right result for this peer, or None for a faulty file."""
     if entry.code != 0:
         return None
     if peer.name == "PCL":
@@ -244,7 +248,8 @@ SOUND = {"points": ("points", "blank.txt"), "distance": ("distances", "full.txt"
 
 
 def calibrate(ours, peers, peak):
-    """A peer that fails on a sound file was called in the wrong way: then no table is written."""
+    """Runs all programs on valid files. A peer that fails on one was called in the wrong way, and
+    then no table is written."""
     for form, place in SOUND.items():
         options = ("--labels", "-") if FORMS[form].program == "ph-segment" else ()
         if form == "perseus":
@@ -258,7 +263,8 @@ def calibrate(ours, peers, peak):
 
 
 def all_runs(ours, peers, peak):
-    """Yields group, name of the program, what was tried, its run, and the outcome."""
+    """Yields the group, the name of the program, what was tried, the run, and the kind of
+    outcome."""
     for entry in corpus.ENTRIES:
         if entry.form in GROUP_OF_FORM:
             for peer in (ours, *(p for p in peers if p.takes(entry))):
@@ -272,7 +278,7 @@ def all_runs(ours, peers, peak):
 
 
 def table(counts):
-    """@param counts (group, program) to a counter of kinds."""
+    """@param counts maps (group, program) to a counter of outcomes."""
     lines = [f"| input | program | tried | {' | '.join(KINDS)} |", "|---|---|" + "--:|" * (len(KINDS) + 1)]
 
     def line(group, program, found):

@@ -19,24 +19,24 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import part_files  # noqa: E402
 
-SLACK = 2         # a busy machine is not exact
-SMALLEST = 0.03   # seconds: a shorter time is the start of a program
-UNHEARD = 0.3     # seconds: a shorter time is never too long
+SLACK = 2         # times on a busy machine are not exact
+SMALLEST = 0.03   # seconds: in a shorter run, starting the program takes most of the time
+UNHEARD = 0.3     # seconds: a shorter run never counts as too slow
 TRIES = 3
-LARGER = 4        # times as large in the full form
+LARGER = 4        # factor of the sizes with `full`
 SECONDS = 120
 
 
 @dataclasses.dataclass(frozen=True)
 class Attack:
     name: str
-    make: object        # make(n): files, name to content
-    arguments: tuple    # the program without "ph-" first
+    make: object        # make(n) returns files: name to content
+    arguments: tuple    # the first one names the program, without "ph-"
     size: int           # n
-    power: float = 1.2  # time grows no faster than n to this power; 1.2: n log n
+    power: float = 1.2  # time must not grow faster than n to this power; 1.2: n log n
     codes: tuple = (0,)
-    stop: int = 0       # this many times n must reach a limit of 64 MiB
-    foresee: bool = False  # --dry-run must predict that 16 n takes much more than n
+    stop: int = 0       # at this multiple of n, a limit of 64 MiB must be reached
+    foresee: bool = False  # --dry-run must predict much more memory for 16 n than for n
 
 
 def text(rows):
@@ -48,7 +48,8 @@ def points(function):
 
 
 def skew_lines(n):
-    """Each edge of one line is joined to each of the other: n^2 / 4 tetrahedra."""
+    """Points on two skew lines: each edge of one line and each edge of the other span a
+    tetrahedron, n^2 / 4 in total."""
     half = n // 2
     return [(i / half, 0., 0.) for i in range(half)] + [(.5, i / half - .5, 1.) for i in range(half)]
 
@@ -85,15 +86,14 @@ def two_far(n):
 
 
 def tiny_cluster(n):
-    """Points so near each other that squares of their distances underflow, and one that is far
-    away."""
+    """Points so close to each other that the squares of their distances underflow, and one point
+    far away."""
     seed = random.Random(3)
     return [[seed.random() * 1e-150 for _ in range(3)] for _ in range(n)] + [(1., 1., 1.)]
 
 
 def doubling(n):
-    """Each point is as far from its predecessor as the predecessor is from the first, many times
-    over."""
+    """Points whose distances from the first point double at each step, over and over again."""
     return [(math.ldexp(1., i % 1000 - 500), float(i // 1000)) for i in range(n)]
 
 
@@ -114,7 +114,7 @@ def lattice(n):
 
 
 def raw(shape, value):
-    """An image of n voxels of one byte."""
+    """A raw image with n voxels of one byte."""
     def make(n):
         return {"i.raw": bytes(value(i) for i in range(n))}
     return make, shape
@@ -129,7 +129,7 @@ def two_hubs(n):
 
 
 def full_simplex(n):
-    """All faces of the simplex that has about n."""
+    """All faces of a simplex that has about n faces."""
     count = max(2, n.bit_length() - 1)
     rows = sorted((bin(mask).count("1"), mask) for mask in range(1, 1 << count))
     return {"f.simplices": "".join(
@@ -188,7 +188,8 @@ def texts():
 
 
 ATTACKS = [
-    # The triangulation itself has so many simplices; it must be built, and a limit stops it.
+    # The triangulation itself has about n² simplices. It must be built, and a memory limit stops
+    # it.
     Attack("alpha: two skew lines", points(skew_lines), ALPHA, 250, 2.2, stop=64),
     Attack("alpha: the moment curve", points(moment_curve), ALPHA, 250, 2.4, stop=64),
     Attack("alpha: points of a sphere", points(sphere), ALPHA, 1500),
@@ -202,11 +203,12 @@ ATTACKS = [
     Attack("components: all equal", points(equal), H0, 20_000),
     Attack("components: a line", points(line), H0, 10_000),
     Attack("components: points of a circle", points(circle), H0, 5000),
-    # All distances from one cluster to the other are equal after rounding: each is examined.
+    # After rounding, all distances from one cluster to the other are equal, and each of them is
+    # examined.
     Attack("components: two clusters that are far", points(two_far), H0, 3000, 2.2),
     Attack("components: a cluster of 1e-150", points(tiny_cluster), H0, 5000),
     Attack("components: distances that double", points(doubling), H0, 5000),
-    # Points that enter late are compared with all others.
+    # Points that enter late are compared with all other points.
     Attack("births: all equal", points(equal), DTM, 2000, 2.2),
     Attack("births: a cluster of 1e-150", points(tiny_cluster), DTM, 2000, 2.2),
     Attack("births: two clusters that are far", points(two_far), DTM, 2000, 2.2),
@@ -255,7 +257,7 @@ class Programs:
         self.paths = {os.path.basename(path): os.path.abspath(path) for path in paths}
 
     def run(self, attack, n, *more):
-        """@return exit code, seconds of CPU, what it printed."""
+        """@return exit code, CPU seconds, output."""
         with tempfile.TemporaryDirectory() as folder:
             files = attack.make(n)
             for name, content in files.items():
@@ -281,9 +283,9 @@ class Programs:
             return run.returncode, seconds, (run.stdout + run.stderr).decode("utf-8", "replace")
 
     def faults(self, attack, larger):
-        """@return the fault, and the seconds of each size."""
+        """@return what is wrong, and the seconds of each size."""
         n = attack.size * larger
-        for attempt in range(TRIES):  # a machine is slow now and then, an algorithm always
+        for attempt in range(TRIES):  # a machine is slow now and then, an algorithm every time
             seconds = []
             for size in (n, 2 * n, 4 * n):
                 code, taken, said = self.run(attack, size)
@@ -299,7 +301,8 @@ class Programs:
         return self.unbounded(attack, n // larger), seconds
 
     def unbounded(self, attack, n):
-        """The fault in the bounds of attacks that grow fast."""
+        """What is wrong with the limits or forecasts of an attack that grows fast; empty if nothing
+        is."""
         if attack.foresee:
             foreseen = [foreseen_bytes(self.run(attack, size, "--dry-run")[2]) for size in (n, 16 * n)]
             if not 0 < 64 * foreseen[0] < foreseen[1]:
@@ -313,7 +316,7 @@ class Programs:
 
 
 def foreseen_bytes(text_of_run):
-    """The largest prediction of --dry-run; 0 if there is none."""
+    """The largest memory that --dry-run predicts; 0 if there is no prediction."""
     units = {"B": 1, "bytes": 1, "KiB": 2**10, "MiB": 2**20, "GiB": 2**30, "TiB": 2**40, "PiB": 2**50}
     for words in map(str.split, text_of_run.splitlines()):
         if words[:1] == ["memory"] and words[-1] in units:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""All entries, in the order of their rows."""
+"""All entries of the corpus, in the order of their rows."""
 import os
 import sys
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""One line of the corpus: a faulty, or a strange but valid, use of a program, and the required
-outcome."""
+"""One entry of the corpus: a use of a program that is faulty, or strange but valid, and the
+required outcome."""
 import contextlib
 import dataclasses
 import os
@@ -9,7 +9,7 @@ import typing
 
 import samples
 
-# The subject of each row of the table of faults.
+# The subject of each row in the table of faults.
 ROWS = {
     1: "empty file", 2: "only blanks or comments", 3: "byte order mark", 4: "CRLF", 5: "UTF-16",
     6: "NUL bytes", 7: "binary given as text", 8: "everything on one line",
@@ -41,13 +41,14 @@ ROWS = {
     91: "organised cloud all NaN", 92: "one valid pixel", 93: "height 1", 94: "label already there",
     95: "rgb whose float is NaN", 96: "zero normals",
 }
-# To be refused before any allocation: headers that lie, and files that unpack to excessive sizes.
+# Files to be refused before anything is allocated: headers with wrong sizes, and files that unpack
+# to excessive sizes.
 FRUGAL_ROWS = range(31, 43)
 
 
 @dataclasses.dataclass(frozen=True)
 class Form:
-    """A format as a program accepts it: the extension of its files, and the options that select
+    """A format that a program accepts: the extension of its files, and the options that select
     it."""
     extension: str
     options: tuple = ()
@@ -88,33 +89,35 @@ class Entry:
     program: str
     arguments: tuple
     code: int
-    message: str = ""   # regular expression: the line of a failure, or a note of a success
-    named: str = ""     # file or option that the line of a failure names
-    files: typing.Mapping = dataclasses.field(default_factory=dict)  # name to content
+    message: str = ""   # regular expression for the line of a failure, or for a note of a success
+    named: str = ""     # file or option that the error line names
+    files: typing.Mapping = dataclasses.field(default_factory=dict)  # maps names to contents
     output: typing.Optional[str] = None   # of a success, on stdout
-    form: str = ""      # key of FORMS; empty: not about a file's content
-    around: typing.Optional[typing.Callable] = None  # see `plain`
-    after: typing.Optional[typing.Callable] = None   # after(folder): what is wrong then, or nothing
-    creates: tuple = ()                   # files that did not exist before
-    unprivileged: bool = False            # useless as root
-    frugal: typing.Optional[bool] = None  # held to the limits of a header that lies; None: by row
+    form: str = ""      # key of FORMS; empty if the entry is not about a file's content
+    around: typing.Optional[typing.Callable] = None  # a context manager like `plain`
+    # after(folder) returns what is wrong after the run, or nothing.
+    after: typing.Optional[typing.Callable] = None
+    creates: tuple = ()                   # files that must exist only after the run
+    unprivileged: bool = False            # run as another user, because root is exempt
+    # Held to the limits for false headers; None: depends on the row.
+    frugal: typing.Optional[bool] = None
 
 
 class Unavailable(Exception):
-    """A requirement of an entry is missing: it is skipped, with this reason."""
+    """A requirement of an entry is missing. The entry is skipped for this reason."""
 
 
 @contextlib.contextmanager
 def plain(_folder):
-    """The environment of a run: prepares a folder, yields options of subprocess.Popen, cleans
-    up."""
+    """A context manager for the environment of a run: prepares a folder, yields options of
+    subprocess.Popen, and cleans up."""
     yield {}
 
 
 @contextlib.contextmanager
 def set_up(entry):
-    """Yields a separate folder for the entry, with its files, and options of subprocess.Popen.
-    Files beside the folder are removed with it."""
+    """Prepares a separate folder with the files of the entry, and yields it with options of
+    subprocess.Popen. Files beside the folder are removed with it."""
     with tempfile.TemporaryDirectory() as outer:
         folder = os.path.join(outer, "here")
         os.mkdir(folder)
@@ -134,20 +137,21 @@ def of_file(row, form, name, content, options, **others):
 
 
 def refused(row, form, name, content, message, *options, code=65, **others):
-    """A file that must be refused."""
+    """An entry for a file that must be refused."""
     return of_file(row, form, name, content, options, code=code, message=message,
                    **{"named": "input" + FORMS[form].extension, **others})
 
 
 def taken(row, form, name, content, output, *options, note="", **others):
-    """A file that looks doubtful and is valid. @param output the program's; a cloud's labels."""
+    """An entry for a file that looks doubtful but is valid. @param output the output of the
+    program; for a cloud, the labels."""
     if FORMS[form].program == "ph-segment":
         options = (*options, "--labels", "-", "--quiet")
     return of_file(row, form, name, content, options, code=0, output=output, message=note, **others)
 
 
 def bars(*rows):
-    """@param rows "0,0,inf". @return the CSV of these bars."""
+    """@param rows bars such as "0,0,inf". @return the CSV with these bars."""
     return "\n".join(("dim,birth,death", *rows, ""))
 
 
@@ -160,14 +164,14 @@ def sample(reader, name):
 
 
 def with_change(content, old, new):
-    """The content with the first `old` replaced, which must be there."""
+    """The content with the first occurrence of `old` replaced; there must be one."""
     if old not in content:
         raise ValueError(f"nothing to change: no {old!r}")
     return content.replace(old, new, 1)
 
 
 def with_bytes(content, offset, new):
-    """The content with other bytes at an offset; a negative one counts from the end."""
+    """The content with other bytes at an offset. A negative offset counts from the end."""
     begin = offset % len(content)
     if begin + len(new) > len(content):
         raise ValueError("nothing to change: behind the end")

@@ -1,25 +1,24 @@
 # SPDX-License-Identifier: MIT
 """named_options.py SOURCE_FOLDER PROGRAM…: checks that each option named in a message of the
-sources exists in the program that prints it. A text in a folder of one program belongs to that
-program; shared texts may name only options that all programs have. Programs are ph-barcode,
-ph-segment and others."""
+sources exists in the program that prints the message. A text in the folder of one program belongs
+to that program; a shared text may name only options that all programs printing it have. Programs
+are ph-barcode, ph-segment and others."""
 import os
 import re
 import sys
 
 from run_corpus import named_options, options_of
 
-# The sources with which ph-segment reads its inputs, beside the folders core/, metric/ and
-# complex/.
+# Sources that read inputs of ph-segment, in addition to the folders core/, metric/ and complex/.
 READERS_OF_CLOUDS = re.compile(
     r"io/(clouds/|images/png|tables/text_lines|bytes/(input|unpack|lzf|binary_cursor|output_file))")
-# Sources for inputs that only ph-segment reads.
+# Sources that read inputs only for ph-segment.
 DEPTH_AND_ARRAYS = re.compile(r"io/clouds/(depth|npy_cloud|camera)")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
 def texts_of(path):
-    """The string literals of a file, with their lines; comments are left out."""
+    """The string literals of a file without those in comments, each with its line."""
     with open(path, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             if line.lstrip().startswith(("//", "#include")):
@@ -36,7 +35,7 @@ def sources(folder):
 
 
 def programs_of(path):
-    """The programs that print the texts of this file."""
+    """The programs that print the texts of a source file."""
     own = re.match(r"apps/(barcode|vectorise|distance)/", path)
     if own:
         return ("ph-" + own[1],)
@@ -46,7 +45,7 @@ def programs_of(path):
         return ("ph-barcode",)
     if path.startswith("apps/common/distances/"):
         return ("ph-distance",)
-    # Code that draws pictures names their options.
+    # Code that draws pictures names options for pictures.
     if path.startswith("apps/common/") and "plot" not in path:
         return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance")
     return ("ph-barcode", "ph-segment")

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   if (report == NULL) return 126;
   pid_t child = fork();
   if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL); /* a time limit ends this program: the other one goes too */
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* ends with this program if a time limit stops it */
     execv(argv[2], argv + 2);
     _exit(127);
   }
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
                            usage.ru_utime.tv_usec + usage.ru_stime.tv_usec;
   fprintf(report, "%ld %lld\n", usage.ru_maxrss, microseconds);
   if (fclose(report) != 0) return 126;
-  if (WIFSIGNALED(status)) { /* die like the program, without a second core dump */
+  if (WIFSIGNALED(status)) { /* dies of the same signal, without a second core dump */
     const struct rlimit none = {0, 0};
     setrlimit(RLIMIT_CORE, &none);
     signal(WTERMSIG(status), SIG_DFL);

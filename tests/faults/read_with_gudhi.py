@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""read_with_gudhi.py lower-distance|off|perseus FILE: reads a file with GUDHI's own reader, as in
-its manual, and prints the bars `dim birth death`. Run by compare_peers.py."""
+"""read_with_gudhi.py lower-distance|off|perseus FILE: reads a file with GUDHI's own reader, as its
+manual shows, and prints the bars as `dim birth death`. Called by compare_peers.py."""
 import sys
 
 import gudhi
@@ -19,6 +19,6 @@ else:
     count = len(rows)
     complex_ = gudhi.RipsComplex(distance_matrix=rows).create_simplex_tree(max_dimension=2)
 if count == 0:
-    sys.exit(0)  # nothing was read; stderr shows whether it said so
+    sys.exit(0)  # nothing was read; the messages on stderr show if GUDHI reported it
 for dim, (birth, death) in complex_.persistence():
     print(dim, birth, death)

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   const int code = path.ends_with(".ply") ? pcl::io::loadPLYFile(path, cloud)
                                           : pcl::io::loadPCDFile(path, cloud);
   if (code < 0) return 1;
-  double sum = 0;  // reads every point, like any user of the cloud
+  double sum = 0;  // reads every point, as any user of the cloud would
   for (const pcl::PointXYZ& point : cloud) sum += point.x + point.y + point.z;
   std::cerr << "sum of the coordinates " << sum << "\n";
   std::cout << cloud.size() << "\n";

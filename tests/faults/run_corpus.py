@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: runs every entry of
-the corpus (whose name has the words) in a separate folder and checks the promise: the exit code,
-one line on stderr that names the file or the option, nothing on stdout, nothing written, no
-temporary file, within a second, and within 16 MiB and 50 ms if a header lies. PEAK is the program
-of peak.c."""
+the corpus (with WORDS, those whose name contains the words) in a separate folder. It checks the
+promises about faulty inputs: the exit code, one line on stderr that names the file or the option,
+nothing on stdout, nothing written, no temporary file, an end within a second, and at most 16 MiB
+and 50 ms if a header is false. PEAK is the program of peak.c."""
 import collections
 import os
 import pathlib
@@ -17,11 +17,11 @@ import time
 import corpus
 from entry import FRUGAL_ROWS, ROWS, Unavailable, set_up
 
-SECONDS = 1  # of CPU; a busy machine may take ten times as long on the clock
-TRIES = 3  # for times only: a loaded machine is slow now and then, a program always
+SECONDS = 1  # CPU seconds; on a busy machine, the wall-clock time may be ten times as long
+TRIES = 3  # only for times: a busy machine is slow now and then, a slow program every time
 FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
 NOBODY = 65534
-PAGES = "README.md", "docs/explanation/reliability.md"  # they state the number of entries
+PAGES = "README.md", "docs/explanation/reliability.md"  # these pages state the number of entries
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd", "ph-distance": "out.csv",
           "ph-vectorise": "out.csv"}
 
@@ -31,7 +31,7 @@ def named_options(text):
 
 
 def options_of(program):
-    """The options that the help of a program lists."""
+    """The options listed in the help of a program."""
     return set(named_options(subprocess.run([program, "--help", "all"], capture_output=True,
                                             text=True, timeout=60, check=True).stdout))
 
@@ -43,14 +43,15 @@ class Runner:
         self.options = {name: options_of(program) for name, program in self.programs.items()}
         with open(programs[0], "rb") as file:
             content = file.read()
-        # Instrumentation in a build takes memory and time as well.
+        # Instrumentation takes memory and time as well.
         self.is_watched = b"__asan_init" in content or b"__gcov_exit" in content
         self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 
     def let_nobody_in(self):
-        """The programs may be in a folder of root's: copies are placed where another user may start
-        them. @return why the user may not; empty if they may."""
-        self.copies = tempfile.TemporaryDirectory()  # as long as the runner
+        """Copies the programs to a place where another user can start them, because they may be in
+        a folder that only root can read. @return the reason why the user cannot; empty if the user
+        can."""
+        self.copies = tempfile.TemporaryDirectory()  # removed with the runner
         os.chmod(self.copies.name, 0o755)
         self.programs = {name: shutil.copy(path, self.copies.name)
                          for name, path in self.programs.items()}
@@ -64,8 +65,8 @@ class Runner:
         return None
 
     def faults(self, entry):
-        """@return a description of the violation; empty if all is well. @throws Unavailable if it
-        cannot be tested here."""
+        """@return what is wrong with the entry's outcome; empty if nothing is. @throws Unavailable
+        if the entry cannot be tested here."""
         if entry.unprivileged and self.obstacle:
             raise Unavailable(self.obstacle)
         for _ in range(TRIES):
@@ -75,7 +76,7 @@ class Runner:
         return fault
 
     def try_once(self, entry):
-        """@return the fault, and whether it is only about time."""
+        """@return what is wrong, and whether it is only a matter of time."""
         with set_up(entry) as (folder, options):
             if entry.unprivileged and os.geteuid() == 0:
                 os.chmod(os.path.dirname(folder), 0o755)
@@ -87,12 +88,12 @@ class Runner:
         before = sorted(os.listdir(os.fsencode(folder)))
         report = os.path.join(os.path.dirname(folder), "report")
         with open(report, "wb"):
-            os.chmod(report, 0o666)  # another user may write it
+            os.chmod(report, 0o666)  # another user must be able to write it
         arguments = list(entry.arguments)
         if entry.code != 0:
             if "-o" not in arguments:
                 arguments[:0] = ["-o", OUTPUT[entry.program]]
-            arguments.insert(0, "--quiet")  # what is left on stderr is the failure
+            arguments.insert(0, "--quiet")  # without other messages, stderr has only the failure
         options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE,
                    "stderr": subprocess.PIPE, **options}
         content = options.pop("input", None)
@@ -122,8 +123,8 @@ class Runner:
         return self.cost_fault(entry, seconds, kib, microseconds)
 
     def unknown_options(self, entry, message):
-        """Options that a message recommends and that the program lacks; text that the user typed
-        may be anything."""
+        """Options that a message recommends although the program lacks them. Text typed by the user
+        may contain anything."""
         written = " ".join(map(os.fsdecode, entry.arguments))
         return [f"it names {option}, which {entry.program} has not: {message!r}"
                 for option in sorted(set(named_options(message)) - self.options[entry.program])

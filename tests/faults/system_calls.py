@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """system_calls.py PH_BARCODE PH_SEGMENT [STEP]: makes each system call fail, each time it is made.
 
-strace counts the calls of a run, then makes the first one fail, the second one, and so on, once
-with each error that it may have. Whatever fails, the run ends in time with a documented exit code.
-With 0, the outputs equal those of a run without failures. Otherwise there is one error line, each
-output is complete or absent, and nothing else is left in the folder. STEP: only every STEP-th
-call."""
+strace counts the calls of a run. The script then runs the program again and again: the first call
+fails, then the second, and so on, once with each error that the call may have. Whatever fails, the
+run ends in time with a documented exit code. With 0, the outputs equal those of a run without
+failures. Otherwise there is one error line, each output is complete or absent, and nothing else is
+left in the folder. STEP: only every STEP-th call."""
 import collections
 import os
 import pathlib
@@ -32,8 +32,8 @@ ERRORS = {
     "readlink": ("EACCES", "EINVAL"), "sched_getaffinity": ("EINVAL",), "mkdir": ("EACCES",),
     "getdents64": ("EIO",), "statfs": ("EIO",), "statx": ("ENOSYS",), "rt_sigaction": ("EINVAL",),
     "clock_gettime": ("EINVAL",), "clock_nanosleep": ("EINVAL", "EINTR"), "sigaltstack": ("EPERM",)}
-# Without these, no program starts, or the C library ends it. A failing brk returns the old end
-# instead of an error, which strace cannot imitate; mmap represents it.
+# If one of these fails, no program starts, or the C library ends it. A failing brk returns the old
+# end of the heap instead of an error, which strace cannot imitate; mmap is tested in its place.
 OF_LIBC = {"brk", "execve", "arch_prctl", "set_tid_address", "set_robust_list", "rseq", "futex", "exit_group", "exit",
            "rt_sigprocmask", "rt_sigreturn", "sched_yield", "gettid", "getpid", "tgkill", "uname", "getuid",
            "geteuid", "getgid", "getegid", "umask", "restart_syscall"}
@@ -42,7 +42,7 @@ POINTS = "0 0\n1 0\n1 1\n0 1.25\n"
 
 
 def cloud():
-    """A table, seen as a camera sees it, with a box on it."""
+    """A cloud of a table with a box on it, as a camera sees it."""
     rows = [(x / 100, y / 100, 0.9 if 10 <= x < 22 and 10 <= y < 22 else 1.0)
             for y in range(40) for x in range(40)]
     return f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(rows)}\nHEIGHT 1\n" \
@@ -50,7 +50,7 @@ def cloud():
                f"{x} {y} {z}\n" for x, y, z in rows)
 
 
-# Inputs, commands to run before, the program with its arguments, outputs.
+# Inputs, preparatory commands, the program with its arguments, outputs.
 Scene = collections.namedtuple("Scene", "name inputs before program arguments outputs")
 
 
@@ -103,18 +103,18 @@ class Run:
 
 
 def fault_of(run, whole, scene, name):
-    """The fault, or nothing."""
+    """What is wrong with a run, or nothing."""
     if run.code == 127 and "loading shared libraries" in run.lines[-1]:
-        return None  # the program did not begin
+        return None  # the program did not start
     if run.code not in CODES:
         return f"found exit {run.code}, expected one of {sorted(CODES)}"
     if run.left and name != "unlink":
         return f"found {run.left} in the folder"
-    # A batch reports at the end how many inputs failed.
+    # A batch reports at the end how many of its inputs failed.
     errors = [line for line in run.lines if line not in whole.lines and not line.endswith(" inputs failed")]
     for output in scene.outputs:
         content = run.files.get(output)
-        if output.endswith(".html"):  # has times in it
+        if output.endswith(".html"):  # a report contains times
             is_whole = content is not None and content.rstrip().endswith(b"</html>")
         else:
             is_whole = content == whole.files[output]
@@ -122,7 +122,7 @@ def fault_of(run, whole, scene, name):
             return f"found {output} {'missing' if content is None else 'other than it is'}"
     if run.code == 0:
         return None if run.out == whole.out else "found another standard output"
-    # Messages that cannot be written to standard error are lost.
+    # If writing to standard error fails, the message is lost.
     return None if len(errors) == 1 or name == "write" else f"found {run.lines}, expected one error"
 
 

@@ -3,7 +3,7 @@
 
     <!-- site: KIND ARGUMENTS -->
 
-which readers of the file do not see. Kinds:
+which is invisible to readers of the file. Kinds:
 
     cpp HEADER…         what public headers declare, in the words of their comments
     python NAME…        functions and classes of the package libph, by their docstrings

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""--complex alpha: bars against known lengths and against GUDHI, weights and hidden points,
-surfaces as files, refusals; without CGAL, the message that says so."""
+"""--complex alpha: compares bars with known lengths and with GUDHI; tests weights and hidden
+points, surfaces as files, refused inputs, and the message of a build without CGAL."""
 import json
 import math
 import os
@@ -31,7 +31,7 @@ def rows(csv):
 
 
 def sphere(count, seed=1):
-    """Points near a sphere, in general position."""
+    """Random points near a sphere, in general position."""
     rng = random.Random(seed)
     found = []
     for _ in range(count):
@@ -46,7 +46,8 @@ def text(table):
 
 
 def read_ply(data):
-    """@return vertices, numbers of points, triangles, marks."""
+    """@return the coordinates of the vertices, the numbers of their points, the triangles, and
+    their marks."""
     end = data.index(b"end_header\n") + len(b"end_header\n")
     lines = data[:end].decode().splitlines()
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"], lines
@@ -68,7 +69,7 @@ def read_off(content):
 
 
 def volume(at, triangles):
-    """The volume that a closed surface encloses, if it is counterclockwise from outside."""
+    """The volume inside a closed surface whose triangles are counterclockwise from outside."""
     total = 0
     for a, b, c in triangles:
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = at[a], at[b], at[c]
@@ -108,14 +109,15 @@ class Alpha(ProgramTest):
         self.assertEqual(squared, [(0, 0, 0.25)] * 3 + [(0, 0, math.inf), (1, 0.25, 0.5)])
         for kind in ("delaunay-cech", "delaunay-rips"):
             self.assertEqual(self.bars("unit.txt", "--complex", kind)[-1], (1, 0.5, half))
-        # An equilateral triangle of side 2: its circle is wider than half its side.
+        # In an equilateral triangle of side 2, the radius of the circumcircle exceeds half a side.
         self.write("triangle.txt", f"0 0\n2 0\n1 {math.sqrt(3)!r}\n")
         found = self.bars("triangle.txt", "--complex", "alpha")[-1]
         self.assertAlmostEqual(found[2], 2 / math.sqrt(3), places=15)
-        # Any two of its balls meet at 1, up to the last digit of its longest side.
+        # For Delaunay-Rips, any two balls of the triangle meet at radius 1, up to the last digit of
+        # the longest side.
         self.assertFalse([bar for bar in self.bars("triangle.txt", "--complex", "delaunay-rips")
                           if bar[0] == 1 and bar[2] - bar[1] > 1e-15])
-        # The threshold cuts; the highest dimension counts.
+        # The threshold cuts off later deaths. --max-dim excludes higher dimensions.
         self.assertEqual(self.bars("unit.txt", "--complex", "alpha", "--threshold", "0.6")[-1],
                          (1, 0.5, math.inf))
         self.assertEqual(self.bars("unit.txt", "--complex", "alpha", "--max-dim", "0"), components)
@@ -147,7 +149,8 @@ class Alpha(ProgramTest):
         self.write("two.txt", "0 0 0\n3 0 0\n0.5 0 0\n")
         self.write("weights.txt", "1\n4\n-9\n")
         done = self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt")
-        # Balls of radius 1 and 2 touch; the third, between them, never comes out of the first.
+        # The balls of radius 1 and 2 touch. The third ball lies between them and stays inside the
+        # first at all times.
         self.assertEqual(rows(done.stdout), [(0, -4, math.inf), (0, -1, 0)])
         self.assertIn("1 point hidden by points", done.stderr)
         self.assertIn("not in the complex: 2", done.stderr)
@@ -155,14 +158,15 @@ class Alpha(ProgramTest):
         document = json.loads(self.read("bars.json"))
         self.assertEqual((document["complex"], document["vertex_weights"], document["alpha"]),
                          ("alpha", "squared radii of balls, from a file", {"squared": True, "hidden": [2]}))
-        # Its properties are kept when the bars are written again.
+        # The properties of the complex are kept when the bars are written again.
         self.expect(0, "bars.json", "-o", "again.json", "--quiet")
         self.assertEqual(json.loads(self.read("again.json"))["alpha"], document["alpha"])
 
     def test_period(self):
         self.write("one.txt", "0.5 0.25 0\n")
         one = ["one.txt", "--complex", "alpha", "--alpha-values", "squared"]
-        # A cubic lattice: cubes with edges, squares, and one body.
+        # One point with a period in three axes gives a cubic lattice: three edges, three squares
+        # and one cube.
         self.assertEqual(self.bars(*one, "--period", "2"),
                          [(0, 0, math.inf), *[(1, 1, math.inf)] * 3, *[(2, 2, math.inf)] * 3, (3, 3, math.inf)])
         self.assertEqual(self.bars(*one, "--period", "2,0,4"),
@@ -213,14 +217,14 @@ class Alpha(ProgramTest):
         self.assertEqual(sorted(numbers), numbers)
         directed = [edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))]
         self.assertEqual(len(set(directed)), len(directed))
-        self.assertEqual({(b, a) for a, b in directed}, set(directed))  # closed
+        self.assertEqual({(b, a) for a, b in directed}, set(directed))  # the surface is closed
         at, triangles = read_off(self.read("hull.off"))
-        self.assertEqual(len(at) - len(triangles) / 2, 2)  # Euler's formula, 3 F = 2 E
+        self.assertEqual(len(at) - len(triangles) / 2, 2)  # Euler's formula with 3 F = 2 E
         self.assertTrue(3.8 < volume(at, triangles) < 4.19)
         at, _, triangles, marks = read_ply(self.read_bytes("wrap.ply"))
         self.assertTrue(0 < volume(at, [t for t, m in zip(triangles, marks) if not m]) < 4.19)
         self.assertEqual(read_ply(self.read_bytes("none.ply")), ([], [], [], []))
-        # A written file is a mesh like any other.
+        # A surface written by the program can be read like any other mesh.
         self.assertEqual(self.bars("hull.off", "--complex", "alpha", "--max-dim", "0")[-1][2], math.inf)
 
     def test_surfaces_of_a_batch(self):
@@ -271,7 +275,7 @@ class Alpha(ProgramTest):
         self.write("circle.txt", text(circle))
         self.expect(0, "circle.txt", "--complex", "alpha", "--significance", "-o", "bars.json", "--quiet")
         bars = [bar for bar in json.loads(self.read("bars.json"))["bars"] if bar["dim"] == 1]
-        # Bobrowski, Skraba 2023: A = 1/2 of alpha complexes.
+        # Bobrowski, Skraba 2023: their constant A is 1/2 for alpha complexes.
         logs = [math.log(math.log(bar["death"] / bar["birth"])) for bar in bars]
         shift = -0.5772156649015329 - 0.5 * sum(logs) / len(logs)
         for bar, l in zip(bars, logs):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Several inputs with an output folder: the outcome for each, and for the folder."""
+"""Several inputs with an output folder: tests the result of each input and the exit code of the
+whole run."""
 import os
 import random
 import signal
@@ -15,7 +16,7 @@ from program import SQUARE, SQUARE_CSV, ProgramTest, main  # noqa: E402
 
 class Batch(ProgramTest):
     def batch(self, code, *arguments, **options):
-        """@return the lines on stderr."""
+        """Runs the program on several inputs. @return the lines on stderr."""
         run = self.run_program(*arguments, **options)
         self.assertEqual(run.returncode, code, run.stderr)
         self.assertEqual(run.stdout, "")
@@ -90,11 +91,11 @@ class Batch(ProgramTest):
         self.write("pair.txt", "0 0\n3 4\n")
         both = ("square.txt", "pair.txt")
         self.batch(0, *both, "-o", "new/")
-        self.batch(0, *both, "-o", "new")  # it exists now
+        self.batch(0, *both, "-o", "new")  # the folder exists now
         self.assertEqual(self.outputs("new"), ["pair.csv", "square.csv"])
         for path in ("missing/deep/", "square.txt/", "/proc/no/"):
             if path.startswith("/proc") and not os.path.exists("/proc/self"):
-                continue  # a folder like any other
+                continue  # without procfs, /proc/no is an ordinary path
             with self.subTest(path=path):
                 self.expect(73, *both, "-o", path)
         self.assertIn("-o FOLDER/", self.expect(64, *both, "-o", "out").stderr)

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import ProgramTest, main  # noqa: E402
 
 MANY = 300000
-SECONDS = 20  # all pairs of 10^5 points or more would take minutes
+SECONDS = 20  # computing all pairs of 10^5 points or more would take minutes
 
 
 class Degenerate(ProgramTest):
@@ -20,12 +20,12 @@ class Degenerate(ProgramTest):
             file.writelines(" ".join(map(repr, p)) + "\n" for p in points)
 
     def counts(self, points, *options):
-        """@return how often each bar occurs."""
+        """@return for each bar, how often it occurs."""
         self.write_points(points)
         return self.counts_again(*options)
 
     def counts_again(self, *options):
-        """@return the same for the points that were written last."""
+        """@return the counts for the points that were written last."""
         start = time.monotonic()
         run = self.expect(0, "points.txt", "--quiet", *options)
         self.assertLess(time.monotonic() - start, SECONDS)
@@ -48,7 +48,7 @@ class Degenerate(ProgramTest):
             self.assertEqual(bars["0,0,inf"], 1)
             lengths = sorted(float(bar.split(",")[2]) for bar in bars)[:-1]
             self.assertLess(lengths[-1], 0.05)
-        # 4 * 10^10 pairs would not fit
+        # The 4 * 10^10 pairs would not fit into the memory limit.
         self.expect(0, "points.txt", "--quiet", "--max-dim", "0", "--threshold", "0.01",
                     "--memory-limit", "256MiB", "-o", "bars.json")
         self.assertLess(json.loads(self.read("bars.json"))["peak_memory"], 288 * 2 ** 20)
@@ -58,7 +58,7 @@ class Degenerate(ProgramTest):
         line = [(0.5 * i, 0.25 * i, -0.5 * i) for i in range(n)]
         self.assertEqual(self.counts(line, "--max-dim", "0"),
                          {"0,0,0.75": n - 1, "0,0,inf": 1})
-        # Halves of halves: the distance of each pair of clusters is large compared to their size.
+        # Nested pairs of clusters: the distance of two clusters is large compared to their size.
         halves = [(sum(4.0 ** k for k in range(17) if i >> k & 1),) for i in range(2 ** 17)]
         bars = self.counts(halves, "--max-dim", "0")
         self.assertEqual(sum(bars.values()), 2 ** 17)
@@ -84,14 +84,14 @@ class Degenerate(ProgramTest):
                          {"0,0,0.75": 199999, "0,0,inf": 1})
 
     def test_grid(self):
-        side = 200  # each square is a class that its diagonals kill: none remains
+        side = 200  # each square is a class of H1 until its diagonals kill it
         points = [(float(i), float(j)) for i in range(side) for j in range(side)]
         self.assertEqual(self.counts(points, "--threshold", "1.5"),
                          {"0,0,1": side * side - 1, "0,0,inf": 1,
                           "1,1,1.4142135623730951": (side - 1) ** 2})
 
     def test_spreads(self):
-        for unit in (2.0 ** -1000, 2.0 ** 1000, 5e-324):  # exact multiples
+        for unit in (2.0 ** -1000, 2.0 ** 1000, 5e-324):  # the multiples of these are exact
             with self.subTest(unit=unit):
                 points = [(unit * i, 0.0) for i in range(100000)]
                 self.assertEqual(self.counts(points, "--threshold", repr(unit)),

@@ -15,7 +15,7 @@ import program  # noqa: E402
 from program import SQUARE, SQUARE_CSV, ProgramTest, main  # noqa: E402
 
 
-OTHER = 4321  # a user and a group that nobody has
+OTHER = 4321  # a user and group id that nobody has
 
 
 def limit(kind, amount):
@@ -43,7 +43,7 @@ class Outputs(ProgramTest):
         self.expect(0, "square.txt", "-o", "link.csv")
         self.assertTrue(os.path.islink(self.path("link.csv")))
         self.assertEqual(self.read("out.csv"), SQUARE_CSV)
-        # Set-ID bits were for the old content.
+        # Set-ID bits belong to the old content and are dropped.
         self.assertEqual(os.stat(self.path("out.csv")).st_mode & 0o7777, 0o640)
 
     @unittest.skipIf(os.geteuid() != 0, "only root may give files away")
@@ -55,8 +55,8 @@ class Outputs(ProgramTest):
         self.assertEqual((status.st_uid, status.st_gid), (OTHER, OTHER + 1))
 
     def refused_at_once(self, run):
-        """Outputs that no new file can replace: the old one stays, and nothing is computed in
-        vain."""
+        """Checks outputs that no new file can replace: the old file stays, and the run ends before
+        it computes anything."""
         self.assertEqual((run.returncode, self.read("out.csv")), (73, "old"), run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
         self.assertIn("out.csv: cannot create the output", run.stderr)

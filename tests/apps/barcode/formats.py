@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Formats read by ph-barcode, and its files as other programs read them."""
+"""Tests the formats that ph-barcode reads, and the files that it writes as other programs read
+them."""
 import gzip
 import json
 import os
@@ -58,7 +59,7 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("b.dipha", content), "dim,birth,death\n0,0,inf\n0,0.5,2\n")
 
     def test_periodic_axes_come_from_the_file(self):
-        # A ridge along both axes of a torus: four classes that never die.
+        # A ridge along both axes of a torus, and four classes that never die.
         values = "\n0 1 1\n1 1 1\n1 1 1\n"
         torus = self.bars("t.perseus", "2\n-3 -3" + values)
         self.assertEqual(torus.count("inf"), 4)
@@ -102,7 +103,7 @@ class Peers(ProgramTest):
 
     @staticmethod
     def by_dimension(lines):
-        """The intervals of each dimension, in any order."""
+        """The intervals of each dimension, sorted."""
         bars = {}
         for line in lines:
             if line.startswith("pers"):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares H0 of the data that ph-barcode reads, and its notes about them, with the numbers before
-they became a file; shared by guesses.py and guesses_tables.py."""
+"""Compares H0 of the data that ph-barcode reads, and its notes about the data, with the numbers
+before they were written to a file; shared by guesses.py and guesses_tables.py."""
 import math
 import os
 import sys
@@ -10,7 +10,8 @@ from program import ProgramTest  # noqa: E402
 
 
 def components(pairs):
-    """Deaths of H0 over {(i, j): d}, by Kruskal's algorithm; ids from 0, inf joins nothing."""
+    """Deaths of H0 for the distances {(i, j): d}, by Kruskal's algorithm. Vertices are numbered
+    from 0; a distance of inf joins nothing."""
     parent = {v: v for pair in pairs for v in pair}
 
     def root(v):
@@ -40,7 +41,8 @@ def flat(rows):
 
 class GuessTest(ProgramTest):
     def h0(self, *arguments, note="", silent=()):
-        """Deaths of H0; stderr must have the note, and none of the forbidden ones."""
+        """Deaths of H0 according to the program. Its stderr must have the note, and none of the
+        words in `silent`."""
         run = self.expect(0, *arguments, "--max-dim", "0")
         self.assertRegex(run.stderr, note or "^")
         for word in silent:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How ph-barcode interprets a matrix or an array: it never misreads one silently. The results are
-recomputed here from the numbers before they became a file."""
+"""How ph-barcode interprets a matrix or an array: it never misreads one silently. The tests
+recompute the results from the numbers before they were written to a file."""
 import math
 import os
 import random
@@ -12,7 +12,7 @@ from program import files, main  # noqa: E402
 
 
 def correlations(rng, n):
-    """A matrix of correlations of n random walks."""
+    """The matrix of correlations of n random walks."""
     series = [[rng.gauss(0, 1) for _ in range(12)] for _ in range(n)]
     for row in series:
         mean = sum(row) / len(row)

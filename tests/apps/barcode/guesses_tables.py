@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How ph-barcode interprets a table, values of vertices or a picture: it never misreads one
-silently. The results are recomputed here from the numbers before they became a file."""
+silently. The tests recompute the results from the numbers before they were written to a file."""
 import os
 import random
 import struct
@@ -79,7 +79,7 @@ class Tables(GuessTest):
         self.write("empty.tsv", table.replace("\n", "\t\n").replace(f"\n3\t{self.points[3][0]!r}\t",
                                                                    "\n3\t\t"))
         self.refused(65, ["empty.tsv:5:3: empty cell", "--nan drop"], "empty.tsv")
-        # All rows lack the same column: no other may take its place.
+        # All rows lack the same column. No other column may take its place.
         self.write("column.tsv", "x\ty\tz\n" + "".join(f"{x!r}\t\t{y!r}\n" for x, y in self.points))
         self.refused(65, ["column.tsv:2:", "empty cell"], "column.tsv")
         self.check(self.pairs, "column.tsv", "--columns", "x,z")
@@ -129,7 +129,8 @@ class Tables(GuessTest):
         self.refused(65, [":2:1:", "--columns"], "t.csv")
         for columns in ("x,y", "2-3", "3,2", "y,x", "x,3"):
             self.check(self.pairs, "t.csv", "--columns", columns)
-        self.write("numbers.csv", self.table("2,1,3", lambda i: i))  # no header: all are numbers
+        # There is no header, because all cells are numbers.
+        self.write("numbers.csv", self.table("2,1,3", lambda i: i))
         for wrong in ("z", "4", "0", "3-2", "x,2", "2-9"):
             self.refused(64, ["--columns"], "t.csv", "--columns", wrong)
         self.refused(64, ["--columns"], "t.csv", "--columns", "x,,y")

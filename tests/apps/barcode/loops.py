@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`loops` in the JSON of ph-barcode: names, numbers of the user, options."""
+"""`loops` in the JSON of ph-barcode: names of vertices, the user's numbering, options."""
 import json
 import math
 import os
@@ -35,7 +35,7 @@ class Loops(ProgramTest):
         (loop,) = bar["loops"]
         self.assertAlmostEqual(loop.pop("length"), 1 + 1 + math.dist((1, 1), (0, 1.25)) + 1.25)
         self.assertEqual(loop, {"vertices": [0, 1, 2, 3], "coefficient": 1, "tight": "shortest"})
-        # The chain does not change.
+        # The representative itself does not change.
         self.assertEqual(sorted(tuple(e["vertices"]) for e in bar["representative"]),
                          [(0, 1), (0, 3), (1, 2), (2, 3)])
 
@@ -77,7 +77,7 @@ class Loops(ProgramTest):
             run = self.expect(64, "ring.phat", "--format", "phat", *asked, choice)
             self.assertIn("vertices to walk along", run.stderr)
         self.expect(0, "ring.phat", "--format", "phat", *asked, "none")
-        # There is no message if nobody asked for loops.
+        # Without a request for loops, there is no message about them.
         self.expect(0, "square.txt", "--representatives", "cycles", "-o", "x.json")
 
     def test_numbers_are_those_of_the_input(self):
@@ -87,7 +87,7 @@ class Loops(ProgramTest):
         self.write("gaps.txt", "\n".join(lines) + "\n")
         (bar,) = self.loops("gaps.txt", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13])
-        # A sample of the points.
+        # A subsample of the points.
         points = ring(40)
         self.write("many.txt", text(points))
         (bar,) = self.loops("many.txt", "--subsample", "10")
@@ -98,18 +98,19 @@ class Loops(ProgramTest):
         self.assertAlmostEqual(
             loop["length"],
             sum(math.dist(points[a], points[b]) for a, b in zip(walk, walk[1:])))
-        # Both.
+        # A subsample and left-out points together.
         lines = text(points).splitlines()
         self.write("both.txt", "\n".join(["nan nan"] * 5 + lines) + "\n")
         (bar,) = self.loops("both.txt", "--subsample", "10", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [v + 5 for v in loop["vertices"]])
-        # Copies of points.
+        # Copies of the points.
         self.write("twice.txt", text(points + points))
         for bar in self.loops("twice.txt"):
             self.assertLess(max(bar["loops"][0]["vertices"]), 80)
 
     def test_noise_does_not_lengthen_the_loop(self):
-        """A thick ring, whose chain has detours: the loop equals the result of a search by hand."""
+        """In a thick ring, the representative has detours: the loop must equal the result of a
+        separate search."""
         source = random.Random(3)
         points = [(r * math.cos(a), r * math.sin(a)) for r, a in
                   ((source.uniform(1, 1.6), source.uniform(0, 2 * math.pi)) for _ in range(150))]
@@ -120,7 +121,8 @@ class Loops(ProgramTest):
         self.assertEqual(loop["tight"], "shortest")
         u, v = bar["birth_cell"]["vertices"]
         birth = bar["birth"]
-        # Bellman-Ford from u to v along shorter edges: no bar is older and lives as long.
+        # Bellman-Ford from u to v along edges shorter than the bar's birth: no older bar is alive
+        # at that value.
         edges = [(math.dist(p, q), i, j) for i, p in enumerate(points)
                  for j, q in enumerate(points[:i]) if math.dist(p, q) < birth]
         distance = {u: 0.0}
@@ -167,11 +169,12 @@ class Loops(ProgramTest):
         (bar,) = self.loops("hole.npy", "--construction", "cells")
         for vertex in bar["loops"][0]["grid"]:
             self.assertTrue(all(x % 2 == 0 and 0 <= x <= 6 for x in vertex))
-        # A walk over the end of a periodic axis.
+        # The loop crosses the end of a periodic axis.
         self.write("band.npy", files.array((2, 5), [1.0] * 5 + [3.0] * 5))
         bar = self.loops("band.npy", "--periodic", "1")[0]
         self.assertEqual(bar["loops"][0]["grid"], [[0, 0], [0, 2], [0, 4], [0, 6], [0, 8]])
-        # Sets of voxels have no loops; the cycles beside them have loops.
+        # Representatives that are sets of voxels have no loops; the cycles of the same result have
+        # loops.
         volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         bars = self.result(self.write("pipe.npy", volume), "--representatives", "voxels",

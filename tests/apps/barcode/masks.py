@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Absent voxels never enter: tests random images with a mask in each format that can have one.
+"""Voxels left out by a mask never enter: tests random images with a mask in each format that
+supports one.
 
-The script writes files, and oracle.py, which never sees a file, computes barcodes. For more images
-than in the suite: masks.py PROGRAM --images 20000
+The script writes files; oracle.py computes the expected barcodes from the numbers and never sees a
+file. For more images than in the suite: masks.py PROGRAM --images 20000
 """
 import gzip
 import itertools
@@ -17,7 +18,7 @@ import oracle  # noqa: E402
 from program import ProgramTest, files, main  # noqa: E402
 
 IMAGES = 600
-BATCH = 25  # images of one command line
+BATCH = 25  # number of images in one command
 
 
 def in_c_order(shape):
@@ -44,7 +45,7 @@ def npz(shape, voxels):
 
 
 def nifti(descr, slope=0.0):
-    """With a slope, the stored numbers are halved, and the reader doubles them."""
+    """A NIfTI writer. With a slope, the stored numbers are halved, and the reader doubles them."""
     def write(shape, voxels):
         numbers = numbers_of(voxels, first_axis_fastest(shape), slope or 1.0)
         return files.nifti(descr, shape, numbers, slope)
@@ -73,7 +74,7 @@ def zipped(write):
 
 
 NAN = ("--nan", "drop")
-# name: extension, writer, options, what values it can have
+# name: extension, writer, options, the values that the format can hold
 FORMATS = {
     "npy f8": (".npy", npy(">f8"), NAN, "any"),
     "npy f4": (".npy", npy("<f4"), NAN, "any"),
@@ -96,7 +97,8 @@ class Masks(ProgramTest):
         return [choose.randint(1, (0, 9, 4, 3)[axes]) for _ in range(axes)]
 
     def voxels(self, choose, shape, values):
-        """Some voxels are absent; where infinite values are legal, some are infinite."""
+        """Random values. Some voxels are absent; in formats that allow infinite values, some values
+        are infinite."""
         share = choose.choice((0.1, 0.3, 0.6))
         finite = [1.0, 2.0, 3.0, 5.0] if values in ("positive", "listed") else [-1.5, 0.0, 0.25, 1.0, 2.0]
         voxels = {}
@@ -105,7 +107,7 @@ class Masks(ProgramTest):
             if values == "any" and choose.random() < 0.1:
                 value = choose.choice((math.inf, -math.inf))
             voxels[at] = None if choose.random() < share else value
-        if values == "listed":  # the grid ends where the cubes do
+        if values == "listed":  # the listed cubes determine the extent of the grid
             voxels[tuple(n - 1 for n in shape)] = 4.0
         return voxels
 
@@ -131,7 +133,7 @@ class Masks(ProgramTest):
         for i in range(BATCH):
             shape = self.shape(choose, axes)
             if extension.startswith(".nii"):
-                shape[-1] += 1  # a last axis of one voxel does not count there
+                shape[-1] += 1  # NIfTI ignores a last axis of one voxel
             voxels = self.voxels(choose, shape, values)
             self.write(f"{folder}/{i:02}{extension}", write(shape, voxels))
             expected[f"{i:02}"] = oracle.barcode(oracle.cubical_filtration(shape, voxels, **how))
@@ -151,13 +153,14 @@ class Masks(ProgramTest):
             self.check_batch(choose, number)
 
     def test_points_in_voxels(self):
-        """Voxels without points are absent, in sublevel and superlevel sets."""
+        """Voxels without points are absent, both in sublevel and in superlevel sets."""
         choose = random.Random(5)
         for number in range(12):
             shape = [choose.randint(2, 4), choose.randint(2, 4)]
             counts = {at: choose.choice((0, 0, 1, 2, 3)) for at in in_c_order(shape)}
             counts[0, 0] = counts[tuple(n - 1 for n in shape)] = 1
-            # A corner of the first and of the last voxel span the grid, whose margin is one voxel.
+            # The grid spans from a point in the first voxel to a point in the last voxel, and has a
+            # margin of one voxel.
             points = [[x + (0.0 if at == (0, 0) else 0.5) for x in at] for at in counts for _ in range(counts[at])]
             self.write("points.csv", "".join(f"{x},{y}\n" for x, y in points))
             voxels = {at: None for at in in_c_order([n + 2 for n in shape])}

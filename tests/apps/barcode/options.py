@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The effects of ph-barcode's options, against results made by hand."""
+"""The effects of ph-barcode's options, compared with results worked out by hand."""
 import json
 import math
 import os
@@ -57,7 +57,8 @@ class Options(ProgramTest):
         bars = json.loads(self.read("out.json"))["bars"]
         self.assertEqual([bar["p"] for bar in bars if bar["dim"] == 1], [p for _, _, p in loops])
         self.assertFalse([bar for bar in bars if bar["dim"] == 0 and "p" in bar])
-        # A bar that the threshold cuts has no p-value. Written bars can be read again, without p.
+        # A bar that is cut off by the threshold has no p-value. Written bars can be read again; the
+        # p-values are not read.
         self.expect(0, "circle.csv", "--significance", "--threshold", "0.8", "-o", "cut.csv")
         self.assertIn("inf,\n", self.read("cut.csv"))
         again = self.expect(0, "cut.csv")
@@ -147,7 +148,7 @@ class Options(ProgramTest):
             self.assertIn(what, self.expect(code, *arguments).stderr)
 
     def test_points_as_voxels(self):
-        # Two pairs of points; between the pairs two voxels are empty.
+        # Two groups of points, with two empty voxels between them.
         self.write("line.txt", "0.5\n0.7\n3.5\n3.6\n3.7\n")
         cubical = ("line.txt", "--complex", "cubical", "--voxel", "1")
         self.assertEqual(self.bars(*cubical), [(0, 0, 1), (0, 0, math.inf)])
@@ -236,7 +237,8 @@ class Options(ProgramTest):
 
     def test_dtm(self):
         self.write("line.txt", "0\n1\n9\n")
-        f = [math.sqrt(0.5), math.sqrt(0.5), math.sqrt(32)]  # of the two nearest, itself included
+        # For two neighbours, the point itself being one of them.
+        f = [math.sqrt(0.5), math.sqrt(0.5), math.sqrt(32)]
         run = self.expect(0, "line.txt", "--dtm", "2", "--output-format", "json", "--check")
         result = json.loads(run.stdout)
         self.assertEqual(result["vertex_weights"], "dtm 2, exponent 1")
@@ -338,7 +340,7 @@ class Options(ProgramTest):
                           self.expect(0, *options, "--dry-run").stdout)
         self.assertEqual(runs["on"].stdout, runs["off"].stdout)
         self.assertEqual(runs["auto"].stdout, runs["off"].stdout)
-        # H1 needs no collapse, and an image has no edges to collapse.
+        # For H1, the edges are not collapsed; an image has no edges to collapse.
         self.assertIn("collapse off (", self.expect(0, "cloud.txt", "--verbose").stderr)
         self.write("image.npy", files.array((1, 3), [0, 2, 1]))
         self.assertNotIn("collapse", self.expect(0, "image.npy", "--verbose").stderr)
@@ -399,7 +401,7 @@ class Options(ProgramTest):
             json.loads(line)
 
     def test_progress_is_heard_every_second(self):
-        """Also if there is nothing to report: here the program waits for its input."""
+        """Progress is reported even if nothing happens: here, the program waits for its input."""
         with subprocess.Popen([program.PROGRAM, "-", "--progress", "json", "--quiet"],
                               stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE) as run:
@@ -434,14 +436,14 @@ class Options(ProgramTest):
         self.assertRegex(stderr, rb"^(\r\x1b\[Kread 0)+\r\x1b\[K$")
 
     def test_no_bar_while_results_are_written(self):
-        """The reader of the results is slow."""
+        """The process that reads the results is slow."""
         random.seed(7)
         self.write("picture.pgm", b"P5 1200 1200 255\n" + random.randbytes(1200 * 1200))
         with subprocess.Popen([program.PROGRAM, "picture.pgm", "--engine", "twist", "--progress",
                                "bar", "--quiet"], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
             os.set_blocking(run.stderr.fileno(), False)
-            select.select([run.stdout], [], [], 60)  # the first page has arrived
+            select.select([run.stdout], [], [], 60)  # the first page of the results has arrived
             before = run.stderr.read()
             self.assertRegex(before, rb"\] +\d+ %")
             self.assertTrue(before.endswith(b"\r\x1b[K"), before[-100:])

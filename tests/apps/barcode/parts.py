@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts that separate processes compute, and the result of --join, against one process."""
+"""Parts computed by separate processes: compares the result of --join with that of one process."""
 import csv
 import io
 import json
@@ -14,7 +14,7 @@ from program import SQUARE, ProgramTest, files, main  # noqa: E402
 
 
 class PartsTest(ProgramTest):
-    OPTIONS = ()  # of all parts
+    OPTIONS = ()  # options given for all parts
 
     def parts(self, data, count, *options, prefix="p"):
         names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
@@ -23,7 +23,8 @@ class PartsTest(ProgramTest):
         return names
 
     def refused(self, names, words, output="bars.csv"):
-        """That these parts are not joined. @param words an expression"""
+        """Checks that joining these parts is refused. @param words a regular expression for the
+        message"""
         run = self.expect(65, "--join", *names, "-o", output, "--quiet")
         self.assertRegex(run.stderr, words)
         self.assertNotIn(output, self.files())
@@ -41,7 +42,8 @@ class Parts(PartsTest):
         return self.write(name, files.array(shape, values, "<f4"))
 
     def join(self, rng, names):
-        """Joins neighbours in random groups, until few are left, in a random order."""
+        """Joins random groups of neighbouring parts until few are left, and returns these in random
+        order."""
         names = list(names)
         while len(names) > 1 and rng.random() < 0.6:
             i = rng.randrange(len(names) - 1)
@@ -261,7 +263,8 @@ class Clouds(PartsTest):
         self.assertIn("another part", self.expect(0, *again, "--threshold", "3").stderr)
         self.expect(0, *again[:-1], "--quiet")
         kept = self.read(cloud)
-        self.write(cloud, self.read(other))  # the same number of points, and older than the part
+        # Another cloud with the same number of points, older than the part.
+        self.write(cloud, self.read(other))
         os.utime(self.path(cloud), (old, old))
         self.assertIn("another part", self.expect(0, *again).stderr)
         self.write(cloud, kept)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests plots as PNG, which must show the same as the SVG: plots.py PH-BARCODE"""
+"""Tests plots as PNG, which must look the same as the SVG: plots.py PH-BARCODE"""
 import os
 import random
 import shutil
@@ -18,7 +18,7 @@ H0, H1, WHITE = (0x00, 0x72, 0xb2), (0xd5, 0x5e, 0x00), (255, 255, 255)
 
 
 def pixels(data):
-    """@return width, and the pixels of an 8-bit RGB(A) PNG as rows of colours."""
+    """@return the width of an 8-bit RGB(A) PNG, and its pixels as rows of colours."""
     (width, _, bits, colour), rows = png_reader.rows_of(data)
     assert bits == 8 and colour in (2, 6), (bits, colour)
     step = len(rows[0]) // width
@@ -26,7 +26,7 @@ def pixels(data):
 
 
 def places(rows, colour):
-    """@return where a pixel has a colour, exactly or nearly."""
+    """@return the places of the pixels with a colour, or nearly this colour."""
     alike = {found for found in set().union(*rows)
              if max(abs(a - b) for a, b in zip(found, colour)) < 60}
     return {(x, y) for y, row in enumerate(rows) if not alike.isdisjoint(row)
@@ -75,8 +75,7 @@ class Png(ProgramTest):
 
     @unittest.skipUnless(shutil.which("rsvg-convert"), "rsvg-convert is not installed")
     def test_it_is_the_svg(self):
-        """Bars, points and curves are at the places where another program draws those of the
-        SVG."""
+        """Bars, points and curves are where another program draws those of the SVG."""
         number = random.Random(1).random
         self.write("points.txt", "".join(f"{number()} {number()}\n" for _ in range(150)))
         for kind in KINDS:
@@ -89,7 +88,8 @@ class Png(ProgramTest):
                 self.assertEqual(width, other_width)
                 self.assertLessEqual(abs(len(mine) - len(theirs)), 1)
                 for colour in (H0, H1):
-                    # The letters on the left are in another font.
+                    # The numbers on the left are left out, because the two programs use different
+                    # fonts.
                     a, b = ({p for p in places(rows, colour) if p[0] > 120} for rows in (mine, theirs))
                     self.assertEqual(len(a) > 500, kind != "tree" or colour == H0)
                     for one, other in ((a, b), (b, a)):

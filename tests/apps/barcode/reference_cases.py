@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs all reference cases through a built ph-barcode: reference_cases.py PROGRAM.
 
-The environment variable PH_TEST_DATA names the folder that has them."""
+The environment variable PH_TEST_DATA names the folder with the cases."""
 import os
 import subprocess
 import sys

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""--representatives: checks all against the definitions of cycle and cocycle. Representatives that
-the definitions determine up to a factor and the order of cells are also compared with files.
+"""--representatives: checks each representative against the definition of a cycle or cocycle.
+Representatives that the definition determines up to a factor and the order of cells are also
+compared with files.
 
-representatives.py PROGRAM --update writes the files anew.
+representatives.py PROGRAM --update writes these files anew.
+
 """
 import itertools
 import json
@@ -25,12 +27,12 @@ MATRIX = "0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"  # a triangle, in PHAT's text
 
 
 def cells_of(filtration):
-    """Cells with value and boundary."""
+    """The value and boundary of each cell."""
     return {cell: (value, dict(boundary)) for cell, (value, _, boundary) in filtration.items()}
 
 
 def torus():
-    """Vertices at 0, edges at 1, triangles at 2."""
+    """The cells of a torus: vertices at value 0, edges at 1, triangles at 2."""
     simplices = {face for t in TORUS for k in (1, 2, 3) for face in itertools.combinations(t, k)}
     return cells_of(oracle.simplicial({s: len(s) - 1 for s in sorted(simplices)}))
 
@@ -41,7 +43,7 @@ def rips(text):
 
 
 def image(rows):
-    """The V-construction of an image, cells by doubled coordinates."""
+    """The cells of an image in the V-construction, named by doubled coordinates."""
     voxels = {(x, y): value for x, row in enumerate(rows) for y, value in enumerate(row)}
     return cells_of(oracle.cubical_filtration((len(rows), len(rows[0])), voxels))
 
@@ -83,7 +85,8 @@ class Representatives(ProgramTest):
             self.assertNotEqual(sum(b * chain.get(f, 0) for f, b in killer.items()) % field, 0)
 
     def check(self, case, cells, field, *arguments, forced=(("cycles", 1),)):
-        """@param forced kind and dimension of representatives without a choice."""
+        """@param forced the kinds and dimensions of representatives that the definition
+        determines."""
         for kind, check in (("cycles", self.check_cycle), ("cocycles", self.check_cocycle)):
             with self.subTest(case=case, kind=kind):
                 bars = self.bars(*arguments, "--field", str(field), "--representatives", kind)
@@ -110,7 +113,7 @@ class Representatives(ProgramTest):
         self.assertEqual(found[0, 3, 9]["birth_voxel"], [1, 5])
         self.assertEqual(found[1, 1, 7]["voxels"], [[14, 1]])
         self.assertEqual(found[1, 1, 7]["death_voxel"], [2, 2])
-        # A bar without a set has a cycle: H1 of a volume.
+        # A bar of H1 has a cycle instead of a set of voxels.
         volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         for construction in ("vertices", "cells"):
@@ -139,14 +142,15 @@ class Representatives(ProgramTest):
             self.assertEqual(name(a["birth_cell"]), tuple(names[v] for v in name(b["birth_cell"])))
 
     def normal(self, bar, field):
-        """The bar with its terms in order, the birth cell with coefficient 1."""
+        """The bar with its terms sorted and scaled such that the birth cell has coefficient 1."""
         chain = {name(term): (term, term["coefficient"]) for term in bar["representative"]}
         scale = pow(chain[name(bar["birth_cell"])][1], -1, field)
         terms = []
         for _, (term, a) in sorted(chain.items()):
             a = a * scale % field
             terms.append({**term, "coefficient": a - field if a > field / 2 else a})
-        bar = {key: value for key, value in bar.items() if key != "loops"}  # see loops.py
+        # The test loops.py checks the loops.
+        bar = {key: value for key, value in bar.items() if key != "loops"}
         return {**bar, "representative": terms}
 
     def compare(self, file, bars):
@@ -202,7 +206,7 @@ class Representatives(ProgramTest):
         self.assertEqual(len(json.loads(self.read("out.json"))["bars"][4]["representative"]), 4)
 
     def test_threshold_cuts_cocycles(self):
-        # A strip of two triangles; the second one lies beyond the threshold.
+        # A strip of two triangles, of which the second lies beyond the threshold.
         self.write("strip.txt", "0 : 0\n1 : 0\n2 : 0\n3 : 5\n0 1 : 1\n1 2 : 1\n0 2 : 2\n"
                    "1 3 : 5\n2 3 : 5\n0 1 2 : 6\n1 2 3 : 5\n")
         bars = self.bars("strip.txt", "--format", "simplices", "--threshold", "4",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The output of ph-barcode in each format, against results made by hand."""
+"""The output of ph-barcode in each format, compared with results worked out by hand."""
 import json
 import math
 import os
@@ -150,7 +150,7 @@ class Ripser(ProgramTest):
             return [[block[0]] + sorted(block[1:]) for block in blocks]
 
         random.seed(5)
-        # Whole numbers, because Ripser computes in single precision.
+        # The distances are whole numbers, because Ripser computes in single precision.
         rows = [" ".join(str(random.randint(1, 999)) for _ in range(i)) for i in range(1, 40)]
         self.write("lower.txt", "\n".join(rows) + "\n")
         for extra in ([], ["--threshold", "300"], ["--threshold", "150"]):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Signals during a long run: the run ends at once, with the shell's code, and leaves nothing
-behind."""
+"""Signals during a long run: the run ends at once, with the exit code that shells use, and leaves
+nothing behind."""
 import math
 import os
 import random
@@ -13,8 +13,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
-# 0.2 s are promised. A busy test machine may take a little longer to notice, and even longer if it
-# is busy with something else: runs that were too slow are repeated.
+# The documentation promises 0.2 s. A busy machine may need a little longer, and sometimes much
+# longer: runs that were too slow are repeated.
 PATIENCE = 0.2 + 0.3
 TRIES = 3
 
@@ -27,7 +27,7 @@ class Signals(ProgramTest):
                                        for _ in range(1500)))
 
     def start(self, *arguments):
-        """A long run, unless the arguments ask for another engine."""
+        """Starts a long run of the cohomology engine, or of the engine in the arguments."""
         return subprocess.Popen([program.PROGRAM, "many.txt", "--quiet", "-o", "out.csv",
                                  "--max-dim", "2", "--collapse", "off",
                                  *(arguments or ("--engine", "cohomology"))],
@@ -45,7 +45,8 @@ class Signals(ProgramTest):
         return run.returncode, seconds
 
     def expect_end(self, start, delay, code, *numbers):
-        """Sends signals to a run that `start` returns and that must still be there."""
+        """Sends signals to a run that `start` returns, and checks that it was still running before.
+        @param delay seconds before the signals. @param code the expected exit code."""
         for _ in range(TRIES):
             run = start()
             time.sleep(delay)
@@ -104,9 +105,9 @@ class Signals(ProgramTest):
 
 
 class RandomMoments(ProgramTest):
-    """A short run with a large result, interrupted anywhere: reading, computing, writing,
-    renaming."""
-    INTERRUPTS = 60  # signals arrive while the run reads and computes, as one in three does
+    """A short run with a large result is interrupted at any moment: while it reads, computes,
+    writes, or renames the file."""
+    INTERRUPTS = 60  # about one signal in three arrives while the run reads and computes
     KILLS = 120
     ARGUMENTS = ("picture.pgm", "--quiet", "-o", "out.json")
 
@@ -115,7 +116,8 @@ class RandomMoments(ProgramTest):
         random.seed(4)
         self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
         times = []
-        for _ in range(5):  # the first run takes longer; a signal would mostly come too late
+        # The first run takes longer, and a delay drawn from its time would mostly be too late.
+        for _ in range(5):
             start = time.monotonic()
             self.expect(0, *self.ARGUMENTS)
             times.append(time.monotonic() - start)
@@ -123,11 +125,12 @@ class RandomMoments(ProgramTest):
         self.complete = self.result()
 
     def result(self):
-        """The content of the file without timings."""
+        """The content of the output without the timings."""
         return self.read("out.json").partition('"timings"')[0]
 
     def meet(self, number, delay=None):
-        """Sends a signal at a random moment. @return exit code, seconds until the end."""
+        """Sends a signal at a random moment. @return the exit code, and the seconds until the run
+        ended."""
         self.write("out.json", "old")
         run = subprocess.Popen([program.PROGRAM, *self.ARGUMENTS], cwd=self.folder,
                                stderr=subprocess.PIPE)
@@ -143,8 +146,8 @@ class RandomMoments(ProgramTest):
         return code, seconds
 
     def meet_in_time(self, number):
-        """The same, but runs that were too slow are repeated at that moment, because a disk may be
-        busy."""
+        """Calls `meet` for a random moment. If the run ended too late, tries the same moment again,
+        because a disk may be busy."""
         delay = random.uniform(0, 1.1 * self.seconds)
         for _ in range(TRIES):
             code, seconds = self.meet(number, delay)
@@ -156,7 +159,8 @@ class RandomMoments(ProgramTest):
         slowest, met = 0, 0
         while met < self.INTERRUPTS:
             code, seconds = self.meet_in_time(signal.SIGINT)
-            self.assertIn(code, (0, 130, -signal.SIGINT))  # the last: before main began
+            # -SIGINT: the signal came before main began.
+            self.assertIn(code, (0, 130, -signal.SIGINT))
             self.assertEqual(self.files(), ["out.json", "picture.pgm", "square.txt"])
             met += code != 0
             slowest = max(slowest, seconds)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Images larger than the memory limit: the same bars, within the limit, whatever the height of
-slabs."""
+"""Images larger than the memory limit: the bars stay the same and the memory within the limit, for
+any height of the slabs."""
 import array
 import gzip
 import math
@@ -16,12 +16,12 @@ from program import ProgramTest, main  # noqa: E402
 
 EXTENTS = (160, 150, 144)
 UNITS = {"KiB": 1 / 1024, "MiB": 1, "GiB": 1024}  # MiB
-BESIDE = 32  # MiB that code, libraries and small allocations may take beyond the limit
+BESIDE = 32  # MiB that code, libraries and small allocations may take in addition to the limit
 
 
 def write_waves(path):
-    """Float32, 13 MiB, few critical cells: rows are shifted sections of one periodic row, raised in
-    waves."""
+    """Writes an image of float32 (13 MiB) with few critical cells: its rows are shifted sections of
+    one periodic row, raised in waves."""
     depth, height, width = EXTENTS
     period = 97
     wave = [math.sin(2 * math.pi * i / period) + 0.4 * math.sin(2 * math.pi * 5 * i / period) for i in range(period)]
@@ -40,7 +40,7 @@ class Slabs(ProgramTest):
         self.raw = ("--raw-shape", ",".join(map(str, EXTENTS)), "--raw-type", "float32")
 
     def bars(self, name, *options):
-        """@return the bars as csv, the peak memory of the run in MiB."""
+        """@return the bars as CSV, and the peak memory of the run in MiB."""
         arguments = [program.PROGRAM, name, *self.raw, "--quiet", "-o", "out.csv", *options]
         pid = os.posix_spawn(program.PROGRAM, arguments, os.environ)
         _, status, usage = os.wait4(pid, 0)
@@ -53,8 +53,8 @@ class Slabs(ProgramTest):
         self.addCleanup(os.chdir, "/")
         with open("waves.raw", "rb") as raw, gzip.open("waves.raw.gz", "wb", 1) as packed:
             packed.write(raw.read())
-        # The waves do not match where the ends of a periodic axis meet, which causes more critical
-        # cells.
+        # With periodic axes, the waves do not match where the ends of an axis meet, which causes
+        # more critical cells.
         for least, *image in ((24, "--construction", "vertices"), (24, "--construction", "cells"), (40, "--periodic", "0,2")):
             expected, _ = self.bars("waves.raw", *image)
             self.assertGreater(expected.count("\n"), 100)
@@ -80,7 +80,8 @@ class Slabs(ProgramTest):
             self.assertLess(float(least) * UNITS[unit], peak, said)
 
     def test_representatives_give_way(self):
-        """They need all layers at once; the suggestion without them does fit."""
+        """Representatives need all layers at once. The run suggests leaving them out, and then it
+        fits."""
         arguments = ("waves.raw", *self.raw, "--memory-limit", "24MiB", "--output-format", "json")
         message = self.expect(75, *arguments, "--representatives", "cycles").stderr
         changes = re.search("what may fit: (--representatives none[^(]*) ", message)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode with stored barcodes: drawing, converting, comparing; and pictures of several
+"""ph-barcode with stored barcodes: drawing, converting, comparing. Also tests pictures of several
 inputs."""
 import json
 import math
@@ -18,7 +18,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 class Stored(ProgramTest):
     def texts(self, name):
-        """The texts of a picture."""
+        """The texts in a picture."""
         root = xml.etree.ElementTree.parse(self.path(name)).getroot()
         return [text.text for text in root.iter(SVG + "text")]
 
@@ -27,7 +27,7 @@ class Stored(ProgramTest):
         return [tuple(map(float, line.split(","))) for line in lines]
 
     def store(self, *arguments):
-        """The barcode of the square in each format."""
+        """Writes the barcode of the square in each format."""
         for form in FORMATS:
             self.expect(0, "square.txt", "-o", f"bars.{form}", *arguments)
 
@@ -37,7 +37,7 @@ class Stored(ProgramTest):
             self.expect(0, "square.txt", "--plot", "direct.svg", "--plot-kind", kind,
                         "--output-format", "none")
             for form in FORMATS:
-                if form == "ripser":  # has six digits only
+                if form == "ripser":  # this format has only six digits
                     continue
                 run = self.expect(0, "plot", f"bars.{form}", "-o", f"{form}.svg", "--plot-kind", kind)
                 self.assertEqual(run.stdout, "")
@@ -51,11 +51,11 @@ class Stored(ProgramTest):
             self.assertEqual(run.stdout, SQUARE_CSV)
             self.assertIn("a barcode, 5 bars", run.stderr)
         self.assertIn("a barcode, 5 bars", self.expect(0, "bars.ripser").stderr)
-        # Rows of numbers are still points or an image.
+        # Files with rows of numbers are still points or an image.
         self.write("rows.csv", "0,0,1\n1,0.5,2\n")
         self.assertIn("points in R^3", self.expect(0, "rows.csv").stderr)
         self.assertNotIn("a barcode", self.run_program("bars.npy").stderr)
-        # With an explicit format, a file is what the user says.
+        # With an explicit format, a file is read as the user says.
         self.assertNotIn("a barcode", self.run_program("bars.csv", "--format", "points").stderr)
 
     def test_converted(self):
@@ -147,7 +147,7 @@ class Stored(ProgramTest):
         self.assertIn("FOLDER/", self.expect(64, *both, "--plot", "x.svg").stderr)
         self.expect(0, *both, "-o", "named/*.pers")
         self.assertEqual(sorted(os.listdir(self.path("named"))), ["pair.pers", "square.pers"])
-        # A single input also has the name that a * stands for.
+        # For a single input, * in an output name stands for the name of the input as well.
         self.expect(0, "pair.txt", "-o", "one/*.json", "--plot", "*-one.svg")
         self.assertEqual(os.listdir(self.path("one")), ["pair.json"])
         self.assertIn("pair-one.svg", self.files())

@@ -24,7 +24,8 @@
 
 namespace {
 
-// Allocations are counted while `armed`; number `fail_at` and all from `fail_from` on fail.
+// Allocations are counted while `armed` is true. Allocation number `fail_at` fails, and so do all
+// from number `fail_from` on.
 std::atomic<bool> armed = false;
 std::atomic<long> calls = 0, live = 0;
 long fail_at = 0, fail_from = 0;
@@ -61,8 +62,8 @@ void* allocate_or_null(std::size_t size) noexcept {
 
 }  // namespace
 
-// All forms, because a sanitizer supplies any that is missing here, and its forms do not call
-// these.
+// All forms of new and delete are replaced, because a sanitizer would supply the missing ones and
+// bypass these counters.
 using Align = std::align_val_t;
 using NoThrow = std::nothrow_t;
 void* operator new(std::size_t size) { return allocate(size, 1); }
@@ -87,7 +88,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with small inputs; its folder "out" has the files of the last run.
+/// A folder with small inputs. Its folder "out" has the files of the last run.
 class Allocation : public testing::Test {
  protected:
   using Files = std::map<std::string, std::string>;
@@ -112,7 +113,7 @@ class Allocation : public testing::Test {
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(in(name), std::ios::binary) << text;
   }
-  /// Removes the files that a run left behind.
+  /// The content of the files that a run left behind, which are then removed.
   Files outputs() const {
     Files files;
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
@@ -124,7 +125,8 @@ class Allocation : public testing::Test {
     return files;
   }
 
-  /// Runs with the chosen allocations failing. @return true if the run finished.
+  /// Runs with the chosen allocations failing. @param at the number of the allocation that fails.
+  /// @param from the first of the allocations that all fail. @return true if the run finished.
   static bool survives(const std::function<void()>& run, long at, long from) {
     fail_at = at;
     fail_from = from;
@@ -148,17 +150,17 @@ class Allocation : public testing::Test {
     return done;
   }
 
-  /// Makes each allocation of a run fail, alone and with all later ones.
+  /// Makes each allocation of a run fail, once alone and once together with all later ones.
   void check(const std::function<void()>& run) {
-    run();  // objects that are created once per process
+    run();  // creates the objects that exist once per process
     outputs();
     ASSERT_TRUE(survives(run, 0, 0));
     const long total = calls;
     const Files want = outputs();
     ASSERT_GT(total, 10) << "the library allocates elsewhere";
     RecordProperty("allocations", static_cast<int>(total));
-    // Every allocation, if that is quick; otherwise a step that shares no factor with loops of the
-    // code.
+    // Tests every allocation if there are few. Otherwise the step is odd, so that it does not keep
+    // time with loops in the code.
     const long step = total <= 4000 ? 1 : total / 2000 | 1;
     for (const bool once : {true, false}) {
       for (long n = 1; n <= total; n += step) {
@@ -273,7 +275,7 @@ TEST_F(Allocation, Plots) {
   check([&] { write_file(out("plot.svg"), svg_plot(tree.branches())); });
 }
 
-/// A table with a box on it, 12 x 12 points.
+/// A cloud of 12 x 12 points: a table with a box on it.
 Cloud table() {
   Cloud cloud;
   cloud.width = cloud.height = 12;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Preloaded into a program: malloc and its relatives fail at the n-th call after main has begun
-   (PH_FAIL_AT=n), and with PH_FAIL_FROM=n from there on. PH_CALLS_FILE receives the requested
-   sizes, one per line. */
+/* A library to be preloaded into a program: malloc and its relatives fail at the n-th call after
+ * main has begun (PH_FAIL_AT=n), and with PH_FAIL_FROM=n at all calls from the n-th on. The
+ * requested sizes are written to PH_CALLS_FILE, one per line. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* glibc's own names; looking them up by dlsym would allocate. */
+/* glibc's own names of the functions; looking the functions up with dlsym would allocate memory. */
 extern void* __libc_malloc(size_t size);
 extern void* __libc_calloc(size_t count, size_t size);
 extern void* __libc_realloc(void* old, size_t size);
@@ -73,7 +73,7 @@ static int counted_main(int argc, char** argv, char** environment) {
   return code;
 }
 
-/* Wraps main, because calls before it are not the program's. */
+/* Wraps main, because calls before main are not made by the program. */
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(void),
                       void (*fini)(void), void (*loader_fini)(void), void* stack_end) {
   int (*start)(int (*)(int, char**, char**), int, char**, void (*)(void), void (*)(void),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: the JSON of the programs conforms
-to docs/reference/schemas, and each member that they write is described there. Needs
-python3-jsonschema; without it, the test is skipped."""
+to docs/reference/schemas, and the schemas describe each member that the programs write. The test
+needs python3-jsonschema; without it, it is skipped."""
 import copy
 import json
 import subprocess
@@ -24,7 +24,7 @@ MATRIX = "0\n0\n1 0 1\n"
 
 
 def closed(schema):
-    """The same schema without members that it does not describe."""
+    """The same schema, made to refuse members that it does not describe."""
     schema = copy.deepcopy(schema)
 
     def close(part):
@@ -32,7 +32,8 @@ def closed(schema):
             if "properties" in part:
                 part.setdefault("additionalProperties", False)
             for key, inner in part.items():
-                if key not in ("if", "then", "else", "allOf"):  # dependencies between members
+                # These only state dependencies between members.
+                if key not in ("if", "then", "else", "allOf"):
                     close(inner)
         elif isinstance(part, list):
             for inner in part:
@@ -113,7 +114,7 @@ def test_others(t):
     compared = t.run(t.barcode, "--compare", "a.json", "b.json", "--output-format", "json", "--quiet")
     t.check("ph-barcode-distances", compared.stdout, "--compare")
     noise = bytes((i * i * 2654435761 >> 7) & 255 for i in range(500 * 500))
-    (t.folder / "noise.raw").write_bytes(noise)  # slow enough to report progress
+    (t.folder / "noise.raw").write_bytes(noise)  # slow enough that progress is reported
     lines = t.run(t.barcode, "noise.raw", "--raw-shape", "500,500", "--engine", "standard", "--progress", "json",
                   "--quiet", "--output-format", "none").stderr.splitlines()
     if not lines:
@@ -174,7 +175,7 @@ def test_distances(t):
 
 
 def test_that_faults_are_seen(t):
-    """A schema that accepts everything would not test anything."""
+    """Spoiled documents are refused: a schema that accepts everything would not test anything."""
     printed = t.run(t.barcode, "square.csv", "--representatives", "cycles", "--output-format", "json", "--quiet").stdout
     t.run(t.vectorise, DATA / "bars", "--kind", "image", "--fit", "fit.json", "-o", "x.npy", "--quiet")
     sliced = t.run(t.distance, DATA / "bars", "--distance", "sliced", "--output-format", "json", "--quiet").stdout

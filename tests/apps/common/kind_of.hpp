@@ -4,7 +4,7 @@
 
 namespace ph::app {
 
-/// The kind of the error that `act` throws; internal if it throws none.
+/// The kind of the error that `act` throws; ErrorKind::internal if it throws none.
 template <class Act>
 ErrorKind kind_of(Act&& act) {
   try {

@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv [OPTION...]]: each option of each program with each kind of
-input. It runs the program with and without the option; the option
+"""option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv [OPTION...]]: tests each option of each program
+with each kind of input. It runs the program with and without the option. The option
 
 * changes the result (exit code, standard output, files), or
-* affects something other than the result: a message, a field of the JSON, how it is computed, or
+* affects something other than the result: a message, a field of the JSON, how the result is
+  computed, or
 * is refused (64) by name, or
-* is reported on standard error to do nothing.
+* is reported on standard error to have no effect.
 
 Any other option was silently ignored (SILENT), and the test fails. The test also fails if the
 option turns the input into bad data without a message about the option, or if the program does not
-obey it. For an option with choices (the help lists them as a|b|c), each choice is tried: it is
-refused by name, or its result differs from that of every other choice.
+obey the option. For an option with choices (the help lists them as a|b|c), each choice is tried: it
+is refused by name, or its result differs from that of every other choice.
 
-The options are those that --help all lists. One without a row in option_inputs_PROGRAM.py is tried
-with its last choice, or with a sample of what its placeholder stands for; if there is none, the test
-fails. The table is written to TABLE.csv. OPTION...: only these."""
+The options are those that --help all lists. An option without a row in option_inputs_PROGRAM.py is
+tried with its last choice, or with a sample value for its placeholder; if there is no sample, the
+test fails. The table is written to TABLE.csv. With OPTION..., only these options are tested."""
 import collections
 import concurrent.futures
 import csv
@@ -37,9 +38,9 @@ CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said",
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
 DOES_NOTHING = "does nothing|do nothing|nothing is done|not needed|is not used"
 TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU per frame"
-MEMORY = rb"(?m)^memory .*$"  # the output of a dry run depends on the heap of the process
+MEMORY = rb"(?m)^memory .*$"  # the forecast of a dry run depends on the heap of the process
 RUNS_AT_ONCE = 2
-# Values of options without a row, by placeholder.
+# Sample values for the placeholders of options without a row.
 SAMPLES = {"": [], "[TOPIC]": [], "N": ["2"], "K": ["2"], "D": ["1"], "P": ["3"], "S": ["2"], "T": ["0.5"],
            "R": ["0.5"], "X": ["0.5"], "M": ["0.5"], "EPS": ["0.5"]}
 
@@ -47,16 +48,16 @@ SAMPLES = {"": [], "[TOPIC]": [], "N": ["2"], "K": ["2"], "D": ["1"], "P": ["3"]
 class Row:
     """How to test an option.
 
-    arguments: those that are the option; `@input` is the first file of the input.
-    variant: of the input, where it has one: what makes the difference ("nan").
+    arguments: the option and its value; `@input` stands for the first file of the input.
+    variant: the variant of the input on which the option has an effect, such as "nan".
     beside: arguments of both runs.
-    sign: a pattern that standard error has with the option only, in place of another result; {} in
-    it is the choice. lost: one that it has without the option only.
-    default: other arguments, where the option says what holds anyway: they change the result.
-    unfit: what a message says where the option makes of the input what it, or another option, does
-    not fit (64, 65); its name will always do.
-    choices: those that are tried, each with another result; by default those of the help.
-    alike: choices that have the result of another one."""
+    sign: a pattern that standard error matches only with the option, in place of a changed result;
+    {} in it stands for the choice. lost: a pattern that it matches only without the option.
+    default: other arguments, which change the result, if `arguments` only state the default.
+    unfit: a pattern for the message of a run that fails (64, 65) because the input does not fit
+    this option or another one; the name of the option is always accepted.
+    choices: the choices to try, each with a different result; by default those of the help.
+    alike: choices that have the same result as another choice."""
 
     def __init__(self, *arguments, variant="plain", beside=(), sign=None, lost=None, default=(),
                  unfit=None, choices=None, alike=()):
@@ -66,7 +67,8 @@ class Row:
 
 
 class Input:
-    """A kind of input: its arguments, its files, and other contents of the first of them."""
+    """A kind of input: its arguments, its files, and variants of the first file with other
+    contents."""
 
     def __init__(self, name, arguments, files, rows=None, **variants):
         self.name, self.arguments, self.files = name, list(arguments), dict(files)
@@ -80,7 +82,7 @@ class Input:
 
 
 def options_of(program):
-    """All options of the help, each by its first long name: its placeholder, and the choices it lists."""
+    """All options of the help by their first long name: the placeholder, and the listed choices."""
     found = {}
     for name, option in described.options_of(program).items():
         choices = option.value.replace("minkowski:P", "minkowski:3").split("|")
@@ -90,8 +92,9 @@ def options_of(program):
 
 
 def result_of(content):
-    """JSON (for a stream, one per line) without the parts that differ from run to run."""
-    if not content.startswith(b"{"):  # lines of numbers are also JSON, and nothing in them differs
+    """The JSON (for a stream, one document per line) without the parts that differ from run to
+    run."""
+    if not content.startswith(b"{"):  # lines of numbers are JSON as well, but the same in each run
         return re.sub(MEMORY, b"", content) if b"memory " in content else content
     try:
         values = [json.loads(content)]
@@ -134,13 +137,13 @@ class Run:
 
 
 class Runs:
-    """Each input is made once."""
+    """Runs programs; each input and each run is made only once."""
 
     def __init__(self):
         self.known, self.lock = {}, threading.Lock()
 
     def get(self, program, arguments, files, again=False):
-        """@param again a second run of the same."""
+        """@param again true for a second run with the same arguments."""
         key = (program, tuple(arguments), tuple(files.items()), again)
         with self.lock:
             first = key not in self.known
@@ -155,7 +158,7 @@ class Runs:
 
 
 class Pair:
-    """An option with a kind of input."""
+    """An option together with a kind of input."""
 
     def __init__(self, runs, program, option, row, kind, choices):
         self.runs, self.program, self.option, self.row, self.kind = runs, program, option, row, kind
@@ -205,7 +208,7 @@ class Pair:
             other = self.run(row.default)
             return ((OBEYED, "") if other.code == 0 and other.result() != given.result()
                     else (SILENT, f"nor does {row.default}: {tried}"))
-        # A remark about an output also covers its look.
+        # A remark about an output also applies to options that change how the output looks.
         outputs = {"-o": "--output", "--plot": "--plot", "--representatives": "--representatives"}
         said_of = [option, *(outputs[word] for word in row.beside if word in outputs)]
         if any(given.names(word, line) and re.search(DOES_NOTHING, line)
@@ -214,7 +217,8 @@ class Pair:
         return SILENT, tried
 
     def fault_of_choices(self, plain):
-        """Each choice is the default or has an effect, and no two are the same."""
+        """Checks that each choice is the default or has an effect, and that no two choices give the
+        same result."""
         results = {}
         for choice in self.choices:
             arguments = [self.option, choice]
@@ -232,7 +236,7 @@ class Pair:
 
 
 def without(arguments, option):
-    """The arguments without an option and its value."""
+    """The arguments without the given option and its value."""
     kept, skip = [], False
     for argument in arguments:
         if argument == option:

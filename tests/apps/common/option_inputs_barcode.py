@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The options and the kinds of input of ph-barcode, for option_inputs.py."""
+"""The options of ph-barcode and the kinds of input for option_inputs.py."""
 import gzip
 import math
 import os
@@ -19,11 +19,11 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
-# The messages that an option may cause for unsuitable data.
+# Parts of messages that an option may cause for unsuitable data.
 POINTS, IMAGE = "not a set of points|found points", "an image has rows"
 H0 = ["--complex", "rips", "--max-dim", "0"]
 LOOPS = ["--representatives", "cycles", "--output-format", "json"]
-# With options without a row.
+# Arguments added to both runs for options without a row.
 BESIDE = []
 
 
@@ -115,7 +115,7 @@ def said_of(program):
 
 
 def parts_of(program, floats):
-    """The files of an image in two parts, with cells."""
+    """The files of the two parts of an image, whose bars have cells."""
     parts = {}
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "i.npy"), "wb") as file:
@@ -170,9 +170,10 @@ def inputs(Input, program):
         row = rows_of()
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
-        if threshold is not None and name not in LISTED:  # an image
+        if threshold is not None and name not in LISTED:  # the input is an image
             given["--complex"] = row("--complex", "rips", unfit=POINTS, lost="read as an image")
-        if {"--format", "--raw-shape"} & set(arguments):  # it is not reported then
+        # With these options, the format is not reported.
+        if {"--format", "--raw-shape"} & set(arguments):
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])
         if name in RIPS:
@@ -252,7 +253,7 @@ def inputs(Input, program):
     add("NPY whole numbers", ["i.npy"], {"i.npy": files.array((5, 6), grey, "|u1")}, 4)
     add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 3), volume)}, 4,
         nan=files.array((3, 3, 3), [math.nan, *volume[1:]]))
-    # With one axis, both constructions have the same bars, and only periodic ones have a loop.
+    # With one axis, both constructions have the same bars, and only a periodic axis has a loop.
     add("NPY series", ["s.npy"], {"s.npy": files.array((30,), floats)}, 4, nan=files.array((30,), one_nan),
         rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
@@ -271,7 +272,7 @@ def inputs(Input, program):
         rows={"--construction": (("--construction", "cells"), {})})
     add("DIPHA image", ["i.dipha"], {"i.dipha": files.dipha_image((6, 5), floats)}, 4,
         nan=files.dipha_image((6, 5), one_nan))
-    # A triangle that is filled late, beside a hollow one.
+    # A triangle that is filled late, beside a triangle that is never filled.
     simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
                  b"3 4 : 2.5\n2 4 : 2.75\n")
     add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[3, 1, 4, 2, 5],
@@ -334,7 +335,7 @@ def inputs(Input, program):
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})
-    # A part has no format and no picture.
+    # Options of --part: a part has no format and no picture.
     of_part = {option: ((option, value) if value else (option,), {}) for option, value in (
         ("--part", "2/2"), ("--output", "x.ph"), ("--field", "3"), ("--representatives", "cycles"),
         ("--loops", "none"), ("--plot-kind", "betti"), ("--title", "Loops"), ("--size", "300x200"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The options and the kinds of input of ph-segment, for option_inputs.py."""
+"""The options of ph-segment and the kinds of input for option_inputs.py."""
 import math
 import os
 import random
@@ -15,11 +15,11 @@ WIDTH, HEIGHT, FOCAL = 96, 72, 150
 CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
 RESULTS = ["--labels", "l-x.csv", "--barcode", "b-x.csv"]
 OF_FRAMES = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
-BESIDE = RESULTS  # with options without a row
+BESIDE = RESULTS  # arguments added to both runs for options without a row
 
 
 def rows(Row, name="x"):
-    """@param name the part of the files' names that comes from the input, * in a stream."""
+    """@param name the part of output names that comes from the input; * for a stream."""
     results = OF_FRAMES if name == "*" else RESULTS
     plot = [*results, "--plot", f"x-{name}.svg"]
 
@@ -85,8 +85,9 @@ def depth_png(image):
 
 
 def depths(second, first=24):
-    """Millimetres: a table at 1 m, a box 10 cm high, `first` pixels wide, whose top has waves, a
-    flat object, another box `second` pixels wide, and a rod above it that hides its middle."""
+    """A depth image in millimetres: a table at 1 m, a box 10 cm high and `first` pixels wide with
+    waves on its top, a flat object, another box `second` pixels wide, and above it a rod that hides
+    its middle."""
     random.seed(7)
     image = []
     for y in range(HEIGHT):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Memory runs out at any moment: the programs exit with 75 or manage without it, and no file is
-half written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
+"""Memory runs out at any moment: the programs exit with 75 or manage without the memory, and no
+file is half written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
 
-There are some 17000 calls, each tested by two runs. Without --all, only one in EVERY fails,
-different ones in each case and for each way to fail."""
+There are some 17000 allocating calls, each tested by two runs. Without --all, only one call in
+EVERY fails: a different selection in each case and for each way to fail."""
 import gzip
 import os
 import subprocess
@@ -20,14 +20,14 @@ TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
 
 
 def table():
-    """A table seen from above with a box on it, as an ascii PCD file."""
+    """An ASCII PCD file: a table seen from above with a box on it."""
     points = [(0.01 * x, 0.01 * y, 0.9 if 4 <= x < 8 and 4 <= y < 8 else 1.0)
               for y in range(14) for x in range(14)]
     lines = "".join("%g %g %g\n" % p for p in points)
     return files.pcd_header(width=14, height=14) + lines.encode()
 
 
-# (program, arguments without outputs, outputs of which each is complete or absent)
+# (program, arguments without outputs, outputs, each of which must be complete or absent)
 CASES = [
     (BARCODE, ["square.txt"], {"-o": "out.csv", "--plot": "out.svg"}),
     (BARCODE, ["square.txt", "--engine", "standard"], {"-o": "out.dipha"}),
@@ -61,9 +61,9 @@ REPORTS = [
 ]
 
 
-SAMPLED = 97  # one in so many of the calls that already failed in an earlier case
-total = [0]  # runs
-first = [0]  # of the failing calls
+SAMPLED = 97  # only one in this many of the calls that already failed in an earlier case
+total = [0]  # number of runs
+first = [0]  # offset of the failing calls
 
 
 class Folder:
@@ -82,7 +82,7 @@ class Folder:
             file.write(content)
 
     def outputs(self):
-        """Removes the files of the last run. @return their content by name."""
+        """Removes the files of the last run. @return the content of each file, by name."""
         left = {}
         for name in set(os.listdir(self.path)) - set(self.inputs):
             with open(os.path.join(self.path, name), "rb") as file:
@@ -99,7 +99,7 @@ class Folder:
 
 
 def calls_of(folder, *case):
-    """@return the sizes that a successful run allocates, in order, and the files that it writes."""
+    """@return the sizes that a successful run requests, in order, and the files that it writes."""
     run = folder.run(*case, PH_CALLS_FILE=os.path.join(folder.path, "calls"))
     made = folder.outputs()
     assert run.returncode == 0, run.stderr
@@ -109,7 +109,7 @@ def calls_of(folder, *case):
 
 
 def shared(sizes, others):
-    """@return how many calls from the start request the same sizes."""
+    """@return the number of leading requests whose sizes agree."""
     for i, (a, b) in enumerate(zip(sizes, others)):
         if a != b:
             return i
@@ -117,22 +117,23 @@ def shared(sizes, others):
 
 
 def is_complete(name, content, want):
-    """A report contains times and may lack a merge tree: check only its beginning and end."""
+    """True if a file is complete. A report contains times and may lack a merge tree: only its
+    beginning and end are compared."""
     if name.endswith(".html"):
         return content[:1000] == want[:1000] and content[-1000:] == want[-1000:]
     return content == want
 
 
 def check(folder, case, known, wrong):
-    """Makes each call fail; among the calls that the run shares with the start of the run `known`,
-    only a few. @return the sizes of its calls."""
+    """Makes each call fail. Of the calls that this run shares with the beginning of the run
+    `known`, only a few fail. @return the sizes that the run requests."""
     program, arguments, outputs = case
     sizes, want = calls_of(folder, *case)
     assert set(want) == set(outputs.values()) - {"/dev/null"}, want.keys()
     before = shared(sizes, known)
     runs = {0: 0, 75: 0}
     for how in ("PH_FAIL_AT", "PH_FAIL_FROM"):
-        first[0] += 5  # prime to EVERY
+        first[0] += 5  # coprime to EVERY
         skip = first[0] % EVERY
         for call in [*range(1 + skip, before + 1, SAMPLED * EVERY),
                      *range(before + 1 + skip, len(sizes) + 1, EVERY)]:
@@ -169,10 +170,10 @@ def main():
         folder.run(SEGMENT, ["table.pcd", "--min-size", "1"],
                    {"-o": "out.pcd", "--labels": "out.png"})
         made = folder.outputs()
-        folder.add("out.pcd.in", made["out.pcd"])  # binary_compressed
+        folder.add("out.pcd.in", made["out.pcd"])  # a PCD file of the kind binary_compressed
         folder.add("out.png.in", made["out.png"])
-        # Most calls declare the options, which is the same in every run of a program: all of them
-        # fail in its first case.
+        # Most calls declare the options, and they are the same in every run of a program: all of
+        # them fail in the first case of each program.
         of_program = {}
         reports = REPORTS if has_page(BARCODE) else []
         if not reports:

@@ -3,8 +3,8 @@
 WRONG-CLOCK.so
 
 Whatever the clock says, a run ends in time with exit code 0 and the same output as with a correct
-clock. Lines of progress stay lines of JSON with finite numbers. Processes that wait for each other
-are not tested, because the system, whose clock stays correct, decides how long they wait."""
+clock. Lines of progress are still JSON with finite numbers. Processes that wait for each other are
+not tested, because the kernel, whose clock stays correct, decides how long they wait."""
 import itertools
 import json
 import math
@@ -18,7 +18,7 @@ from program import files  # noqa: E402
 
 BARCODE, SEGMENT, SHIM = map(os.path.abspath, sys.argv[1:4])
 WAYS = ("back", "ahead", "frozen", "fails", "leaps")
-FROM = (1, 2, 3, 5, 20)  # the first call that is wrong
+FROM = (1, 2, 3, 5, 20)  # number of the first call that is wrong
 POINTS = "".join(f"{math.cos(i)} {math.sin(3 * i)} {math.cos(7 * i)}\n" for i in range(400))
 TABLE = files.pcd_header(width=24, height=24) + "".join(
     f"{x / 100} {y / 100} {0.9 if 8 <= x < 16 and 8 <= y < 16 else 1.0}\n"
@@ -38,7 +38,7 @@ RUNS = [
 
 
 def run(words, **environment):
-    """@return the finished process, and the files that it wrote, by name."""
+    """@return the completed process, and the files that it wrote, by name."""
     with tempfile.TemporaryDirectory() as folder:
         for name, content in INPUTS.items():
             path = os.path.join(folder, name)
@@ -66,7 +66,7 @@ def is_progress(line):
 
 
 def faults(words, want, **environment):
-    """@return a description of the fault of a run."""
+    """@return a list that describes what is wrong with a run."""
     try:
         process, found = run(words, **environment)
     except subprocess.TimeoutExpired:

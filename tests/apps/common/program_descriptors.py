@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """program_descriptors.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT: names like /dev/fd/4 stand
-for descriptors that the caller opened, never for the program's own. Data written to one are
-kept."""
+for descriptors that the caller opened, never for the program's own. Data already written to a
+descriptor are kept."""
 import os
 import subprocess
 import sys
@@ -12,7 +12,7 @@ from option_inputs_segment import HEIGHT, WIDTH, depth_png, depths, pcd, points_
 from program import SQUARE, SQUARE_CSV, FolderTest  # noqa: E402
 
 BARCODE = DISTANCE = VECTORISE = SEGMENT = None
-OWN = range(3, 9)  # those that the programs open first
+OWN = range(3, 9)  # the descriptors that the programs open first
 
 
 class Descriptors(FolderTest):
@@ -87,7 +87,7 @@ class Descriptors(FolderTest):
             run = self.run_in_folder(BARCODE, f"/dev/fd/{both[0]}", "-o", f"/dev/fd/{both[1]}",
                                      pass_fds=both)
             self.assertEqual(run.returncode, 0, run.stderr)
-            # It is open for reading only.
+            # The descriptor is open for reading only.
             run = self.run_in_folder(BARCODE, "m.off", "-o", f"/dev/fd/{both[0]}", pass_fds=both)
             self.assertEqual(run.returncode, 73, run.stderr)
         self.assertEqual(self.read("log"), "before\n" + SQUARE_CSV)
@@ -116,7 +116,7 @@ class Descriptors(FolderTest):
             run = self.run_in_folder(VECTORISE, "a.csv", "-o", first, "--fit", second)
             self.assertEqual((run.returncode, run.stdout), (64, ""), (first, second, run.stderr))
             self.assertIn("is also written by --output", run.stderr)
-        # There is nothing to mix.
+        # Two outputs to /dev/null cannot get mixed.
         run = self.run_in_folder(VECTORISE, "a.csv", "-o", "/dev/null", "--fit", "/dev/null")
         self.assertEqual(run.returncode, 0, run.stderr)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output never replaces an input, unless --force
-allows it, and never another output, whatever their names."""
+"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output never replaces an input unless --force
+allows it, and never replaces another output, whatever names are used for the files."""
 import json
 import os
 import subprocess
@@ -24,7 +24,7 @@ class Overwrites(FolderTest):
         os.mkdir(self.path("folder"))
 
     def write(self, name, content):
-        """A file, and other names for it."""
+        """Writes a file, and makes other names for it."""
         super().write(name, content)
         path = self.path(name)
         folder, name = os.path.split(path)
@@ -36,7 +36,7 @@ class Overwrites(FolderTest):
                               timeout=60, **options)
 
     def refused(self, program, option, files, *arguments):
-        """Exit 64 that names the option; no file changes."""
+        """Checks that a run exits with 64 and names the option, and that no file changes."""
         before = {name: self.read_bytes(name) for name in files}
         run = self.run_in_folder(program, *arguments)
         self.assertEqual(run.returncode, 64, (arguments, run.stderr))
@@ -120,7 +120,7 @@ class Overwrites(FolderTest):
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(self.path("x.svg")))
-        # The folder does not exist yet.
+        # The folder of the output does not exist yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
                           ["-o", "new/*.svg", "--output-format", "csv", "--plot",
@@ -138,7 +138,8 @@ class Overwrites(FolderTest):
         self.assertTrue(self.read_bytes("p.csv").startswith(b"dim,birth,death\n"))
 
     def scene(self, *clouds):
-        """The same scene as clouds, as a depth image, and the camera of that."""
+        """Writes the same scene as clouds, as a depth image, and as the camera of the depth
+        image."""
         image = depths(36)
         for name in clouds:
             self.write(name, pcd(list(points_of(image)), WIDTH, HEIGHT))

@@ -46,10 +46,10 @@ TEST(Session, PassesOptionsOn) {
 // ---- the bar, and output that must not share its line
 
 constexpr std::string_view kWipe = "\r\x1b[K";
-constexpr auto kBarIsThere = std::chrono::milliseconds(600);       // after the start
-constexpr auto kTooLongSilence = std::chrono::milliseconds(1000);  // of a computation
+constexpr auto kBarIsThere = std::chrono::milliseconds(600);       // after the start of the run
+constexpr auto kTooLongSilence = std::chrono::milliseconds(1000);  // between two signs of progress
 
-/// The output on stderr while `act` runs.
+/// What `act` prints on stderr.
 template <class Act>
 std::string stderr_of(Act&& act) {
   testing::internal::CaptureStderr();
@@ -139,7 +139,7 @@ TEST(Progress, MessagesNeverShareALineWithABar) {
   std::size_t messages = 0, bars = 0;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    if (lines.eof()) break;  // a bar that was erased at the end
+    if (lines.eof()) break;  // the bar, which was erased at the end
     ++messages;
     const std::size_t wiped = line.rfind(kWipe);
     bars += wiped != line.npos;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Preloaded into a program: from the n-th call on (PH_CLOCK_FROM=n) the clocks are wrong.
    PH_CLOCK says how:
-     back    each call is an hour before the one that came last
+     back    each call tells a time one hour earlier than the previous call
      ahead   the first call is a hundred years ahead, the others two hundred
      frozen  each call tells the same time
-     fails   each call fails and leaves the time alone
-     leaps   one of the others, by chance, call by call */
+     fails   each call fails and does not change its output
+     leaps   each call does one of these at random */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <stdatomic.h>
@@ -21,7 +21,7 @@
 
 static atomic_long calls;
 
-/* Some bits of the number of the call (splitmix64). */
+/* Pseudo-random bits from the number of the call (splitmix64). */
 static unsigned chance(uint64_t call) {
   call += 0x9e3779b97f4a7c15u;
   call = (call ^ (call >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -41,7 +41,8 @@ int clock_gettime(clockid_t clock, struct timespec* now) {
     return -1;
   }
   const int status = (int)syscall(SYS_clock_gettime, clock, now);
-  /* The range of std::chrono's nanoseconds in 64 bits: 292 years. */
+  /* std::chrono's nanoseconds in 64 bits cover 292 years, which a leap of two centuries does not
+   * exceed. */
   if (strcmp(how, "back") == 0)
     now->tv_sec -= HOUR * (wrong + 1);
   else if (strcmp(how, "ahead") == 0)

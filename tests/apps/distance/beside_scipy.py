@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares ph-distance with SciPy's assignments, on matrices with a diagonal place for each bar.
-Skipped without SciPy."""
+"""Compares ph-distance with SciPy's assignments, on matrices with a place on the diagonal for each
+bar. Skipped without SciPy."""
 import math
 import os
 import sys
@@ -28,7 +28,7 @@ def distance(a, b, order, ground):
     if order < INF:
         return (costs[linear_sum_assignment(costs**order)]**order).sum()**(1 / order)
     low, high = 0, len(values := numpy.unique(costs)) - 1
-    while low < high:  # the least value at which all can be paired
+    while low < high:  # finds the least value at which all bars can be paired
         middle = (low + high) // 2
         refused = costs > values[middle]
         if refused[linear_sum_assignment(refused)].any():

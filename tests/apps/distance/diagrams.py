@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes, and their distances by the definition: tries all ways to pair bars."""
+"""Random barcodes, and their distances by the definition, which tries all ways to pair the bars."""
 import csv
 import io
 import itertools
@@ -14,7 +14,8 @@ def csv_of(bars):
 
 
 def random_bars(seed, counts, grid=None):
-    """@param counts how many bars by dimension, and how many of them never die."""
+    """@param counts for each dimension, the number of bars, and how many of them never die. @param
+    grid step of the numbers, or None."""
     chance = random.Random(seed)
     bars = []
     for dim, (finite, infinite) in counts.items():
@@ -40,8 +41,8 @@ def to_diagonal(bar, ground):
 
 
 def costs_of(a, b, ground):
-    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns vice
-    versa."""
+    """The matrix of costs. Rows are the bars of `a`, followed by a place on the diagonal for each
+    bar of `b`; columns are the bars of `b`, followed by a place for each bar of `a`."""
     return ([[norm(abs(p[0] - q[0]), abs(p[1] - q[1]), ground) for q in b]
              + [to_diagonal(p, ground)] * len(a) for p in a]
             + [[to_diagonal(q, ground) for q in b] + [0.0] * len(a) for _ in b])
@@ -52,7 +53,8 @@ def total(costs, order):
 
 
 def distance(a, b, order=INF, ground=INF):
-    """The distance of a few bars of one dimension; `order` infinity is the bottleneck distance."""
+    """The distance of the bars of one dimension, for few bars. `order` infinity is the bottleneck
+    distance."""
     finite = [[bar for bar in bars if bar[1] < INF] for bars in (a, b)]
     rays = [sorted(bar[0] for bar in bars if bar[1] == INF) for bars in (a, b)]
     if len(rays[0]) != len(rays[1]):

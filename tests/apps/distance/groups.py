@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance --groups: the loss agrees with its definition, and p with all ways to assign the
-labels."""
+"""ph-distance --groups: compares the loss with its definition, and p with its value over all ways
+to assign the labels."""
 import itertools
 import json
 import math
@@ -11,14 +11,15 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import ProgramTest, main  # noqa: E402
 from diagrams import INF, csv_of, rows_of  # noqa: E402
 
-# One bar each: the distance of two barcodes is the difference of the deaths, as long as it is
-# small.
+# Deaths of barcodes with one bar each: the distance of two such barcodes is the difference of the
+# deaths, as long as this is small.
 DEATHS = [20.0, 21.5, 20.25, 23.0, 24.0, 21.0, 23.5]
 WORDS = ["low", "low", "low", "high", "high", "low", "high"]
 
 
 def loss_of(deaths, words, power):
-    """Over groups, the sum of the powers of distances of ordered pairs within / (2 n (n - 1))."""
+    """The loss by the definition: for each group of n barcodes, the sum of the powers of the
+    distances over ordered pairs, divided by 2 n (n - 1); summed over the groups."""
     loss = 0.0
     for word in set(words):
         own = [death for death, w in zip(deaths, words) if w == word]
@@ -49,7 +50,7 @@ class GroupsTest(ProgramTest):
             dealt = [loss_of(DEATHS, ["low" if i in low else "high" for i in range(7)], power)
                      for low in itertools.combinations(range(7), 4)]
             exact = sum(x <= loss * (1 + 1e-12) for x in dealt) / len(dealt)
-            # Five standard deviations of the count of 4000 shuffles.
+            # The tolerance is five standard deviations of the count among 4000 shuffles.
             self.assertLess(abs(float(row["p"]) - exact), 5 * math.sqrt(exact * (1 - exact) / 4000) + 1 / 4000)
 
     def test_groups_that_do_not_differ(self):
@@ -67,7 +68,7 @@ class GroupsTest(ProgramTest):
         self.assertEqual(f"H1  p {test['p']}, loss {test['loss']} (99 shuffles, power 1, seed 5)", text.splitlines()[1])
         self.assertEqual([d["value"] for d in found["distances"]],
                          [abs(x - y) for x, y in itertools.combinations(DEATHS, 2)])
-        # With the matrix, from which anybody can compute the same.
+        # The option --matrix does not change the result; the matrix allows anybody to recompute it.
         self.assertEqual(self.result("--shuffles", "99", "--seed", "5", "--matrix", "m.csv").stdout, text)
         self.assertEqual(float(rows_of(self.read("m.csv"))[0]["3.csv"]), 3)
 

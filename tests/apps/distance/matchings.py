@@ -21,7 +21,7 @@ def gap(x, y):
 
 class Matchings(ProgramTest):
     def matched(self, *options):
-        """Rows of the matching by dimension, and the distances by dimension."""
+        """The rows of the matching and the distances, each by dimension."""
         run = self.expect(0, "a.csv", "b.csv", *options, "--matching", "m.csv", "--output-format", "json", "--quiet")
         rows = {}
         for row in rows_of(self.read("m.csv")):
@@ -30,7 +30,8 @@ class Matchings(ProgramTest):
         return rows, {d["dim"]: d["value"] for d in json.loads(run.stdout)["distances"]}
 
     def check(self, rows, bars, value, order, ground):
-        """@param bars of both barcodes, of one dimension, in the order of a barcode."""
+        """@param bars the bars of one dimension of both barcodes, in the order in which ph-barcode
+        writes bars."""
         for side, own in zip("ab", bars):
             places = [int(row[side]) for row in rows if row[side] != "diagonal"]
             self.assertEqual(sorted(places), list(range(len(own))))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: options without an effect are refused, values are strict, outputs replace no
-input."""
+"""ph-distance: options without an effect are refused, values are parsed strictly, and outputs
+replace no input."""
 import os
 import subprocess
 import sys
@@ -12,8 +12,8 @@ BARS = "dim,birth,death\n0,0,4\n0,1,2\n1,3,5\n1,1,4\n"
 OTHER = "dim,birth,death\n0,0,4.5\n1,1,2.5\n"
 KINDS = ("bottleneck", "wasserstein", "sliced")
 BOUNDED = {"bottleneck", "wasserstein"}
-# Each option with a value, the distances to which it applies, and the tasks: two barcodes, three, a
-# matching, groups.
+# Each option with a value, the distances that it applies to, and its tasks: two barcodes, three
+# barcodes, a matching, groups.
 PAIR, MANY, MATCHING, GROUPS = ["a.csv", "b.csv"], ["a.csv", "b.csv", "c.csv"], ["--matching", "m.csv"], \
     ["--groups", "g.txt"]
 AIMS = {"pair": PAIR, "many": MANY, "matching": PAIR + MATCHING, "groups": [*PAIR, *PAIR, *GROUPS]}
@@ -39,9 +39,11 @@ class OptionsTest(ProgramTest):
             for kind in KINDS:
                 for aim, arguments in AIMS.items():
                     if aim == "matching" and (kind == "sliced" or option[0] == "--matching"):
-                        continue  # refused for itself; given twice
+                        # Such a call is refused for another reason, or has the option twice.
+                        continue
                     fits = kind in kinds and aim in aims
-                    # The matching of the bottleneck distance is exact.
+                    # The matching of the bottleneck distance is exact, and therefore takes no
+                    # --error.
                     fits = fits and (option[0], aim, kind) != ("--error", "matching", "bottleneck")
                     before = self.files()
                     run = self.expect(0 if fits else 64, *arguments, "--distance", kind, *option)
@@ -89,7 +91,7 @@ class OptionsTest(ProgramTest):
         self.expect(64, *PAIR, *PAIR, *GROUPS, "-o", "g.txt")
         self.assertEqual((self.read("a.csv"), self.read("b.csv"), self.read("g.txt")), (BARS, OTHER, "x\ny\nx\ny\n"))
         self.expect(73, *PAIR, "-o", "missing/x.csv")
-        # A failing run leaves nothing behind.
+        # A failed run leaves nothing behind.
         self.expect(65, "a.csv", "square.txt", "-o", "z.csv", "--matching", "m.csv", "--matrix", "m.npy")
         self.assertEqual(self.files(), before)
         self.expect(0, *PAIR, "-o", "a.csv", "--force")

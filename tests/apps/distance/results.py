@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: distances agree with the definitions in all formats; matrices; inputs of all
-formats."""
+"""ph-distance: distances agree with the definitions in all formats; also tests matrices, and inputs
+of all formats."""
 import itertools
 import json
 import math
@@ -119,7 +119,8 @@ class Results(ProgramTest):
         values = {(r["a"], r["b"]): float(r["value"])
                   for r in rows_of(self.out(*self.bars, "--dim", "1", "--output-format", "csv"))}
         square = [[0.0 if a == b else values[min(a, b), max(a, b)] for b in self.bars] for a in self.bars]
-        self.assertEqual(self.out(*self.bars, "--dim", "1", "--matrix", "m.csv"), "")  # in place of the table
+        # The matrix replaces the table.
+        self.assertEqual(self.out(*self.bars, "--dim", "1", "--matrix", "m.csv"), "")
         self.assertIn("m.csv: bottleneck distance (order inf, ground norm inf) in H1",
                       self.expect(0, *self.bars, "--dim", "1", "--matrix", "m.csv").stderr)
         rows = rows_of(self.read("m.csv"))
@@ -130,14 +131,14 @@ class Results(ProgramTest):
                          self.out(*self.bars, "--dim", "1"))
         content = self.read_bytes("m.npy")
         start = 10 + struct.unpack("<H", content[8:10])[0]
-        self.assertEqual(eval(content[10:start]),  # as NumPy does
+        self.assertEqual(eval(content[10:start]),  # the header as NumPy reads it
                          {"descr": "<f8", "fortran_order": False, "shape": (4, 4)})
         self.assertEqual(list(struct.unpack("<16d", content[start:])), list(itertools.chain(*square)))
         run = self.expect(64, *self.bars, "--matrix", "n.npy")
         self.assertIn("--matrix: found H0 and H1, expected one dimension; --dim D", run.stderr)
         self.assertNotIn("n.npy", self.files())
         self.write("e.csv", csv_of(bar for bar in self.bars["a.csv"] if bar[0] == 1))
-        self.expect(0, "e.csv", "e.csv", "--matrix", "n.csv")  # there is one dimension only
+        self.expect(0, "e.csv", "e.csv", "--matrix", "n.csv")  # the bars have a single dimension
         self.assertEqual(self.read("n.csv"), "input,e.csv,e.csv\ne.csv,0,0\ne.csv,0,0\n")
 
     def test_infinite_distances(self):
@@ -167,7 +168,7 @@ class Results(ProgramTest):
         self.assertEqual(run.stdout.splitlines()[1:], ["no bars"])
         self.assertEqual(json.loads(self.out("none.csv", "none.csv", "--output-format", "json"))["distances"], [])
         self.assertIn("found no bars", self.expect(64, "none.csv", "none.csv", "--matrix", "x.npy").stderr)
-        # All bars of one barcode go to the diagonal.
+        # All bars of the second barcode are paired with the diagonal.
         self.assertEqual(self.out("none.csv", "a.csv", "--dim", "1"),
                          f"{HEADINGS[0]} of none.csv and a.csv\nH1  "
                          f"{max((e - b) / 2 for b, e in of_dim(self.bars['a.csv'], 1))}\n")

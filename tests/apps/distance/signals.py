@@ -12,14 +12,14 @@ import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 from diagrams import csv_of, random_bars  # noqa: E402
 
-PATIENCE = 0.2 + 0.3  # the promise, plus the delay of a busy machine
+PATIENCE = 0.2 + 0.3  # the promised time, plus the delay of a busy machine
 TRIES = 3
 
 
 class Signals(ProgramTest):
     def setUp(self):
         super().setUp()
-        for name, seed in (("a.csv", 1), ("b.csv", 2)):  # some seconds
+        for name, seed in (("a.csv", 1), ("b.csv", 2)):  # these take some seconds
             self.write(name, csv_of(random_bars(seed, {1: (60_000, 0)})))
         self.names = [self.write(f"{i}.csv", csv_of(random_bars(i, {1: (1500, 0)}))) for i in range(40)]
         self.write("groups.txt", "x\ny\n" * 20)

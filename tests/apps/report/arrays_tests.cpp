@@ -41,7 +41,7 @@ TEST(Normals, AreFoundAgain) {
   EXPECT_EQ(octahedral(std::nan(""), 0, 1), (std::array<std::int8_t, 2>{-128, -128}));
 }
 
-/// A path of vertices with these births; each edge enters with its later end.
+/// The tree of a path of vertices with these births. Each edge enters with its later endpoint.
 MergeTree path_tree(std::vector<double> births) {
   MergeTree tree;
   tree.births = std::move(births);
@@ -71,7 +71,8 @@ MergeTree path_tree(std::vector<double> births) {
   return tree;
 }
 
-/// The partition that the page makes of a cut: the vertices by the smallest leaf of their segment.
+/// The partition that the page computes for a cut: for each vertex, the smallest leaf of its
+/// segment.
 std::vector<std::uint32_t> page_cut(const MergeTree& tree, const ContractedTree& contracted,
                                     CutRule rule, double cut) {
   std::vector<std::uint32_t> parent(contracted.leaf_birth.size());
@@ -112,7 +113,7 @@ TEST(Trees, CutAsTheProgramsDo) {
                               tree.basins(cut, min_part));
     }
     const auto contraction = contracted(tree, CutRule::value, 2, 1, {}, default_context());
-    for (const double cut : {11.0, 12.0})  // all vertices have entered
+    for (const double cut : {11.0, 12.0})  // at these values, all vertices have entered
       expect_same_partition(page_cut(tree, contraction, CutRule::value, cut), tree.components(cut));
   }
 }
@@ -163,7 +164,7 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
     }
   EXPECT_EQ(least_cut(tree, CutRule::persistence, 100), 6);
   EXPECT_EQ(least_cut({}, CutRule::value, 1), 0);
-  // A page has no infinite cut.
+  // The cuts on a page are finite.
   const MergeTree infinite = path_tree({-kInfinity, 3, -kInfinity, 5, 1});
   EXPECT_EQ(least_cut(infinite, CutRule::persistence, 100), 4);
   EXPECT_EQ(least_cut(path_tree({-kInfinity, 3, -kInfinity}), CutRule::persistence, 100), 1);
@@ -171,14 +172,15 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
 
 TEST(TouchingLeaves, AreBesideEachOtherInThePicture) {
   constexpr std::uint32_t none = kNone;
-  // Two rows of twelve pixels, the second without its first one.
+  // Two rows of twelve pixels; the second row lacks its first pixel.
   const std::vector<std::uint32_t> index = {0,  1,  2,  3,  11, 13, 14, 15,
                                             16, 17, 18, 19, 20, 21, 22, 23};
   const std::vector<std::uint32_t> leaf = {5,    5,    none, 1,    2,    5,    none, none,
                                            none, none, none, none, none, none, 7,    2};
-  // 1 and 2 are eight columns apart, 5 and 7 nine; 2 and 7 touch; 1 has nobody below.
+  // Leaves 1 and 2 are eight columns apart, 5 and 7 nine columns. Leaves 2 and 7 touch. Leaf 1 has
+  // no neighbour below.
   EXPECT_EQ(touching_in_picture(index, leaf, 12), (std::vector<std::uint32_t>{1, 2, 1, 5, 2, 7}));
-  // The end of a row is not beside the begin of the next one.
+  // The last pixel of a row does not touch the first pixel of the next row.
   const std::vector<std::uint32_t> ends = {11, 12}, two = {0, 1};
   EXPECT_TRUE(touching_in_picture(ends, two, 12).empty());
   const std::vector<std::uint32_t> rows = {0, 24, 25};
@@ -187,7 +189,7 @@ TEST(TouchingLeaves, AreBesideEachOtherInThePicture) {
   EXPECT_TRUE(touching_in_picture(rows, std::vector<std::uint32_t>{3, 4, none}, 2).empty());
 }
 
-/// Bars of H0 by birth: (birth, voxels of its set).
+/// Bars of H0, each given by its birth and the voxels of its set.
 Barcode with_sets(const std::vector<std::pair<double, std::vector<std::uint32_t>>>& bars) {
   Barcode barcode(CellKind::grid);
   for (const auto& [birth, places] : bars) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: the page as a file, its bars, their origin, and pages with two barcodes."""
+"""ph-barcode --report: tests the page as a file, its bars, their origin, and pages with two
+barcodes."""
 import hashlib
 import json
 import math

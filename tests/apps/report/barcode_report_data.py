@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: the data in pages of points, images, complexes, and their trees."""
+"""ph-barcode --report: tests the data on pages of points, images and complexes, and their trees."""
 import json
 import math
 import os
@@ -52,13 +52,15 @@ class Data(ReportTest):
             labels = report.leaf_labels(cut)
             self.assertEqual(max(labels), sum(d > cut for d in finite))
         self.assertEqual(len(report["points/leaf"]), 53)
-        self.assertEqual(report["points/leaf"][50], report["points/leaf"][51])  # equal points
+        # These points are equal.
+        self.assertEqual(report["points/leaf"][50], report["points/leaf"][51])
 
     def test_the_first_cut_is_in_the_widest_gap(self):
         self.write("c.txt", "0\n1\n2\n10\n11\n")
-        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 2.83)  # of 1 and 8
+        # The geometric mean of 1 and 8.
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 2.83)
         self.write("c.txt", "0\n1\n2.1\n3.1\n")
-        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # there is none
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # there is no wide ratio
         self.write("c.txt", "7\n")
         self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 0)
 
@@ -110,7 +112,8 @@ class Data(ReportTest):
         self.write("i.npy", files.array((2, 3), [0, 1, 2, 5, 4, 3]))
         report = self.report("i.npy", "--superlevel")
         self.assertEqual(report["image/values"], [0, 1, 2, 5, 4, 3])
-        self.assertNotIn("points/birth", report)  # minus the value, as the metadata say
+        # Births are the negated values, as the metadata say.
+        self.assertNotIn("points/birth", report)
         self.assertIs(report.meta["value"]["negated"], True)
         self.assertEqual(report.meta["value"]["label"], "Value")
         report = self.report("i.npy", "--construction", "cells")
@@ -132,14 +135,14 @@ class Data(ReportTest):
         self.assertNotIn("axes", self.report("i.npy").meta["image"])
 
     def test_without_a_wide_ratio_the_first_cut_is_in_the_widest_difference(self):
-        # Minima between walls of 200: persistences 100, 95, 90, 80, 77.
+        # Minima between walls of height 200, with persistences 100, 95, 90, 80, 77.
         self.write("i.npy", files.array((1, 11), [0, 200, 100, 200, 105, 200, 110, 200, 120, 200, 123]))
         report = self.report("i.npy")
         self.assertEqual(report.meta["tree"]["cut"], 84.9)
         self.assertEqual(max(report.leaf_labels(84.9)), 4)
 
     def test_a_mesh_without_basins_is_no_comb(self):
-        # Heights that rise along a strip: each vertex joins at its own value.
+        # Heights increase along a strip: each vertex joins the tree at its own value.
         rows = [(x, y) for x in range(6) for y in range(2)]
         faces = [f for x in range(5) for f in ((2 * x, 2 * x + 1, 2 * x + 2),
                                                (2 * x + 1, 2 * x + 2, 2 * x + 3))]
@@ -173,8 +176,8 @@ class Data(ReportTest):
                 self.assertNotIn("Sets of voxels", report.meta["provenance"].get("notes", {}))
 
     def test_sets_that_are_too_large_are_left_out_with_a_note(self):
-        # A comb: each tooth is one voxel in every row, and merges into the next one with all teeth
-        # before it.
+        # A comb: each tooth is one voxel wide, and merges into the next tooth together with all
+        # earlier teeth.
         rows, columns = 400, 400
         values = [float(columns - x if x % 2 == 0 else 9999 if y else columns + x)
                   for y in range(rows) for x in range(columns)]
@@ -207,7 +210,8 @@ class Data(ReportTest):
         self.assertNotIn("points/leaf", report)
 
     def edges_of(self, report):
-        """(value, one end, other end), as written: values never decrease."""
+        """The edges in stored order as (value, smaller end, larger end); checks that values never
+        decrease."""
         values = report["complex/edge_values"]
         self.assertEqual(values, sorted(values))
         return [(v, *sorted(ends)) for v, ends in zip(values, report.arrays["complex/edges"].rows())]
@@ -244,7 +248,7 @@ class Data(ReportTest):
         rng = random.Random(14)
         points = [[rng.randrange(40) / 4, rng.random()] for _ in range(40)]
         points[3] = [math.nan, 0.0]
-        points[20] = points[21]  # a copy
+        points[20] = points[21]  # a copy of point 21
         self.write("p.txt", "".join(" ".join(map(str, p)) + "\n" for p in points))
         self.write("w.txt", "".join("0.01\n" if i != 5 else "-9\n" for i in range(40)))
         for options in ((), ("--alpha-values", "squared", "--weights", "w.txt")):
@@ -254,7 +258,8 @@ class Data(ReportTest):
             hidden = {5, 21} if options else set()
             named = {v for ends in report.arrays["complex/edges"].rows() for v in ends}
             self.assertEqual(named, set(rows) - hidden)
-            # A tree of the page joins points at the radius at which chains of balls do.
+            # The tree of the page joins two points at the value at which a chain of balls joins
+            # them.
             leaf = report["points/leaf"] if "points/leaf" in report else list(range(len(rows)))
             merges = list(zip(report["tree/merge_level"], report["tree/merge_younger"],
                               report["tree/merge_elder"]))
@@ -318,7 +323,7 @@ class Data(ReportTest):
         self.assertNotIn("triangles_below", report.meta["cloud"])
 
     def test_the_default_cut_is_below_what_stands_out(self):
-        # The widest ratio of neighbours, 0.01 to 0.0001, is far below the longest bar.
+        # The largest ratio of consecutive lengths, 0.01 to 0.0001, is far below the longest bar.
         self.write("p.txt", "0\n0.0001\n0.0101\n0.0191\n0.5191\n1.5191\n")
         cut = self.report("p.txt", "--max-dim", "0").meta["tree"]["cut"]
         self.assertTrue(0.01 < cut < 0.5, cut)

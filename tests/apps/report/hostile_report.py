@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reports, plots and JSON of inputs whose names, titles and strings try to be code: the page has
-the same elements as any other page, and the pictures are XML."""
+"""Tests reports, plots and JSON of inputs whose names, titles and strings contain code: the page
+has the same elements as any other page, and the pictures are valid XML."""
 import json
 import os
 import sys
@@ -29,13 +29,13 @@ STRINGS = {
     "what templates replace": b"${x} {{script}} $& $1 %s %n",
     "the largest code point": "\U0010ffff".encode(),
 }
-# In JSON, which can hold what no file name can.
+# For JSON input: a string with characters that a file name cannot hold.
 ESCAPED = r'</script>\u2028\u0000\ud800\udc00\ud800x\u202e<!--<script>\u001b\"\\'
 
 
 class HostileStrings(ReportTest):
     def look(self, arguments, same_as=None):
-        """Runs with all outputs. @return the elements of the page."""
+        """Runs the program with all outputs. @return the elements of the page."""
         self.expect(0, *arguments, "--report", "r.html", "--plot", "p.svg", "-o", "o.json", "--quiet")
         page = self.read_bytes("r.html")
         text = page.decode("utf-8")
@@ -46,12 +46,14 @@ class HostileStrings(ReportTest):
                       "require-trusted-types-for 'script'"):
             self.assertIn(words, text)
         self.assertNotIn("unsafe", text[:text.index("<style")])
-        json.loads(elements.scripts[0][1])  # the metadata, and not a letter more
+        # The metadata are valid JSON without anything after them.
+        json.loads(elements.scripts[0][1])
         xml.dom.minidom.parse(self.path("p.svg"))
         json.loads(self.read_bytes("o.json").decode("utf-8"))
         if same_as is not None:
             self.assertEqual(elements.tags, same_as.tags)
-            self.assertEqual(elements.scripts[-1][1], same_as.scripts[-1][1])  # what runs
+            # The script of the page.
+            self.assertEqual(elements.scripts[-1][1], same_as.scripts[-1][1])
         return elements
 
     def test_names_and_titles(self):
@@ -59,7 +61,7 @@ class HostileStrings(ReportTest):
         plain = self.look(["plain.txt", "--title", "plain"])
         for what, string in STRINGS.items():
             with self.subTest(what):
-                name = string.replace(b"/", b"\\")[:200] + b".txt"  # a name has no slash
+                name = string.replace(b"/", b"\\")[:200] + b".txt"  # a file name contains no slash
                 with open(os.path.join(os.fsencode(self.folder), name), "wb") as file:
                     file.write(b"0 0\n1 0\n1 1\n0 1\n")
                 self.look([b"./" + name, b"--title=" + string], plain)
@@ -83,7 +85,7 @@ class HostileStrings(ReportTest):
                 line = string.replace(b"\n", b" ").replace(b"\r", b" ").decode("utf-8", "replace").encode()
                 self.write("t.csv", b"# " + line + b"\n0,0\n1,0\n1,1\n")
                 run = self.run_program("t.csv", "--report", "r.html", "-o", "o.csv", "--quiet")
-                if run.returncode:  # a binary file, it says
+                if run.returncode:  # the program says that the file is binary
                     self.assertEqual((run.returncode, run.stderr.count("\n")), (65, 1), run.stderr)
                     continue
                 with open(self.path("r.html"), encoding="utf-8") as file:

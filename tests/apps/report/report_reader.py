@@ -12,8 +12,8 @@ NONE = 2 ** 32 - 1
 
 
 class Elements(html.parser.HTMLParser):
-    """What a page is made of, as a browser sees it: tags with the names of their attributes; scripts,
-    (attributes, text)."""
+    """The elements of a page as a browser parses them: the tags with the names of their attributes,
+    and the scripts as (attributes, text)."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=False)
@@ -37,7 +37,7 @@ class Elements(html.parser.HTMLParser):
 
 
 class Array:
-    """`values` one after another, decoded; `shape`."""
+    """An array of the page: its decoded `values` in C order, and its `shape`."""
 
     def __init__(self, attributes, text):
         code = TYPES[attributes["data-type"]]
@@ -99,8 +99,8 @@ class Report:
         return list(zip(self[f"{prefix}/dim"], self[f"{prefix}/birth"], self[f"{prefix}/death"]))
 
     def leaf_labels(self, cut):
-        """The segment of each leaf in a cut: 0 for none, else numbered by decreasing number of
-        points."""
+        """The segment of each leaf in a cut: 0 for none; segments are numbered from 1 by decreasing
+        number of points."""
         rule = self.meta["tree"]["rule"]
         leaves = len(self["tree/leaf_birth"])
         parent = list(range(leaves))
@@ -138,11 +138,11 @@ class Report:
         return [label.get(find(leaf), 0) for leaf in range(leaves)]
 
     def point_labels(self, cut, points):
-        """The same for each point of the input. @param points how many there are."""
+        """The segment of each point of the input in a cut. @param points the number of points."""
         return self._of_points(self.leaf_labels(cut), points)
 
     def answer(self, points):
-        """The segment and the surface of each point according to the program."""
+        """The segment and the surface of each point, as the program stored them."""
         numbers = [0] + [s["number"] for s in self.meta["scene"]["segments"]]
         labels = [numbers[label] for label in self["tree/leaf_label"]]
         surfaces = self._of_points(self["tree/leaf_surface"], points)

@@ -19,7 +19,7 @@
 namespace ph::report {
 namespace {
 
-/// The text that `write(const Sink&)` writes.
+/// The text that `write` writes to a Sink.
 template <class Write>
 std::string written(Write&& write) {
   std::string text;

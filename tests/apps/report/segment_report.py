@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""ph-segment --report: the page against the other outputs, and its cuts against ph-segment --cut.
+"""ph-segment --report: compares the page with the other outputs, and its cuts with ph-segment
+--cut.
 
-    segment_report.py PH_SEGMENT
+segment_report.py PH_SEGMENT
 
 The environment variable PH_TEST_DATA names the folder of the optional test data.
+
 """
 import csv
 import hashlib
@@ -22,11 +24,11 @@ from report_reader import NONE, Report  # noqa: E402
 from room import room  # noqa: E402
 
 TEST_DATA = os.environ.get("PH_TEST_DATA", "")
-SCENE = os.path.abspath(os.path.join(TEST_DATA, "scenes/test57.pcd"))  # parts that touch, many
+SCENE = os.path.abspath(os.path.join(TEST_DATA, "scenes/test57.pcd"))  # many parts that touch
 
 
 def table_scene(width=64, height=48):
-    """An organised PCD, binary: a plane with two boxes, a hole, colours and ground truth."""
+    """A binary, organised PCD file: a plane with two boxes, a hole, colours and ground truth."""
     rng = random.Random(1)
     records = []
     for v in range(height):
@@ -57,8 +59,8 @@ class Reports(ProgramTest):
         return [int(line) for line in self.read("l.csv").split()]
 
     def expect_answer(self, scene, *options):
-        """The page opens with the labels, the surfaces and the descriptions of the other
-        outputs."""
+        """Checks that the page has the labels, surfaces and descriptions of the other outputs when
+        it is opened."""
         own = self.labels(scene, *options, "--report", "r.html", "--surfaces", "s.csv", "--json",
                           "s.json")
         report, summary = Report(self.path("r.html")), json.loads(self.read("s.json"))
@@ -76,7 +78,8 @@ class Reports(ProgramTest):
         return report
 
     def expect_cuts(self, scene, options, cuts):
-        """The page's segments at some cuts equal the program's, at every point."""
+        """Checks that the segments of the page at some cuts equal those of the program, at every
+        point."""
         report = self.expect_answer(scene, *options)
         tree = report.meta["tree"]
         points = len(self.read("l.csv").split())

@@ -46,7 +46,7 @@ class DepthImages : public test::Program {
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(at(name), std::ios::binary) << bytes;
   }
-  /// camera_info of the scene's camera, of an image so many times as large.
+  /// Writes camera_info of the scene's camera for an image that is `times` as large.
   void write_camera(const std::string& name, int times, const std::string& d = "0, 0, 0, 0, 0",
                     const std::string& model = "plumb_bob", int more_rows = 0) const {
     const auto text = [](double x) { return std::to_string(x); };
@@ -71,14 +71,15 @@ TEST_F(DepthImages, AreTheSameInAllFormats) {
   EXPECT_TRUE(notes("2 segments")) << err();
   for (const char* input : {"d.pgm", "i.npy", "--depth d.pgm", "--depth i.npy"})
     EXPECT_EQ(labels(input + intrinsics_), expected) << input;
-  const std::string of_floats = labels("f.npy" + intrinsics_);  // rounded, not the same numbers
+  // As floats, the depths are rounded to slightly different numbers.
+  const std::string of_floats = labels("f.npy" + intrinsics_);
   EXPECT_TRUE(notes("2 segments")) << err();
   EXPECT_EQ(labels("f.npy --depth-scale 1" + intrinsics_), of_floats);
   EXPECT_EQ(run("f.npy --depth-scale 1000" + intrinsics_), 0);
   EXPECT_TRUE(notes("all points are within 0.00")) << err();
   EXPECT_EQ(run("--depth scene.pcd" + intrinsics_), 65);
   EXPECT_TRUE(notes("scene.pcd: not a depth image")) << err();
-  EXPECT_EQ(run("f.npy"), 65);  // no cloud
+  EXPECT_EQ(run("f.npy"), 65);  // without a camera, this is no cloud
   EXPECT_TRUE(notes("--camera or --intrinsics")) << err();
   EXPECT_EQ(run("d.pgm"), 64);
   EXPECT_EQ(run("--depth small.npy --color d.png" + intrinsics_), 65);

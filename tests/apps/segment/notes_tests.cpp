@@ -17,7 +17,7 @@ class Notes : public test::Program {
     for (float& x : xyz) x = static_cast<float>(x * factor);
     write_cloud(at(name), test::cloud_of(xyz, scene_.kWidth, scene_.kHeight));
   }
-  /// Millimetres.
+  /// Writes the depth image in millimetres.
   void write_depth() {
     Raster depth{scene_.kWidth, scene_.kHeight, 1, 16, {}};
     for (std::size_t i = 0; i < scene_.truth().size(); ++i) {
@@ -48,7 +48,7 @@ TEST_F(Notes, DepthImages) {
   const std::string camera = "--intrinsics 260,260,159.5,119.5";
   ASSERT_EQ(run("--depth d.png " + camera), 0) << err();
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
-  ASSERT_EQ(run("d.png " + camera), 0) << err();  // the same
+  ASSERT_EQ(run("d.png " + camera), 0) << err();  // without --depth-scale, the result is the same
   EXPECT_TRUE(notes("2 segments")) << err();
   ASSERT_EQ(run("d.png --depth-scale 200 " + camera), 0);
   EXPECT_TRUE(notes("see --max-range, or --depth-scale")) << err();
@@ -112,7 +112,7 @@ TEST_F(Notes, AnotherFrame) {
   EXPECT_TRUE(notes("2 segments")) << err();
 }
 
-/// The pipeline uses only one thread; signatures use more.
+/// The pipeline uses only one thread; signatures use several.
 TEST_F(Notes, ThreadsAreForSignatures) {
   ASSERT_EQ(run("scene.pcd --threads 2 --json a.json"), 0) << err();
   EXPECT_TRUE(notes("--threads does nothing: ")) << err();
@@ -159,7 +159,8 @@ TEST_F(Notes, TheSmallerMarginOfThePlaneGoesFirst) {
   }
 }
 
-/// Only options of this method: --distance, which belongs to another one, is refused.
+/// The message names only options of the chosen method: --distance belongs to the other method and
+/// would be refused.
 TEST_F(Notes, OutOfMemoryNamesOptionsOfTheMethod) {
   for (const char* method : {"surface", "supervoxels", "paper"}) {
     const std::string options = std::string("scene.pcd --plane off --voxel 0.0005 --method ") +

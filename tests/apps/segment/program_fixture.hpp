@@ -13,7 +13,7 @@
 
 namespace ph::segment::test {
 
-/// ph-segment in a folder of its own, with `scene.pcd`: two boxes on a table.
+/// Runs ph-segment in a temporary folder with `scene.pcd`: two boxes on a table.
 class Program : public testing::Test {
  protected:
   void SetUp() override {
@@ -33,7 +33,7 @@ class Program : public testing::Test {
     std::ofstream out(path, std::ios::binary);
     write_pcd(out, cloud);
   }
-  /// Runs it in the test's folder; the exit code.
+  /// Runs ph-segment in the test's folder, and returns the exit code.
   int run(const std::string& arguments) {
     const std::string command =
         "cd " + folder_.string() + " && " PH_SEGMENT_PROGRAM " " + arguments + " >stdout 2>stderr";

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Checks minimum scores of ph-segment on a few real frames, with the metrics of the benchmark.
+"""Checks that ph-segment reaches minimum scores on a few real frames, by the metrics of the
+benchmark.
 
-    scene_scores.py PH_SEGMENT
+scene_scores.py PH_SEGMENT
 
-The environment variable PH_TEST_DATA names the folder that has the frames.
+The environment variable PH_TEST_DATA names the folder with the frames.
+
 """
 import os
 import pathlib
@@ -26,7 +28,7 @@ import point_clouds  # noqa: E402
 import segmentation_metrics as metrics  # noqa: E402
 from segmentation_programs import Program  # noqa: E402
 
-# One frame of each kind that distance-based pipelines get wrong: stacked, occluded, cylindric,
+# One frame of each kind that pipelines based on distance get wrong: stacked, occluded, cylindrical,
 # complex.
 FRAMES = ("learn19", "learn27", "learn37", "test57")
 if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAMES):
@@ -36,7 +38,7 @@ if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAM
 
 class Floors(unittest.TestCase):
     def scores(self, options, score):
-        """The mean over the frames that have the score."""
+        """The mean over the frames for which the score is defined."""
         program = Program(
             "libph", f"{PROGRAM} {{input}} --quiet --no-check --labels {{output}}.npy {options}"
         )

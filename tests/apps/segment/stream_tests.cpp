@@ -21,7 +21,7 @@ class Stream : public test::Program {
   void SetUp() override {
     Program::SetUp();
     fs::create_directory(at("in"));
-    // The right box grows past the left one.
+    // The right box grows until it has more points than the left one.
     for (int frame = 0; frame < 4; ++frame) {
       const test::TableScene scene({{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}},
                                     {{0.10, -0.05, 0}, {0.2 + 0.03 * frame, 0.05, 0.1}}});
@@ -65,7 +65,7 @@ TEST_F(Stream, InputsListsAndPatterns) {
   ASSERT_EQ(run("in/0.pcd in/1.pcd -o out/ --labels 'out/labels-*.csv' --tree trees/"), 0) << err();
   for (const char* file : {"out/0.pcd", "out/1.pcd", "out/labels-0.csv", "trees/1.tree"})
     EXPECT_TRUE(fs::exists(at(file))) << file;
-  ASSERT_EQ(run("trees --labels 'again/*.csv'"), 0) << err();  // a folder of stored trees
+  ASSERT_EQ(run("trees --labels 'again/*.csv'"), 0) << err();  // this folder holds stored trees
   EXPECT_EQ(contents(at("again/1.csv")), contents(at("out/labels-1.csv")));
   std::ofstream(at("list.txt")) << "in/3.pcd\r\n\nin/1.pcd\n";
   ASSERT_EQ(run("--frames-from - --json - <list.txt"), 0) << err();
@@ -91,7 +91,8 @@ TEST_F(Stream, APipeThatDoesNotWaitHasNoEndYet) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  fcntl(ends[1], F_SETFD, FD_CLOEXEC);  // otherwise the program would also be a writer
+  // Otherwise, the program would keep the pipe open as a writer.
+  fcntl(ends[1], F_SETFD, FD_CLOEXEC);
   std::thread writer([&] {
     for (const std::string_view some : {"in/0.p", "cd\nin/", "1.pcd\nin/2.pcd"}) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -134,7 +135,7 @@ TEST_F(Stream, AFailureDoesNotStopTheOthers) {
 }
 
 TEST_F(Stream, StableLabels) {
-  // The label of the segment with most points.
+  // The label of the first segment, which has the most points.
   const auto first_label = [](const std::string& line) {
     const std::string before = "\"segments\": [{\"label\": ";
     return line[line.find(before) + before.size()];
@@ -164,7 +165,7 @@ TEST_F(Stream, FramesOfOneNameAreNumbered) {
   for (const char* name : {"0", "0-2", "0-3", "0-4", "0-5"})
     EXPECT_TRUE(fs::exists(at("out/" + std::string(name) + ".npy"))) << name;
   EXPECT_EQ(std::distance(fs::directory_iterator(at("out")), {}), 5);
-  // Without separate files they need no name.
+  // Without a file per frame, inputs of the same name are allowed.
   EXPECT_EQ(run("in/0.pcd other/0.pcd in/0.pcd --json all.json"), 0) << err();
 }
 
@@ -176,7 +177,7 @@ TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
   std::ofstream list(at("list.txt"));
   constexpr std::size_t frames = 1200;
   for (std::size_t i = 0; i < frames; ++i) {
-    std::string path(2 * 500, '/');  // the same file by a long name, different each time
+    std::string path(2 * 500, '/');  // the same file under a long name, which differs each time
     for (std::size_t k = 0; k < path.size(); k += 2) path[k] = '.';
     list << path << "s.pcd" << '\n';
   }
@@ -196,7 +197,7 @@ TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
 TEST_F(Stream, UsageErrors) {
   fs::create_directory(at("empty"));
   EXPECT_EQ(run("empty --labels out/"), 66);
-  EXPECT_EQ(run("in"), 66);  // no place for the results of several frames
+  EXPECT_EQ(run("in"), 66);  // the results of several frames need more than one file
   EXPECT_EQ(run("in --labels l.npy"), 66);
   EXPECT_EQ(run("--frames-from missing.txt --labels out/"), 66);
   for (const char* arguments :

@@ -28,7 +28,7 @@ def rows():
 
 
 def summary(folder, method):
-    """The values that a run states when only the method is given."""
+    """The values that a run reports if only the method is given."""
     cloud = os.path.join(folder, "cloud.xyz")
     with open(cloud, "w", encoding="ascii") as file:
         file.writelines(f"{x / 100} {y / 100} 1\n" for x in range(20) for y in range(20))
@@ -57,7 +57,7 @@ def main():
                 checked += 1
                 if float(cell) != float(found):
                     faults.append(f"{option}, {method}: {cell} in the table, {found} in a run")
-    # Values that a run does not state: the size of a voxel also depends on the points.
+    # Values that a run does not report, because the size of a voxel also depends on the points.
     voxel = re.search(r"edge of a voxel, metres\s+\(default:\s+([\d.]+),\s+paper:\s+([\d.]+)\)", text)
     stated = tuple(table["--voxel"][method] for method in METHODS)
     if not voxel or stated != (voxel[1], voxel[2], voxel[1]):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: a fit is stored, and gives the same vectors again."""
+"""ph-vectorise: a fit can be stored, and gives the same vectors again."""
 import json
 import os
 import sys
@@ -124,7 +124,8 @@ class Fits(ProgramTest):
         self.write("bad.json", "{")
         self.expect(65, "a.csv", "--fitted", "bad.json")
         self.write("more.json", json.dumps({**self.fit("betti"), "new": [1, {"a": 2}]}))
-        self.expect(0, "a.csv", "--fitted", "more.json")  # of a later version
+        # A fit of a later version, with new members.
+        self.expect(0, "a.csv", "--fitted", "more.json")
 
     def test_too_few_bars_for_centres(self):
         run = self.expect(65, "a.csv", "--kind", "atol", "--dims", "1")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: options without an effect are refused, values are strict, outputs replace no
-input."""
+"""ph-vectorise: options without an effect are refused, values are parsed strictly, and outputs
+replace no input."""
 import os
 import subprocess
 import sys
@@ -12,7 +12,7 @@ BARS = "dim,birth,death\n0,0,4\n0,1,2\n1,3,5\n1,1,4\n"
 KINDS = ("statistics", "betti", "landscape", "silhouette", "image", "entropy", "life-entropy",
          "lengths", "atol", "euler")
 ON_GRIDS = {"betti", "landscape", "silhouette", "image", "life-entropy", "euler"}
-# Each option with a value, and the kinds to which it applies.
+# Each option with a value, and the kinds of vectors that it applies to.
 SCOPES = {
     ("--grid", "0,9,5"): ON_GRIDS, ("--length-grid", "0,9,5"): {"image"},
     ("--layers", "2"): {"landscape"}, ("--count", "2"): {"lengths", "atol"},
@@ -88,7 +88,7 @@ class OptionsTest(ProgramTest):
         self.expect(73, "a.csv", "-o", "missing/x.csv")
         self.expect(0, "a.csv", "-o", "a.csv", "--force")
         self.assertTrue(self.read("a.csv").startswith("input,"))
-        # A failing run leaves nothing behind.
+        # A failed run leaves nothing behind.
         before = self.files()
         self.expect(65, "square.txt", "-o", "z.csv", "--fit", "z.json")
         self.assertEqual(self.files(), before)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: tables agree with the definitions in both formats; inputs of all formats."""
+"""ph-vectorise: tables agree with the definitions in both formats; also tests inputs of all
+formats."""
 import csv
 import io
 import math
@@ -40,7 +41,7 @@ class Results(ProgramTest):
             self.write(name, csv_of(bars))
 
     def table(self, *arguments, **options):
-        """Names of the columns, and a row of numbers for each input by name."""
+        """The names of the columns, and by input the row of its numbers."""
         run = self.expect(0, *arguments, "--quiet", **options)
         self.assertEqual(run.stderr, "")
         header, *rows = csv.reader(io.StringIO(run.stdout))
@@ -65,7 +66,7 @@ class Results(ProgramTest):
         self.assertAlmostEqual(column["H1_length_sd"], statistics.pstdev(lengths))
         self.assertAlmostEqual(column["H1_birth_median"], 2)
         self.assertAlmostEqual(column["H0_death_p25"], 2.5)
-        self.assertEqual(column["H0_count"], 2)  # one never dies
+        self.assertEqual(column["H0_count"], 2)  # one of the bars never dies
         shares = [x / sum(lengths) for x in lengths]
         self.assertAlmostEqual(column["H1_entropy"], -sum(p * math.log(p) for p in shares))
 
@@ -124,7 +125,7 @@ class Results(ProgramTest):
                          ["a.csv"], [entropy / math.log(2)])
 
     def test_atol(self):
-        # If there are as many centres as bars, the centres are the bars.
+        # With as many centres as bars, the centres are the bars.
         points = sorted({*finite(A, 1), *finite(B, 1)})
         for contrast, decay in (("laplace", lambda d, w: math.exp(-d / w)),
                                 ("gauss", lambda d, w: math.exp(-(d / w)**2))):
@@ -180,7 +181,7 @@ class Results(ProgramTest):
             return next(iter(self.table(*arguments, "--kind", "euler")[1].values()))
         for name in ("ring.npy", "float.npy"):
             self.assertEqual(curve(name, "--grid", "-1,5,7"), [0, 4, 0, 0, 0, 0, 1])
-            self.assertEqual(curve(name, "--grid", "6"), [4, 0, 0, 0, 0, 1])  # from 0 to 5
+            self.assertEqual(curve(name, "--grid", "6"), [4, 0, 0, 0, 0, 1])  # the grid from 0 to 5
             self.assertEqual(curve(name, "--superlevel", "--grid", "-6,0,7"), [0, 1, 1, 1, 1, 1, 1])
             self.assertEqual(curve(name, "--construction", "cells", "--grid", "0,5,2"), [4, 1])
             self.assertEqual(curve(name, "--periodic", "all", "--grid", "0,5,2"), [1, 0])
@@ -203,7 +204,7 @@ class Results(ProgramTest):
             self.assertEqual(content[:8], b"\x93NUMPY\x01\x00")
             start = 10 + struct.unpack("<H", content[8:10])[0]
             self.assertEqual(start % 64, 0)
-            header = eval(content[10:start])  # as NumPy does
+            header = eval(content[10:start])  # the header as NumPy reads it
             self.assertEqual(header, {"descr": "<f8", "fortran_order": False,
                                       "shape": (2, len(names))})
             numbers = struct.unpack(f"<{2 * len(names)}d", content[start:])
@@ -226,12 +227,12 @@ class Results(ProgramTest):
         os.mkdir(self.path("empty"))
         self.expect(66, "empty")
         self.expect(66, "missing.csv")
-        self.expect(65, "none.csv")  # no bars, no dimensions
+        self.expect(65, "none.csv")  # no bars, and thus no dimensions
         self.assertEqual(self.table("none.csv", "--dims", "0")[1]["none.csv"], [0.0] * 38)
         self.assertIn("square.txt:1", self.expect(65, "square.txt").stderr)
 
     def test_images_larger_than_the_memory(self):
-        """They stay in their files and are read layer by layer."""
+        """Images stay in their files and are read layer by layer."""
         count = 96
         values = bytes((x * x + 7 * y + 13 * z * x) % 251 for z in range(count) for y in range(count)
                        for x in range(count * 2))
@@ -240,7 +241,8 @@ class Results(ProgramTest):
         expected = self.expect(0, "bytes.npy", *grid_of).stdout
         run = self.expect(0, "bytes.npy", *grid_of, "--memory-limit", "1MB", "--threads", "1")
         self.assertEqual(run.stdout, expected)
-        self.assertEqual(expected.splitlines()[1].split(",")[-1], "1")  # a box
+        # The Euler characteristic of a box.
+        self.assertEqual(expected.splitlines()[1].split(",")[-1], "1")
 
     def test_threads_and_memory(self):
         names = [self.write(f"{i}.csv", csv_of([(i % 2, j, j + 1 + i) for j in range(50)]))

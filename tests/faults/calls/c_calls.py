@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the C interface (ph/ph.h) through ctypes, which checks nothing: NULL, sizes that lie,
+"""Calls of the C interface (ph/ph.h) through ctypes, which checks nothing: NULL, wrong sizes,
 options out of range, invalid numbers."""
 import ctypes
 import math
@@ -12,7 +12,7 @@ INDEX = ctypes.c_int64
 
 
 class Options(ctypes.Structure):
-    """ph_options."""
+    """The struct ph_options."""
     _fields_ = [("size", SIZE), ("max_dim", ctypes.c_int32), ("min_dim", ctypes.c_int32),
                 ("field", INDEX), ("threshold", ctypes.c_double), ("min_persistence", ctypes.c_double),
                 ("cells", ctypes.c_int32), ("threads", ctypes.c_int32), ("memory_limit", ctypes.c_uint64),
@@ -34,7 +34,7 @@ class Library:
         self.c.ph_barcode_size.restype = SIZE
 
     def options(self, **values):
-        """The defaults with some changes."""
+        """The default options with some changes."""
         options = Options()
         self.c.ph_options_init_sized(ctypes.byref(options), SIZE(ctypes.sizeof(options)))
         for name, value in values.items():
@@ -42,7 +42,8 @@ class Library:
         return ctypes.byref(options)
 
     def said(self, status, handles=()):
-        """In the form that run_calls.py expects. A failing call must not change `out`."""
+        """The outcome of a call in the form that run_calls.py expects. A failing call must not
+        change `out`."""
         words = self.c.ph_last_error().decode()
         left = [handle.value for handle in handles if handle.value is not None]
         if status != 0 and left:
@@ -91,7 +92,7 @@ class Library:
         return self.said(status, [ctypes.c_void_p(value) for value in out][:min(count, 8)])
 
     def handles(self):
-        """Calls without a handle, and beyond the last bar of one."""
+        """Calls with NULL as handle, and calls for a bar beyond the last one of a handle."""
         out = ctypes.c_void_p()
         self.c.ph_rips_points(_address(POINTS), INDEX(10), INDEX(3), INDEX(3), INDEX(1), None, ctypes.byref(out))
         numbers = ctypes.c_void_p(1)
@@ -123,7 +124,7 @@ def with_number(array, place, value):
 def prepared(path):
     names = {"c": Library(path), "np": np, "nan": math.nan, "inf": math.inf, "with_number": with_number,
              "POINTS": POINTS, "DISTANCES": DISTANCES, "IMAGE": IMAGE}
-    return lambda text: lambda: eval(text, names)  # texts of this file
+    return lambda text: lambda: eval(text, names)  # evaluates only texts in this file
 
 
 CALLS = [(room, text, expected, words) for room, rows in {

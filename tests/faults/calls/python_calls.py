@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the Python package that make no sense, or only seem so: arrays of wrong types, shapes
-and layouts, objects that lie about themselves, options of wrong types, unrelated parts and
-files."""
+"""Calls of the Python package that make no sense, or only seem to make none: arrays of wrong types,
+shapes and layouts, objects with contradictory properties, options of wrong types, unrelated parts
+and files."""
 import os
 import pickle
 import sys
@@ -31,12 +31,12 @@ def read_only(array):
 
 
 def vast(shape, dtype=float):
-    """An array that claims to be huge and holds one number."""
+    """An array that claims to be huge but holds a single number."""
     return np.lib.stride_tricks.as_strided(np.ones(1, dtype), shape, (0,) * len(shape))
 
 
 class NoArray:
-    """Raises when it is asked for its numbers."""
+    """Raises an exception when it is asked for its numbers."""
     def __array__(self, dtype=None, copy=None):
         raise RuntimeError("not today")
 
@@ -70,7 +70,7 @@ def prepared(folder):
     with open(os.path.join(home, "table.txt"), "w", encoding="ascii") as file:
         file.write("1 2 3\n4 5 6\n")
     names["home"] = home + os.sep
-    return lambda text: lambda: _said(eval(text, names))  # texts of this file
+    return lambda text: lambda: _said(eval(text, names))  # evaluates only texts in this file
 
 
 def _said(value):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: runs meaningless calls (whose text has the
-words), each in a separate process, and checks the exception or result and its message. FOLDER has
-the Python package, LIBRARY is libph_c.so."""
+"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: runs meaningless calls (those whose text
+contains the words), each in a separate process, and checks the exception or result and its message.
+FOLDER contains the Python package; LIBRARY is libph_c.so."""
 import collections
 import os
 import re
@@ -15,19 +15,20 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 SECONDS = 20
-# Words of the tools behind the library, which mean nothing to its users.
+# Words of the underlying tools, which mean nothing to users of the library.
 FOREIGN = re.compile(r"incompatible function arguments|pybind|std::|not iterable|Unable to allocate")
 
 
 def outcome(call):
-    """The outcome of a call as text, in a child process so that a crash is noticed."""
+    """The outcome of a call as text. The call runs in a child process, because this reveals a
+    crash."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
         signal.alarm(SECONDS)
         try:
             text = call()
-        except BaseException as error:  # whatever a call may raise
+        except BaseException as error:  # a call may raise anything
             text = f"{type(error).__name__}: {error}"
         os.write(writer, text.encode("utf-8", "backslashreplace")[:60_000])
         os._exit(0)
@@ -42,7 +43,8 @@ def outcome(call):
 
 
 def fault(found, expected, words):
-    """@param expected the name of an exception or status; "=": no error. @return what is wrong."""
+    """@param expected the name of an exception or status; "=" for no error. @return what is wrong,
+    or nothing."""
     kind, separator, message = found.partition(": ")
     if not separator or kind != expected:
         return f"found {found[:300]!r}, expected {expected}"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 73 and 74: requests to alpha complexes, and points that are hard for a Delaunay
-triangulation. Values by hand."""
+"""Rows 73 and 74: options of alpha complexes, and points that are hard for a Delaunay
+triangulation. The values are computed by hand."""
 from entry import Entry, bars
 
 SQUARE = b"0 0\n1 0\n0 1\n1 1\n"
@@ -54,7 +54,7 @@ def entries():
     yield of(74, "distances", b"0 1\n1 0\n", ("--format", "distance"), 64, "found alpha", "--complex")
     yield of(74, "nothing", b"", (), 65, "no points")
     yield of(74, "nothing, and that is fine", b"", ("--allow-empty",), 0, output=bars())
-    # The line x = y = z, equal points, and a line distorted by rounding.
+    # Points on the line x = y = z, equal points, and points of a line distorted by rounding.
     yield of(74, "collinear in space", b"0 0 0\n1 0 0\n2 0 0\n", (), 0, output=LINE)
     yield of(74, "collinear in the plane", b"0 0\n0 1\n0 2\n", (), 0, output=LINE)
     yield of(74, "on a line alone", b"0\n1\n2\n", ("--format", "points"), 0, output=LINE)

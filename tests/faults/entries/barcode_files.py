@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 61 to 65: files that programs have written, barcodes and fits, damaged or forged."""
+"""Rows 61 to 65: barcodes and fits, which programs write themselves, damaged or forged."""
 from files import dipha, npy, packed
 
 from entry import Entry, sample, with_bytes, with_change
@@ -9,7 +9,7 @@ HEAD = b"dim,birth,death\n"
 BEGIN = b'{"format": "ph-barcode", "version": 1, "bars": ['
 BAR = b'{"dim": 0, "birth": 0, "death": 1}'
 
-# Each program that reads barcodes, with its call for the faulty file.
+# Each program that reads barcodes, with a command that reads the faulty file.
 USES = {
     "distance": ("ph-distance", "{}", "good.csv"),
     "wasserstein": ("ph-distance", "--distance", "wasserstein", "good.csv", "{}"),
@@ -30,7 +30,7 @@ def refused(row, name, use, file, content, message, **others):
 
 
 TEXT = [
-    # name, use, content, what the message has
+    # name, use, content, part of the message
     ("nothing", "distance", b"", "no bars, found nothing"),
     ("a line end alone", "plot", b"\n", "no bars, found nothing"),
     ("no header but words", "distance", b"birth\n", ":1:1: header"),
@@ -160,7 +160,7 @@ BINARY = [
 FIT = b"""{"format": "ph-vectorise fit", "version": 1, "program": "ph-vectorise 0.1.0", "kind": "image",
 "length": 6, "infinite": "drop", "dropped": 0, "power": 1, "blocks": [{"dim": 0, "shape": [2, 3],
 "births": {"lo": 0, "hi": 1, "pixels": 3}, "lengths": {"lo": 0, "hi": 1, "pixels": 2}, "sigma": 0.5}]}"""
-# name, what is changed, to what, what the message has
+# name, what is replaced, its replacement, part of the message
 FITTED = [
     ("another version", b'"version": 1', b'"version": 9', "version out of range"),
     ("another format", b"ph-vectorise fit", b"ph-vectorise", "format"),

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Rows 9 to 16: one cell that is not a number, or a number that the input may not hold."""
+"""Rows 9 to 16: a cell that is not a number, or holds a number that the input may not contain."""
 from clouds import ply_header, XYZ
 from files import pcd_header
 
 from entry import bars, labels, refused, taken
 
-# A file of each format with a cell to fill in, the place of the cell, and whether infinity is
+# For each format, a file with a cell to fill in, the place of the cell, and whether infinity is
 # allowed there.
 PLACES = {
     "points": ("0 0\n1 {}\n", "2:3"),
@@ -35,7 +35,7 @@ def not_numbers():
     for row, (word, message) in NOT_NUMBERS.items():
         for form, (content, place) in PLACES.items():
             yield refused(row, form, word, content.format(word), f":{place}: .*{message}")
-    for form, (content, place) in PLACES.items():  # as Microsoft's library wrote infinity
+    for form, (content, place) in PLACES.items():  # infinity as Microsoft's library wrote it
         word = "1.#INF"
         yield refused(16, form, word, content.format(word), f":{place}: .*write infinity as inf")
     yield refused(13, "points", "hexadecimal integer", "0x10 1\n", "hexadecimal")
@@ -66,7 +66,7 @@ def not_a_number():
             yield refused(9, form, "nan", content.format("nan"), f":{place}: ")
     yield refused(9, "points", "-NaN", "0 0\n-NaN 1\n", ":2:1: ")
     yield refused(9, "points", "nan(1)", "0 0\nnan(1) 1\n", ":2:1: ")
-    for form in CLOUDS:  # a hole
+    for form in CLOUDS:  # in a cloud, NaN is a hole
         count = 2 if form == "xyz" else 1
         yield taken(9, form, "nan", PLACES[form][0].format("nan"), labels(*[0] * count))
     yield taken(9, "points", "nan, dropped", "0\nnan\n1\n", bars("0,0,1", "0,0,inf"),
@@ -77,7 +77,7 @@ def not_a_number():
 
 def infinite():
     for row, word in ((10, "inf"), (11, "-inf")):
-        for form in ("pcd", "ply"):  # as out of reach as a hole, and in no segment
+        for form in ("pcd", "ply"):  # as out of reach as a hole, and part of no segment
             yield taken(row, form, word, PLACES[form][0].format(word), labels(0), "--max-range", "inf")
         for form in ("points", "off", "xyz", "pts"):
             yield refused(row, form, word, PLACES[form][0].format(word), "infinit")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 1 to 8: files that are not text, or not the text that they seem to be."""
+"""Rows 1 to 8: files that are not text, or not the text that they appear to be."""
 import codecs
 
 from entry import FORMS, bars, labels, refused, sample, taken
@@ -8,7 +8,7 @@ SQUARE = "0 0\n1 0\n1 1\n0 1.25\n"
 SQUARE_BARS = bars("0,0,1", "0,0,1", "0,0,1.0307764064044151", "0,0,inf",
                    "1,1.25,1.4142135623730951")
 PAIR = bars("0,0,1", "0,0,inf")
-SPECK = labels(0, 0)  # two points are fewer than a segment needs
+SPECK = labels(0, 0)  # two points are not enough for a segment
 
 EMPTY = {
     "points": "no points", "distance": "no points", "lower-distance": "no points",

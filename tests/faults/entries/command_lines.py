@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Rows 47 to 50: meaningless command lines. The error names the option."""
+"""Rows 47 to 50: meaningless command lines. The error message names the option."""
 from entry import Entry, bars, sample
 from characters import SQUARE, SQUARE_BARS
 
 SQUARE_FILE = {"square.txt": SQUARE.encode()}
 CLOUD = {"cloud.xyz": b"0 0 1\n1 0 1\n"}
 
-# row, arguments, what the message contains
+# row, arguments, part of the message
 BARCODE = [
     (47, ["--max-dim", "-1"], "--max-dim"),
     (47, ["--max-dim=-1"], "--max-dim"),
@@ -112,7 +112,7 @@ BARCODE = [
 ]
 
 BARCODE_FILES = [
-    # row, file, content, arguments, what the message contains
+    # row, file, content, arguments, part of the message
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--field", "3"], "--field"),
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
@@ -135,7 +135,7 @@ BARCODE_FILES = [
      ["--format", "distance", "--diagonal", "births", "--from-correlation"], "excludes"),
 ]
 
-# name, content, what the message contains; the points are four
+# name, content, part of the message; there are four points
 WEIGHTS = [
     ("too few", b"0 0 1\n", "too few values.*4, one per point"),
     ("too many", b"0\n0\n0\n0\n0\n", ":5:1: too many values"),

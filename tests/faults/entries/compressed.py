@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 39 to 42: packed data that lie about their lengths, bombs, trailing data, endless lists."""
+"""Rows 39 to 42: packed data with wrong lengths, decompression bombs, trailing data, endless
+lists."""
 import functools
 import struct
 import zipfile
@@ -132,7 +133,8 @@ def bombs():
     yield refused(40, "gzip", "256 MiB behind a small member", gzipped(TEXT) + bomb, too_much)
     for form in ("npy", "nifti", "pcd", "ply", "dipha"):
         yield refused(40, form, "256 MiB", bomb, too_much)
-    # Its trailer lies: the stated size, or 128 MiB if that is more, limits the unpacking.
+    # The gzip trailer states a wrong size. Unpacking stops at the larger of the stated size and 128
+    # MiB.
     yield refused(40, "gzip", "256 MiB, said to be 1", with_bytes(bomb, -4, b"\1\0\0\0"), too_much,
                   frugal=False)
     yield refused(40, "gzip", "twice packed", gzipped(gzipped(TEXT)), "not plain text|not a number|NUL")

@@ -30,7 +30,7 @@ def nifti():
 
 
 def with_size(content, width, height):
-    """A PNG with another size in its header, with a matching checksum."""
+    """A PNG whose header states another size and has a matching checksum."""
     header = struct.pack(">II", width, height) + content[24:29]
     return content[:8] + png_chunk(b"IHDR", header) + content[33:]
 

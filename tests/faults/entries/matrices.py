@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 17 to 24 and 43 to 46: rows, headers, invalid matrices, and pairs of points."""
+"""Rows 17 to 24 and 43 to 46: rows of numbers, header rows, invalid matrices, and pairs of
+points."""
 import struct
 
 from files import dipha, npy, packed

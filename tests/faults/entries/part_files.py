@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 69 to 71: parts of one computation on several machines that are damaged, that lie with a
-matching checksum, or that belong to something else."""
+"""Rows 69 to 71: parts of one computation on several machines that are damaged, that hold false
+data with a matching checksum, or that belong to another computation."""
 import binascii
 import struct
 
@@ -26,7 +26,7 @@ def text(words):
 
 def inputs(names=(b"a.txt", b"b.txt"), part=0, parts=1, code=0, failure=b"", bars=((0, 0., 1.),),
            options=(), numbers=None, count=None):
-    """A part of a batch: the bars of some of its inputs."""
+    """A part file of a batch: the bars of some of its inputs."""
     own = [i for i in range(len(names)) if i % parts == part] if count is None else range(count)
     return sealed("inputs", listed(map(text, names)) + listed(map(text, options))
                   + struct.pack("<i", parts)
@@ -37,7 +37,7 @@ def inputs(names=(b"a.txt", b"b.txt"), part=0, parts=1, code=0, failure=b"", bar
 
 def cloud(part=0, parts=2, points=4, axes=2, sample=4, blocks=4, limit=INF, print_=7, present=None,
           size=2, numbers=(0, 0), edges=((1., 1, 0),), claims=(), more=b""):
-    """A part of a cloud. @param numbers how many points are left out before each point."""
+    """A part file of a cloud. @param numbers how many points were left out before each point."""
     return sealed("cloud", struct.pack("<qqqiidQ", points, axes, sample, parts, blocks, limit, print_)
                   + listed([(p,) for p in ([part] if present is None else present)], "i")
                   + struct.pack("<q", size) + listed([(n,) for n in numbers], "B")
@@ -47,7 +47,7 @@ def cloud(part=0, parts=2, points=4, axes=2, sample=4, blocks=4, limit=INF, prin
 def image(extents=(2, 2), periodic=(0, 0), type_=0, construction=1, sign=0, limit=1.7976931348623157e308,
           parts=1, min_dim=0, max_dim=0, cells=0, loops=0, layers=(), first=0, last=0, forest=None,
           tops=b"\0", bars=((0, 1., INF),), numbers=b"\0\0", more=b""):
-    """A part of an image, by default the whole of 2 x 2 voxels that are 1."""
+    """A part file of an image; by default the whole image, 2 x 2 voxels with value 1."""
     content = listed([(n,) for n in extents], "q") + bytes(periodic)
     content += struct.pack("<BBBd3iBB", type_, construction, sign, limit, parts, min_dim, max_dim, cells, loops)
     content += listed([(n,) for n in layers], "q") + struct.pack("<ii", first, last)
@@ -58,7 +58,7 @@ def image(extents=(2, 2), periodic=(0, 0), type_=0, construction=1, sign=0, limi
 
 
 def roots(items=((1., 0, 0, 0),), outside=(0, 0), before=(), after=(), bridges=()):
-    """A forest of components: its roots, those outside, both seams, and bridges."""
+    """A forest of components: its roots, the nodes for the outside, both seams, and bridges."""
     return (listed([struct.pack("<dQII", *item) for item in items]) + struct.pack("<II", *outside)
             + b"".join(listed([(root,) for root, _ in seam], "I")
                        + b"".join(struct.pack("<d", value) for _, value in seam)

@@ -7,12 +7,12 @@ import struct
 from entry import Entry, sample, with_bytes, with_change
 
 TREE = sample("tree", "surface.tree")
-# The offsets of numbers in the header of a tree: 8 bytes of magic, then the version, and so on.
+# Offsets of numbers in the header of a tree: 8 bytes of magic, then the version, and so on.
 VERSION, METHOD, SIZE, COUNTS = 8, 16, 24, 40
 
 
 def sealed(content):
-    """With a checksum that matches the new content."""
+    """The content with a checksum that matches it."""
     return content[:-4] + struct.pack("<I", binascii.crc32(content[:-4]))
 
 

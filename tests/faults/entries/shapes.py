@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 85 to 96: valid data at the edge of what geometry and clouds can be."""
+"""Rows 85 to 96: valid data in extreme cases of geometry and of clouds."""
 import os
 import struct
 
@@ -76,7 +76,8 @@ def spreads():
                 "1.7976931348623157e308 0\n", bars("0,0,1.7976931348623157e+308", "0,0,inf"))
     yield taken(89, "points", "manhattan", "0 0\n3e300 4e300\n", bars("0,0,7e+300", "0,0,inf"),
                 "--metric", "manhattan")
-    for metric in ("euclidean", "manhattan", "chebyshev"):  # infinite distances are not edges
+    # Pairs at infinite distance are not edges.
+    for metric in ("euclidean", "manhattan", "chebyshev"):
         yield refused(89, "points", f"twice the largest double, {metric}", "-1.7e308 0\n1.7e308 0\n",
                       "two points are farther apart than the largest double", "--metric", metric)
     yield taken(90, "points", "500 times each corner", "0 0\n1 0\n1 1\n0 1.25\n" * 500,
@@ -89,7 +90,7 @@ def spreads():
 
 
 def pcd_files(points, width, height):
-    """The same organised cloud in the three kinds of data."""
+    """The same organised cloud in each of PCD's three kinds of data."""
     ascii_rows = text([str(c) if c == c else "nan" for c in p] for p in points).encode()
     return {"ascii": pcd_header(width=width, height=height) + ascii_rows,
             "binary": pcd_header(width=width, height=height, data="binary") + floats(points),
@@ -140,7 +141,7 @@ def organised():
 
 
 def written(path, *parts):
-    """After the run, the file has these bytes."""
+    """A check that, after the run, the file has these bytes."""
     def check(folder):
         with open(os.path.join(folder, path), "rb") as file:
             content = file.read()
@@ -163,7 +164,7 @@ def fields():
     thick = pcd_header("x y z label", "4 4 4 4", "F F F U", "1 1 1 2", 1) + b"0 0 1 7 8\n"
     yield kept(94, "a label of two", thick, "out.pcd", b"FIELDS x y z label_in label\n")
     colour = pcd_header("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", 1, data="binary")
-    bits = struct.pack("<I", 0xFFFF8040)  # opaque orange: a NaN with a payload
+    bits = struct.pack("<I", 0xFFFF8040)  # opaque orange, which as a float is NaN with a payload
     yield kept(95, "to PLY", colour + floats([(0, 0, 1)]) + bits, "out.ply", b"property uchar red\n",
                b"\xff\x80\x40")
     yield kept(95, "to PCD", colour + floats([(0, 0, 1)]) + bits, "out.pcd", bits)

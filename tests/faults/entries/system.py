@@ -21,7 +21,8 @@ LOCALES = {81: "de_DE.UTF-8", 84: "tr_TR.UTF-8"}
 
 
 def around(function):
-    """A context manager `function(folder, …)` whose further arguments are given beforehand."""
+    """Decorator: makes `function(folder, …)` a context manager whose arguments after `folder` are
+    given in advance."""
     manager = contextlib.contextmanager(function)
     return lambda *arguments: lambda folder: manager(folder, *arguments)
 
@@ -56,7 +57,7 @@ def with_fifo(folder, name, content):
     writer = threading.Thread(target=lambda: open(path, "wb").write(content), daemon=True)
     writer.start()
     yield {}
-    with contextlib.suppress(OSError):  # releases a writer that has no reader
+    with contextlib.suppress(OSError):  # releases a writer that waits for a reader
         os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
 
 
@@ -66,7 +67,7 @@ def with_stdin(_folder, content):
 
 
 def require_device(path):
-    """@throws Unavailable if it is not one: opening it would create a file."""
+    """@throws Unavailable if the path is not a device: opening it would create a file."""
     try:
         if stat.S_ISCHR(os.stat(path).st_mode):
             return
@@ -125,7 +126,7 @@ def to_nobody(_folder):
 
 @functools.cache
 def folder_of_locales():
-    """Locales made for this run: a machine seldom has those that matter here."""
+    """Compiles the locales that matter here, because a machine seldom has them."""
     folder = tempfile.TemporaryDirectory()
     for locale in LOCALES.values():
         if shutil.which("localedef") is None:
@@ -158,7 +159,7 @@ def content_of(folder, name):
 
 
 def holds(name, expected, mode=None):
-    """After the run, a file has this content and this mode."""
+    """A check that, after the run, a file has this content and this mode."""
     def check(folder):
         if content_of(folder, name) != expected:
             return f"{name} holds {content_of(folder, name)[:100]!r}"
@@ -172,7 +173,7 @@ def refused(row, name, *arguments, code, message, named, program=BARCODE, files=
 
 
 def squares(row, name, *arguments, program=BARCODE, files=FILE, output=SQUARE_BARS, **others):
-    """The square must be read in spite of everything."""
+    """An entry in which the square must be read in spite of everything."""
     return Entry(row, name, program, arguments, 0, files=files, output=output, **others)
 
 
@@ -296,7 +297,8 @@ def names():
 def surroundings():
     for row, locale in LOCALES.items():
         inside = in_locale(locale)
-        # The names of formats and extensions contain an i, whose upper case differs in Turkish.
+        # The names of formats and extensions contain the letter i, which has another upper case in
+        # Turkish.
         yield squares(row, locale, "SQUARE.TXT", "--quiet", files={"SQUARE.TXT": SQUARE.encode()},
                       around=inside)
         yield squares(row, f"{locale}, an extension in capitals", "A.NII", "--quiet",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 25 to 30: files that end too early. Every prefix of every sample goes through the readers
-elsewhere; here, one cut of each goes through the programs."""
+"""Rows 25 to 30: files that end too early. Other tests pass every prefix of every sample to the
+readers; these entries pass one truncated file per sample to the programs."""
 import samples
 
 from entry import Entry, refused
@@ -13,7 +13,7 @@ ROW_OF_READER = {
 }
 
 
-# The form of a sample by its reader, which the comparison with other programs uses.
+# Maps the reader of a sample to the form of the entry, which compare_peers.py uses.
 FORM_OF_READER = {"pcd": "pcd", "ply": "ply", "pts": "pts", "off": "off", "perseus": "perseus"}
 
 
@@ -24,7 +24,7 @@ def form_of(sample):
 
 
 def without_its_end(sample):
-    """The content without its last byte, or its last token if it is text."""
+    """The content without its last byte or, for text, without its last token."""
     content = sample.content
     return content[:-1] if not content.endswith(b"\n") else content.rstrip(b"\n")[:-1]
 

@@ -49,7 +49,7 @@ void check_bars(const Alpha& alpha, std::size_t vertices) {
   require(all.size() == vertices, "each vertex begins a component");
 }
 
-/// Each simplex agrees with the definition, including its value.
+/// Checks that the simplices and their values agree with the definition.
 void check_definition(const Alpha& alpha, PointsView points, const std::vector<double>& weights,
                       bool squared) {
   const test::AlphaOracle oracle(points, weights);
@@ -69,7 +69,7 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
       require(at != oracle.values().end(), "each simplex is one of the definition");
       const Rational found(alpha.value(cell));
       const Rational square = squared ? found : Rational(found * found);
-      // Numbers that are too small or too large for squares in doubles: see alpha.hpp.
+      // alpha.hpp excludes numbers whose squares are too small or too large for doubles.
       const Rational last(std::numeric_limits<double>::denorm_min());
       const Rational least =
           Rational(1e-300) * size + (squared ? 4 * last : Rational(last * (2 * found + last)));
@@ -80,7 +80,8 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
     });
 }
 
-/// Fractions of others take seconds.
+/// True if the coordinates and weights have few digits: exact fractions of other numbers take
+/// seconds.
 bool is_of_few_digits(PointsView points, std::vector<double> numbers) {
   for (Index i = 0; i < points.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k) numbers.push_back(points(i, k));

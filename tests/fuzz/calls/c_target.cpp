@@ -20,7 +20,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// The result of the C++ library for the same input: a barcode or an error.
+/// The outcome of the C++ library for the same input: a barcode or an error.
 struct Expected {
   std::optional<Barcode> bars{};
   ph_status status = PH_OK;
@@ -48,7 +48,7 @@ Expected expected_of(Compute&& compute) {
   }
 }
 
-/// Mostly one of `last` + 1 choices, now and then an invalid one.
+/// Usually one of the choices 0 to `last`, now and then an invalid one.
 std::int32_t choice_or_none(ChosenNumbers& chosen, int last) {
   if (chosen.choice(15) > 0) return chosen.choice(last);
   return chosen.coin() ? last + 1 : -1;
@@ -104,7 +104,8 @@ RipsOptions rips_of(const ph_options& o) {
   return rips;
 }
 
-/// True if C refuses calls that C++ cannot express, or that would silently give no bars.
+/// True if the C interface refuses the options, because C++ cannot express them or they would
+/// silently give no bars.
 bool names_nothing(const ph_options& o, bool of_points) {
   return o.max_dim < -1 || o.threads < 0 || (o.max_dim >= 0 && o.min_dim > o.max_dim) ||
          (of_points ? o.distance < 0 || o.distance > PH_HAMMING
@@ -118,7 +119,7 @@ void check_failure(ph_status status) {
   require(!words.empty() && words.find('\n') == std::string_view::npos, "an error has one line");
 }
 
-/// Also the cells, if they were requested.
+/// Compares bars with those of C++, and the cells as well if they were requested.
 void check_bars(const ph_barcode* found, const Barcode& expected, bool cells) {
   require(ph_barcode_size(found) == expected.size(), "as many bars as from C++");
   const ph_bar* const bars = ph_barcode_bars(found);
@@ -141,7 +142,7 @@ void check_bars(const ph_barcode* found, const Barcode& expected, bool cells) {
   require(ph_barcode_birth_cell(found, expected.size(), nullptr) == 0, "no bar has no cell");
 }
 
-/// @param call(out) a call of C.
+/// Compares a call of C with the outcome of C++. @param call call(out) calls the C function.
 template <class CallC>
 void check(const Expected& expected, const ph_options& options, CallC&& call) {
   ph_barcode* const untouched = reinterpret_cast<ph_barcode*>(sizeof(void*));
@@ -156,7 +157,7 @@ void check(const Expected& expected, const ph_options& options, CallC&& call) {
   ph_barcode_free(found);
 }
 
-/// Numbers laid out with any strides, even negative ones, and nothing else.
+/// Numbers in memory with arbitrary strides, even negative ones, and nothing else between them.
 template <class T>
 struct Strided {
   std::vector<T> memory;
@@ -165,7 +166,7 @@ struct Strided {
   const T* data() const { return memory.empty() ? nullptr : memory.data() + first; }
 };
 
-/// @param numbers in C order.
+/// @param numbers the numbers in C order.
 template <class T>
 Strided<T> strided(const std::vector<T>& numbers, const std::vector<std::int64_t>& extents,
                    ChosenNumbers& chosen) {
@@ -210,7 +211,8 @@ void check_points(ChosenNumbers& chosen, const ph_options& options) {
     return ph_rips_points(data.data(), rows, columns, data.strides[0], data.strides[1], &options,
                           out);
   });
-  // Many at a time: the same result for each, or the failure of the first.
+  // Several inputs in one call: the result of each is the same as alone, or the call fails like the
+  // first one that fails.
   const std::vector<const double*> clouds(2, numbers.data());
   const std::vector<std::int64_t> sizes(2, rows);
   std::array<ph_barcode*, 2> all{};
@@ -276,7 +278,7 @@ void check_image(ChosenNumbers& chosen, const Call& call, ph_number type) {
   });
 }
 
-/// Impossible sizes and pointers: refused before anything is read.
+/// Impossible sizes and pointers must be refused before anything is read.
 void check_nonsense(ChosenNumbers& chosen, const ph_options& options) {
   constexpr std::int64_t huge = std::numeric_limits<std::int64_t>::max();
   const std::array<std::int64_t, 4> sizes{-1, huge, std::numeric_limits<std::int64_t>::min(), 3};

@@ -21,7 +21,8 @@ using Bars = std::vector<Bar>;
 
 Bars bars_of(ChosenNumbers& chosen, int most) {
   Bars bars(static_cast<std::size_t>(chosen.choice(most)));
-  const bool may_be_none = chosen.choice(15) == 0;  // NaN, or a death before its birth
+  // Some bars may have NaN, or die before they are born.
+  const bool may_be_none = chosen.choice(15) == 0;
   for (Bar& bar : bars) {
     bar = {0, chosen.number(), chosen.number()};
     if (chosen.choice(7) == 0) bar.death = kInfinity;
@@ -39,13 +40,13 @@ bool is_diagram(const Bars& bars) {
 
 /// The cost of matchings of bars, by the definition.
 struct Cost {
-  double order, ground;  ///< infinite order: the largest of all
+  double order, ground;  ///< for infinite order, the cost is the largest of all
 
   long double apart(const Bar& a, const Bar& b) const {
     const auto between = [](long double x, long double y) { return x == y ? 0 : std::abs(x - y); };
     const long double x = between(a.birth, b.birth), y = between(a.death, b.death);
     if (std::isinf(ground)) return std::max(x, y);
-    // Bars that were always alive, or never die, differ in one end.
+    // Bars that were always alive or never die differ in only one end.
     if (x == 0 || y == 0) return x + y;
     const long double large = std::max(x, y), part = std::min(x, y) / large;
     return large * std::pow(1 + std::pow(part, static_cast<long double>(ground)), 1.0L / ground);
@@ -63,7 +64,8 @@ struct Cost {
   }
 };
 
-/// The least cost over all ways to pair bars of `a`, from the i-th on, with unused ones of `b`.
+/// The least cost over all ways to pair the bars of `a`, from the i-th on, with unused bars of `b`
+/// or the diagonal.
 long double least(const Bars& a, const Bars& b, const Cost& cost, std::vector<bool>& used,
                   std::size_t i = 0) {
   if (i == a.size()) {
@@ -89,7 +91,8 @@ long double by_all_matchings(const Bars& a, const Bars& b, const Cost& cost) {
   return std::isinf(cost.order) ? sum : std::pow(sum, 1.0L / cost.order);
 }
 
-/// True if sums of powers are neither infinite nor zero in doubles, so that digits are meaningful.
+/// True if sums of powers are neither infinite nor zero as doubles, because only then do digits
+/// have a meaning.
 bool is_moderate(const Bars& a, const Bars& b, double order) {
   constexpr double large = 1e150, small = 1e-150;
   const double most = std::isinf(order) ? large : std::pow(large, 1 / order),
@@ -137,14 +140,14 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
   require(found.lower <= found.value && found.lower >= 0, "bounds are none");
   if (!is_moderate(a, b, options.order)) return;
   const long double expected = by_all_matchings(a, b, {options.order, options.ground});
-  // The cost if all bars went to the diagonal: see WassersteinOptions.
+  // The cost of pairing every bar with the diagonal: see WassersteinOptions.
   long double scale = 0;
   const Cost cost{options.order, options.ground};
   for (const Bars* bars : {&a, &b})
     for (const Bar& bar : *bars)
       if (std::isfinite(bar.birth) && std::isfinite(bar.death))
         scale = cost.sum(scale, cost.power(cost.from_diagonal(bar)));
-  // Costs to the power of p agree to 2e-15 of that cost.
+  // Costs to the power of p agree up to 2e-15 of that cost.
   const long double rounding = std::pow(1e-13L * scale, 1.0L / options.order);
   require(std::isinf(expected) ? found.value == expected
                                : found.value >= expected * (1 - 1e-9L) - rounding,
@@ -156,7 +159,7 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
             "the Wasserstein distance is that of all matchings");
 }
 
-/// Runs a function that may refuse its bars. @return true if it did not.
+/// Runs a function that may refuse its bars. @return true if it did not refuse them.
 template <class Run>
 bool is_taken(Run&& run) {
   try {
@@ -182,7 +185,7 @@ void check_vectors(const Bars& a, const Bars& b, ChosenNumbers& chosen) {
     const Grid grid = fit_grid(both, out.size());
     betti_curve(a, grid, out);
     are_numbers();
-    // The number of living bars agrees with the definition.
+    // Checks that no count of living bars is negative.
     for (std::size_t k = 0; k < out.size(); ++k) require(out[k] >= 0, "a negative Betti number");
     life_entropy_curve(a, grid, out);
     are_numbers();

@@ -20,7 +20,8 @@ namespace {
 
 using namespace report;
 
-/// An array is read back equal, bit by bit, and its element holds no other.
+/// Writes an array and reads it back: the numbers are equal bit by bit, and the element holds
+/// nothing else.
 template <class T>
 void check_array(ChosenNumbers& chosen) {
   const auto rows = static_cast<std::size_t>(chosen.choice(9)),

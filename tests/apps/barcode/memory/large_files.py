@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Mapped inputs that are larger than the limit plus all allowed extra memory: whatever reads them,
-the limit holds, and a run that does not fit reports this soon."""
+"""Memory-mapped inputs that are larger than the limit plus all allowed additional memory: whatever
+part of the program reads them, the limit holds, and a run that does not fit fails soon."""
 import gzip
 import os
 import shutil
@@ -11,13 +11,14 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import files, main  # noqa: E402
 from under_limit import BESIDE, UnderLimit  # noqa: E402
 
-SECONDS = 60  # of CPU: all of them end
-SECONDS_TO_REFUSE = 6  # of CPU; it takes one or two
+SECONDS = 60  # CPU seconds; every run ends within them
+SECONDS_TO_REFUSE = 6  # CPU seconds; a refusal takes one or two
 MIDDLE = struct.pack("<4d", 1, 2, 1, 3)
 
 
 def write_zeros(path, descr, shape, middle):
-    """An array of zeros, but for some bytes in the middle; the file has holes where its zeros are."""
+    """Writes an array of zeros with some other bytes in the middle. The zeros are holes in the
+    file."""
     size = int(descr[-1])
     for n in shape:
         size *= n
@@ -36,7 +37,7 @@ def write_inputs(folder):
     write_zeros(path("picture.npy"), "<f4", (4400, 4400), MIDDLE)  # 74
     write_zeros(path("floats.npy"), "<f8", (190, 190, 190), MIDDLE)  # 52
     write_zeros(path("shown.npy"), "<f8", (9, 1000, 1000), MIDDLE)  # 69
-    with open(path("bars.txt"), "w") as file:  # a stored barcode and comments, 60
+    with open(path("bars.txt"), "w") as file:  # a stored barcode with 60 MiB of comments
         file.write("dim,birth,death\n0,0,inf\n")
         for _ in range(60):
             file.write(("#" + 1022 * "-" + "\n") * 1024)
@@ -73,14 +74,15 @@ class LargeFiles(UnderLimit):
                 with self.subTest(name=name, limit=limit, options=options):
                     code, peak, seconds, message = self.run_within(limit, SECONDS, (name, *options))
                     ends.add((name, code))
-                    # Images with so many voxels have no merge tree.
+                    # For images with so many voxels, a merge tree is refused.
                     self.assertIn(code, (64, 75) if "tree" in options else (0, 75), message)
                     self.assertLessEqual(peak, limit + BESIDE, f"exit code {code}")
                     if code != 0:
                         self.assertLess(seconds, SECONDS_TO_REFUSE)
                         self.assertEqual(message.count("\n"), 1, message)
                     self.forget("out", "o.html", "o.svg")
-        # Rows must include both outcomes; otherwise they would show nothing about one of them.
+        # Some of the runs must succeed and some must fail; otherwise, the test would show nothing
+        # about one outcome.
         self.assertLessEqual({("long.npy", 0), ("picture.npy", 0), ("floats.npy", 0),
                               ("bytes.npy", 75), ("floats.npy", 75), ("shown.npy", 75)}, ends)
 

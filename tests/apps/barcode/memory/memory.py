@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Memory runs out in more than a hundred ways: the limit holds, and the run says so.
+"""Memory runs out in more than a hundred ways: the limit holds, and the run reports it.
 
-Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It either succeeds or ends with 75
-and one line that suggests a way out, and never takes more than the limit plus 32 MiB.
+Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It either succeeds, or ends with
+exit code 75 and one line that suggests a remedy. It never takes more than the limit plus 32 MiB.
 """
 import os
 import random
@@ -22,9 +22,9 @@ from under_limit import BESIDE, INPUTS, UnderLimit, is_sanitized, peak_of  # noq
 MIB = 1 << 20
 LIMITS = (2, 16, 48, 128)  # MiB
 NOBODY = 65534
-SECONDS = 2  # of CPU; a run that fits may take longer: its memory until then counts
-BEYOND_LIMITS = ("--engine", "cohomology", "--min-persistence", "-1")  # soon
-LEAST_ENDED = 90  # runs; how many more reach an end in these seconds depends on the machine
+SECONDS = 2  # CPU seconds; a longer run is stopped, and only its memory until then is checked
+BEYOND_LIMITS = ("--engine", "cohomology", "--min-persistence", "-1")  # exceeds every limit soon
+LEAST_ENDED = 90  # runs that must end in time; the exact number depends on the machine
 
 
 def write_points(path, count, dim, digits=6):
@@ -34,8 +34,8 @@ def write_points(path, count, dim, digits=6):
 
 
 def write_image(path, extents):
-    """DIPHA's image, written in pieces, because the memory of this process counts with its
-    children's."""
+    """Writes an image in DIPHA's format, in pieces, because the memory of this process counts
+    together with that of its children."""
     count = 1
     for n in extents:
         count *= n
@@ -138,8 +138,9 @@ class Limits(UnderLimit):
 
 
 class Alternatives(UnderLimit):
-    """The alternatives that a stopped run suggests do fit."""
-    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, alternatives at least
+    """The alternatives that a stopped run suggests do fit into the limit."""
+    # Name, limit in MiB, least number of alternatives.
+    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),
             ("space.txt", 12, 3),
             ("space.txt", 20, 3, "--max-dim", "2", "--threshold", "0.25", "--engine", "twist",
              "--collapse", "off"),
@@ -177,7 +178,7 @@ class Alternatives(UnderLimit):
             self.assertIn(" without --loops", change)
 
     def peak(self, arguments, changes):
-        """@return exit code, peak in MiB."""
+        """@return exit code, peak memory in MiB."""
         words = list(arguments)
         for option, value in changes.items():
             if option in words:
@@ -189,7 +190,7 @@ class Alternatives(UnderLimit):
 
 
 class System(ProgramTest):
-    """Limits that others set."""
+    """Limits set by the system or the user."""
 
     def setUp(self):
         super().setUp()
@@ -206,7 +207,8 @@ class System(ProgramTest):
             self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def heap_limit_after(self, failures, soft):
-        """The bound of the heap when a batch waits for its last input, after inputs that fail."""
+        """The limit of the heap (RLIMIT_DATA) while a batch waits for its last input, after inputs
+        that failed."""
         inputs = [f"{i}.dipha" for i in range(failures)]
         for name in inputs:
             write_image(self.path(name), (40, 40, 40))
@@ -216,7 +218,7 @@ class System(ProgramTest):
                 stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (soft, -1))) as run:
             messages = [run.stderr.readline() for _ in inputs]
-            time.sleep(0.3)  # it continues with the next one
+            time.sleep(0.3)  # the batch continues with the next input
             limit = resource.prlimit(run.pid, resource.RLIMIT_DATA)[0]
             run.communicate(b"0\n1\n", 60)
         self.assertTrue(all(b"--memory-limit" in line for line in messages), messages)
@@ -227,7 +229,7 @@ class System(ProgramTest):
 
     def test_failures_of_a_batch_do_not_add_up(self):
         once, often = self.heap_limit_after(1, -1), self.heap_limit_after(8, -1)
-        self.assertLess(abs(often - once), 2 * MIB)  # it depends on what was there at the start
+        self.assertLess(abs(often - once), 2 * MIB)  # it depends on the memory in use at the start
         self.assertLess(often, 128 * MIB)
 
     def test_the_limit_of_the_user_stays(self):
@@ -254,7 +256,8 @@ class System(ProgramTest):
         def enter():
             with open(os.path.join(group, "cgroup.procs"), "w") as file:
                 file.write(str(os.getpid()))
-        # The last two: what the heap holds beyond the budget counts in the group.
+        # In the last two runs, memory of the heap beyond the program's own budget counts towards
+        # the group's limit.
         for options in (BEYOND_LIMITS,
                         ("--engine", "twist", "--max-dim", "2", "--collapse", "off",
                          "--threshold", "0.25"),
@@ -265,10 +268,10 @@ class System(ProgramTest):
 
     def test_no_thread_can_be_created(self):
         command, user = [program.PROGRAM], {}
-        if os.geteuid() == 0:  # limits on processes do not bind root
+        if os.geteuid() == 0:  # resource limits on processes do not apply to root
             user = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
             os.chmod(self.folder, 0o755)
-            # The program may be in a folder that belongs to root.
+            # The program may be in a folder that only root can read.
             command = [shutil.copy(program.PROGRAM, self.path("program"))]
             try:
                 subprocess.run([*command, "--version"], cwd=self.folder, check=True,

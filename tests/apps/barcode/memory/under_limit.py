@@ -12,9 +12,9 @@ import unittest
 import program
 from program import ProgramTest
 
-BESIDE = 32  # MiB that code, libraries and small allocations may take beyond the limit
+BESIDE = 32  # MiB that code, libraries and small allocations may take in addition to the limit
 PEAK = os.path.abspath(sys.argv.pop(2))
-INPUTS = tempfile.TemporaryDirectory()  # of all tests of a script
+INPUTS = tempfile.TemporaryDirectory()  # the inputs of all tests of a script
 FILES = (".txt", ".dipha", ".values", ".npy", ".gz")
 
 
@@ -24,8 +24,8 @@ def is_sanitized():
 
 
 def peak_of(arguments, folder, seconds=None):
-    """@return exit code (None: still running after so many seconds of CPU), peak in MiB, seconds of
-    CPU, stderr."""
+    """@return exit code (None: still running after `seconds` of CPU time), peak memory in MiB, CPU
+    seconds, stderr."""
     read_end, write_end = os.pipe()
     with os.fdopen(read_end) as report:
         run = subprocess.run(
@@ -39,8 +39,8 @@ def peak_of(arguments, folder, seconds=None):
 
 
 class UnderLimit(ProgramTest):
-    """`write_inputs` of a class writes the inputs of its tests, once for all classes that share
-    them."""
+    """A class has a function `write_inputs`, which writes the inputs of its tests. It runs once for
+    all classes that share it."""
     written = set()
 
     @classmethod
@@ -52,12 +52,12 @@ class UnderLimit(ProgramTest):
             UnderLimit.written.add(cls.write_inputs)
 
     def forget(self, *names):
-        for name in os.listdir(self.folder):  # also the files that a killed run had begun
+        for name in os.listdir(self.folder):  # includes the unfinished files of a killed run
             if name in names or name.startswith(".ph-"):
                 os.remove(self.path(name))
 
     def run_within(self, limit, seconds, arguments):
-        """@param limit in MiB. @return like `peak_of`."""
+        """@param limit in MiB. @return the values of `peak_of`."""
         output = () if "--output-format" in arguments else ("--output-format", "csv")
         words = [os.path.join(INPUTS.name, word) if word.endswith(FILES) else word
                  for word in arguments]

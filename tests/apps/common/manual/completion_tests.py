@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """completion_tests.py PH_BARCODE PH_SEGMENT EXTENDED_BARCODE: tests completion in shells at a
-terminal. The last program has an engine and a complex that the first one lacks."""
+terminal. EXTENDED_BARCODE is a ph-barcode with one more engine and one more complex."""
 import os
 import re
 import shutil
@@ -21,7 +21,7 @@ def words(shown):
 
 
 class Completion:
-    """The tests of one shell; the classes below name it."""
+    """The tests of a shell, which each class below names."""
     shell = None
 
     @classmethod
@@ -30,7 +30,8 @@ class Completion:
             raise unittest.SkipTest(f"skipped: {cls.shell} is not installed")
 
     def start(self, program, name=None):
-        """The shell in a folder with files and the script of a program, under its own name."""
+        """Starts the shell in a folder with files and the completion script, which has the name of
+        the program."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         for file in FILES:
@@ -47,7 +48,8 @@ class Completion:
         return shell
 
     def shown(self, shell, line, is_expected=None):
-        """A busy machine is sometimes slow: the expected text may come later."""
+        """The text that the shell shows for a line. On a busy machine, the expected text may come
+        late: the line is tried again with more time."""
         for seconds in (0.05, 0.5, 5) if is_expected else (1,):
             text = shell.complete(line, seconds)
             if is_expected and is_expected(text):
@@ -109,7 +111,8 @@ class Completion:
         self.check(shell, "ph-barcode x --plot pa", ["of.svg"])
 
     def hidden(self, files):
-        """Fish also shows files with another ending, below the others."""
+        """Files that the shell does not offer. Fish also offers files with another extension, after
+        the others."""
         return [] if self.shell == "fish" else files
 
     def test_the_first_word(self):
@@ -136,7 +139,7 @@ class Zsh(Completion, unittest.TestCase):
     def test_an_option_excludes_others(self):
         shell = self.start(SEGMENT)
         self.check(shell, "ph-segment --parts --o", ["--output"], ["--objects"])
-        # --plot may be given again, --tree may not.
+        # --plot may be given several times, --tree only once.
         self.check_text(shell, "ph-segment --plot bars.svg --", "figure of")
         self.check_text(shell, "ph-segment --plot bars.svg --", "what other cuts need")
         self.check_text(shell, "ph-segment --tree a.tree --", "figure of")

@@ -7,7 +7,8 @@ import subprocess
 
 
 class Option:
-    """names: "-o", "--output". value: its placeholder, empty for a flag."""
+    """An option: its names, such as "-o" and "--output", and the placeholder of its value, which is
+    empty for a flag."""
 
     def __init__(self, names, value):
         self.names, self.value = names, value
@@ -18,26 +19,26 @@ class Option:
 
 
 def printed(program, *arguments):
-    """Standard output of a run that ends well."""
+    """Standard output of a run that succeeds."""
     return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60,
                           check=True).stdout
 
 
 def options_in(text):
-    """The options of a help text, in its order."""
-    joined = re.sub(r"\|\n +", "|", text)  # a list of alternatives may have several lines
-    # A value ends where the text beside it begins, two blanks or more later.
+    """The options in a help text, in the same order."""
+    joined = re.sub(r"\|\n +", "|", text)  # a list of alternatives may extend over several lines
+    # The value of an option ends before the description, which begins after two or more blanks.
     heads = re.findall(r"(?m)^  (-\S+)((?: \S+)*)(?:$|  )", joined)
     return [Option(names.split(","), value.strip()) for names, value in heads]
 
 
 def options_of(program):
-    """All options of a program by name."""
+    """All options of a program, by name."""
     return {option.name: option for option in options_in(printed(program, "--help", "all"))}
 
 
 def topics_of(program):
-    """The topics of options that --help lists, without `all`."""
+    """The topics that --help lists, without `all`."""
     lines = printed(program, "--help").split("Topics: ")[1].splitlines()
     names = [match[1] for line in lines if (match := re.match(r"  ([a-z]+) {2,}\S", line))]
     return names[:names.index("all")]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """help_tests.py SOURCE_FOLDER PROGRAM…: --help is short, its topics contain all options, and its
-examples run unchanged."""
+examples run as they are."""
 import collections
 import os
 import re
@@ -19,7 +19,7 @@ NOT_BUILT_IN = 69
 
 
 def examples_of(program):
-    """The command lines at the end of the help."""
+    """The commands at the end of the help."""
     text = printed(program, "--help")
     return re.findall(rf"(?m)^  ({name_of(program)} .*)\n      \S", text[text.index("Examples"):])
 
@@ -48,7 +48,7 @@ class Help(unittest.TestCase):
             body, examples = printed(program, "--help").split("\nExamples")
             for line in body.splitlines():
                 self.assertLessEqual(len(line), SCREEN, line)
-            self.assertTrue(examples)  # commands are on one line, whatever their length
+            self.assertTrue(examples)  # each command is on one line, however long
 
     def test_each_option_has_one_topic(self):
         for program in self.each():
@@ -104,7 +104,7 @@ class Help(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
             made = re.findall(r"(?<![\w/])[a-z]+\.[a-z]+", example)
             self.assertEqual(sorted(made), sorted(set(os.listdir(folder)) - {"examples"}))
-            # Every alternative that is not a file is an answer; none is useless.
+            # A command that writes no file must print something.
             self.assertTrue(made or run.stdout)
             for name in made:
                 self.assertGreater(os.path.getsize(os.path.join(folder, name)), 0)

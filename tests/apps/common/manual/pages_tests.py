@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""pages_tests.py PROGRAM…: the manual page and the reference page have every option, and are sound."""
+"""pages_tests.py PROGRAM…: the manual page and the reference page have every option, and are well
+formed."""
 import os
 import re
 import shutil
@@ -32,7 +33,7 @@ class ManPage(unittest.TestCase):
             self.pages[program] = path
 
     def shown(self, program, *formatter):
-        """The page as a reader sees it, without bold and underlines."""
+        """The page as a reader sees it, without bold face and underlining."""
         run = subprocess.run([*formatter, self.pages[program]], capture_output=True, text=True,
                              env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8",
                                   "MAN_KEEP_FORMATTING": ""}, timeout=60, check=False)
@@ -66,7 +67,7 @@ class ManPage(unittest.TestCase):
                                      capture_output=True, timeout=60, check=False)
                 lines = run.stderr.decode()
                 if device == "html" and "cannot" in lines:
-                    continue  # without its own tools
+                    continue  # groff needs further tools for this device
                 self.assertEqual((run.returncode, lines), (0, ""), device)
 
     @needs("mandoc")
@@ -87,7 +88,8 @@ class ManPage(unittest.TestCase):
             with open(self.pages[program], encoding="utf-8") as file:
                 source = file.read().replace("\\:", "")
             for option in options_of(program).values():
-                # A plain dash is a hyphen, which no program accepts as a dash.
+                # A plain "-" is set as a hyphen, which programs do not accept in place of a minus
+                # sign.
                 for text in (*option.names, option.value.replace("…", "...")):
                     self.assertIn(text.replace("-", "\\-"), source)
 
@@ -111,12 +113,12 @@ class ReferencePage(unittest.TestCase):
             for shown, of, target in references:
                 self.assertEqual((shown, of), (target, name_of(program)))
                 self.assertIn(target, options_of(program))
-            # A program for typography would make one dash of two.
+            # Outside code, typographic software would turn two hyphens into one dash.
             prose = re.sub(r"(?s)```.*?\n|`[^`]*`", "", re.sub(r"(?s)```(text|sh)\n.*?```", "", page))
             self.assertNotIn("--", prose)
 
     def test_sphinx_finds_no_fault(self):
-        python = "/usr/bin/python3"  # the one for which Debian packages Sphinx
+        python = "/usr/bin/python3"  # the Python for which Debian packages Sphinx
         imported = "import sphinx.cmd.build, myst_parser"
         if subprocess.run([python, "-c", imported], capture_output=True, check=False).returncode:
             self.skipTest("skipped: Sphinx with MyST is not installed")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs shells at a terminal, to test their completion."""
+"""Runs shells at a terminal to test completion."""
 import os
 import pty
 import re
@@ -16,7 +16,7 @@ TAB, KILL_LINE, ENTER = b"\t", b"\x15", b"\r"
 
 
 class Terminal:
-    """A shell that believes that somebody is typing."""
+    """A shell at a pseudo-terminal, which behaves as if somebody were typing."""
 
     def __init__(self, command, folder, environment):
         self.pid, self.descriptor = pty.fork()
@@ -35,7 +35,7 @@ class Terminal:
         os.write(self.descriptor, keys)
 
     def read_until(self, pattern):
-        """All output up to a pattern."""
+        """All output up to the first match of a pattern."""
         shown, end = b"", time.monotonic() + PATIENCE
         while not re.search(pattern, shown):
             if not select.select([self.descriptor], [], [], max(0, end - time.monotonic()))[0]:
@@ -44,15 +44,16 @@ class Terminal:
         return shown
 
     def run(self, line):
-        """Waits until the command is done. The typed text differs from the expected one, so that
-        the answer is seen, not the echo."""
+        """Types a command and waits until it is done. It prints a word that is typed in another
+        form: this distinguishes the answer from the echo."""
         self.asked += 1
         self.type(line.encode() + b"; echo an''swer" + str(self.asked).encode() + ENTER)
         return self.read_until(b"answer%d\r?\n" % self.asked)
 
     def complete(self, line, seconds):
-        """The output for a TAB after a line: candidates, or the completed line. @param seconds that
-        the shell has to answer: it shows nothing after the next key."""
+        """What the shell prints for a TAB after a line: candidates, or the completed line.
+        @param seconds the time that the shell has to answer; after the next key, it would print
+        nothing."""
         self.type(line.encode() + TAB)
         time.sleep(seconds)
         self.type(KILL_LINE)
@@ -75,7 +76,7 @@ class Bash(Terminal):
 
 
 class Zsh(Terminal):
-    """Finds the script as an installation has it: by a name in a folder."""
+    """Zsh finds the completion script by its name in a folder, as in an installation."""
 
     def __init__(self, folder, script):
         super().__init__(["zsh", "-f", "-i"], folder, environment(folder))
@@ -86,7 +87,7 @@ class Zsh(Terminal):
 
 
 class Fish:
-    """Prints its completions itself."""
+    """Fish prints its completions on request."""
 
     def __init__(self, folder, script):
         self.folder, self.script = folder, script
