@@ -12,8 +12,8 @@ the page    report-template.inputs, which viewer/build.mjs writes beside the pag
 
 dpkg knows the package and version of a file; package.json states them for npm packages. A package
 whose licence is missing from LICENCES is an error: whoever links something new has to check its
-licence first. --licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH sets the
-date.
+licence first. --licences also writes the texts of all licences into a folder. SOURCE_DATE_EPOCH
+sets the date.
 """
 import argparse
 import hashlib

@@ -10,13 +10,13 @@
 
 namespace ph::fuzz {
 
-/// Choices made by bytes. Numbers are arbitrary doubles, or lie near one another, near or on a
-/// grid, or orders of magnitude apart.
+/// Makes choices from bytes. Chosen numbers are arbitrary doubles, or lie near one another, near or
+/// on a grid, or orders of magnitude apart.
 class ChosenNumbers {
  public:
   explicit ChosenNumbers(std::string_view bytes) : left_(bytes) {}
 
-  /// From 0 to `most`.
+  /// A number from 0 to `most`.
   int choice(int most) { return byte() % (most + 1); }
   bool coin() { return choice(1) == 1; }
   unsigned char byte() {
@@ -70,7 +70,7 @@ class ChosenNumbers {
 
  private:
   int signed_byte() { return static_cast<signed char>(byte()); }
-  /// The double this many steps further.
+  /// The double that comes `places` after x in the order of doubles.
   static double moved(double x, int places) {
     const double result =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(places));

@@ -13,7 +13,8 @@
 namespace ph::fuzz {
 namespace {
 
-/// The lines of a text, as an operating system hands them to a program: none holds a NUL.
+/// The lines of a text as command-line arguments. Like those of an operating system, none contains
+/// a NUL.
 std::vector<std::string> words_of(std::string_view bytes, const char* program) {
   std::vector<std::string> words{program};
   while (!bytes.empty()) {
@@ -36,7 +37,7 @@ void check(const std::vector<std::string>& words,
     const auto answer = parse(static_cast<int>(argv.size()), argv.data(), arguments);
     require(!answer || !answer->empty(), "a command line is answered by nothing");
   } catch (const Error& error) {
-    // An input that is a folder of the machine may lack an output for each of its frames.
+    // If an input is an existing folder, an output for each of its frames may be missing.
     require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::not_built_in ||
                 error.kind() == ErrorKind::no_input,
             "a command line is no usage error");

@@ -18,13 +18,13 @@ bool none_is_nan(const Numbers& numbers) {
   return std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
 }
 
-/// Compressed rows: offsets from 0 to `size`, ascending.
+/// True if the offsets of compressed rows ascend from 0 to `size`.
 bool are_offsets(const std::vector<std::size_t>& offsets, std::size_t size) {
   return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
          std::is_sorted(offsets.begin(), offsets.end());
 }
 
-/// The number of voxels of an image, whose sizes and values agree.
+/// Checks that the sizes and values of an image agree.
 void require_image(const Image& image) {
   std::size_t voxels = 1;
   for (const Index extent : image.extents) {
@@ -92,7 +92,7 @@ Content content_of(const Image& image) {
   require_image(image);
   Content content;
   content.head = fmt::format("{}", fmt::join(image.extents, " x "));
-  for (const double value : image.values)  // NaN, an absent voxel, is equal to nothing
+  for (const double value : image.values)  // an absent voxel is NaN, which equals nothing
     content.numbers.push_back(std::isnan(value) ? kInfinity : value);
   content.end_row();
   return content;

@@ -9,7 +9,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// Choices made by bytes, one each; after the last byte, made by counting.
+/// Makes each choice from one byte; after the last byte, from a counter.
 class ByteChoices {
  public:
   explicit ByteChoices(std::string_view bytes) : bytes_(bytes) {}
@@ -33,7 +33,7 @@ int count_cells(const F& filtration, int top) {
   return count;
 }
 
-/// A part of the suite: mostly the engines, and occasionally the slower parts.
+/// A part of the conformance suite: mostly the engines, and occasionally the slower parts.
 struct Suite {
   enum class Part { engines, contract, representatives };
   int max_dim;
@@ -48,7 +48,7 @@ struct Suite {
         return test::check_engines(filtration, top, field);
       case Part::contract:
         return test::check_contract(filtration, top + 1, field);
-      case Part::representatives:  // their check is a reduction for each bar
+      case Part::representatives:  // these are checked with a reduction per bar
         if (count_cells(filtration, top + 1) <= 50)
           return test::check_representatives(filtration, top, field);
         return test::check_engines(filtration, top, field);
@@ -58,7 +58,7 @@ struct Suite {
 
 using Choices = test::InputGenerator<ByteChoices>;
 
-/// A monotone map of the values 0 … 3 to the extended numbers, which preserves filtrations.
+/// A monotone map from 0 … 3 to numbers or infinities, which keeps a filtration valid.
 class Stretch {
  public:
   explicit Stretch(Choices& choices)
@@ -114,7 +114,7 @@ void check_graph(Choices& choices, bool ties, Suite suite) {
   std::vector<double> births(static_cast<std::size_t>(choices.integer(1, 8)));
   for (double& birth : births) birth = stretch(choices.value(ties));
   std::vector<WeightedEdge> edges;
-  std::set<std::pair<Index, Index>> seen;  // the suite tells cells apart by their vertices
+  std::set<std::pair<Index, Index>> seen;  // the suite identifies cells by their vertices
   for (int left = choices.integer(0, 14); left > 0; --left) {
     const Index u = choices.integer(0, static_cast<int>(births.size()) - 1);
     const Index v = choices.integer(0, static_cast<int>(births.size()) - 1);
@@ -128,7 +128,7 @@ void check_graph(Choices& choices, bool ties, Suite suite) {
   suite(FilteredGraph::lower_star(births, edges));
 }
 
-/// A chain complex over Z/2 that is not a simplicial complex.
+/// Checks a chain complex over Z/2 that is not a simplicial complex.
 void check_boundary(Choices& choices, bool ties, Suite suite) {
   const Stretch stretch(choices);
   BoundaryMatrix m;
@@ -148,7 +148,7 @@ void check_boundary(Choices& choices, bool ties, Suite suite) {
 }  // namespace
 
 void run_engines(std::string_view bytes) {
-  testing::FLAGS_gtest_throw_on_failure = true;  // there may be no test around
+  testing::FLAGS_gtest_throw_on_failure = true;  // a fuzz target runs outside any test
   Choices choices{ByteChoices(bytes)};
   const int kind = choices.integer(0, 6);
   const bool ties = choices.coin();

@@ -12,7 +12,7 @@
 #include <algorithm>
 
 #ifdef PH_HAS_MALLOC_HOOKS
-// GCC comes with these functions, but without their header.
+// GCC provides these functions without a header.
 extern "C" {
 int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                               void (*on_free)(const volatile void*));

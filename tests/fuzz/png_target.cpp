@@ -16,7 +16,7 @@ std::size_t big_endian(std::string_view bytes, std::size_t at) {
                              std::endian::big);
 }
 
-/// The first channel.
+/// The first channel of a picture.
 Image grey_of(const Raster& raster) {
   std::vector<std::uint16_t> grey;
   for (std::size_t i = 0; i < raster.samples.size(); i += static_cast<std::size_t>(raster.channels))
@@ -24,7 +24,7 @@ Image grey_of(const Raster& raster) {
   return {{raster.height, raster.width}, std::move(grey)};
 }
 
-/// Every chunk with the checksum of what it holds.
+/// The bytes with the right checksum for every chunk.
 std::string with_right_checksums(std::string_view bytes) {
   constexpr std::size_t kSignature = 8, kLength = 4, kKind = 4, kSum = 4;
   std::string repaired(bytes);

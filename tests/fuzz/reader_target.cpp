@@ -13,7 +13,7 @@ namespace ph::fuzz {
 namespace {
 
 constexpr std::size_t kBudget = std::size_t{64} << 20;
-/// Extra memory for a message, the input's name and other small things.
+/// Memory that is allowed in addition, for a message, the input's name and other small things.
 constexpr std::size_t kFree = std::size_t{1} << 20;
 
 /// The outcome of an attempt to read.
@@ -40,7 +40,7 @@ Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions o
   context.memory.set_limit(kBudget);
   options.context = &context;
   const std::string name = name_of(reader);
-  // A separate copy, so that a read beyond its end is detected.
+  // The bytes are copied to a separate allocation, where a read beyond the end is detected.
   const Input input = Input::hold({bytes.begin(), bytes.end(), &context.memory}, name, &context);
   Outcome outcome;
   try {
@@ -61,13 +61,13 @@ Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions o
 void run_reader(std::string_view name, std::string_view bytes) {
   const NamedReader& reader = *find_reader(name);
   const Outcome strict = attempt(reader, bytes, {});
-  // Exceptions take most of the time: not every check runs with each input.
+  // Exceptions take most of the time. For this reason, not every check runs for each input.
   if (bytes.size() % 8 == 0)
     require(strict == attempt(reader, bytes, {}), "a reader gives two results for one file");
   if (!strict.content && bytes.size() % 2 != 0) return;
-  // Strictly accepted bytes are accepted leniently with the same meaning.
+  // Bytes that are accepted strictly must also be accepted leniently, with the same meaning.
   ReadOptions taking{.allow_empty = true, .nan = NanPolicy::drop};
-  // It declares a table to be a matrix, and is only for readers that read nothing else.
+  // This option declares a table to be a matrix, and is only for readers that read nothing else.
   if (name == "distances" || name == "correlations" || name == "npy_distances")
     taking.symmetrise = Symmetrise::lower;
   const Outcome lenient = attempt(reader, bytes, taking);
@@ -77,7 +77,7 @@ void run_reader(std::string_view name, std::string_view bytes) {
 }
 
 void run_gzip(std::string_view bytes) {
-  constexpr std::size_t kMost = std::size_t{1} << 16;  // some bytes can reach it
+  constexpr std::size_t kMost = std::size_t{1} << 16;  // a limit that unpacked data can reach
   RunContext context;
   context.memory.set_limit(kBudget);
   const Input input = Input::hold({bytes.begin(), bytes.end(), &context.memory}, "input", &context);

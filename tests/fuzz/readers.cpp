@@ -11,7 +11,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// Any function of an input and options, with its memory watched.
+/// Calls a function of an input and options, and measures the memory that it takes.
 template <auto read>
 Content read_with(const Input& input, const ReadOptions& options) {
   const auto metered = [&] {
@@ -43,7 +43,7 @@ Barcode barcode_of(const Input& input, const ReadOptions&) {
   return read_barcode(input, format);
 }
 
-/// A layout determines the size: the input must have this length.
+/// A raw file needs a layout, and the input must have exactly the size of this layout.
 Image raw(const Input& input, const ReadOptions& options) {
   return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
 }
@@ -54,13 +54,13 @@ segment::SceneTree tree(const Input& input, const ReadOptions&) {
   return segment::read_tree(input);
 }
 
-/// Only the number of values tells what a file of values belongs to.
+/// A file of values must have a given number of values, which the caller knows.
 constexpr std::size_t kValues = 6;
 std::vector<double> values(const Input& input, const ReadOptions& options) {
   return read_values(input, kValues, options);
 }
 
-/// All numbers of a camera; pixels without a ray are left out.
+/// All numbers of a camera, and the rays of some pixels; pixels without a ray are left out.
 std::vector<double> camera(const Input& input, const ReadOptions&) {
   const Camera c = read_camera(input);
   std::vector<double> numbers{c.intrinsics.fx,
@@ -89,7 +89,7 @@ constexpr NamedReader reader(std::string_view name, std::string_view extension) 
   return {name, extension, &read_with<read>, &rewrite_with<read>};
 }
 
-/// Picks the overload that takes an open input.
+/// The type of the overload that takes an open input.
 template <class T>
 using Reads = T (*)(const Input&, const ReadOptions&);
 

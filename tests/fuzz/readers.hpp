@@ -9,19 +9,20 @@ namespace ph::fuzz {
 
 /// A reader under test.
 struct NamedReader {
-  std::string_view name;       ///< its function without `read_`, or with the format appended
-  std::string_view extension;  ///< of the file's name, by which some formats are known
-  /// Reads under a HeapMeter and checks the promises of every result. Throws the reader's errors,
-  /// or Violation.
+  std::string_view name;  ///< the function's name without `read_`, or with the format appended
+  /// Extension of the input's name, from which some formats are recognised.
+  std::string_view extension;
+  /// Reads under a HeapMeter and checks what the type of the result promises. Throws the reader's
+  /// errors, or Violation.
   Content (*read)(const Input& input, const ReadOptions& options);
-  /// Writes the result in every format that can hold it, reads it again, and requires it to be the
-  /// same; does nothing for types that libph does not write. Throws Violation.
+  /// Writes the result in every format that can hold it, reads it again, and checks that it is the
+  /// same. Does nothing for types that libph does not write. Throws Violation.
   void (*rewrite)(const Input& input, const ReadOptions& options);
 };
 
-/// All readers, and those that choose a format once for each format.
+/// All readers. A reader that chooses the format of its input occurs once per format.
 std::span<const NamedReader> readers();
-/// Null if none has this name.
+/// Null if no reader has this name.
 const NamedReader* find_reader(std::string_view name);
 
 }  // namespace ph::fuzz

@@ -13,7 +13,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// A file in memory, written through the name of its descriptor.
+/// A file in memory, which is written under the name of its descriptor.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("written", MFD_CLOEXEC)) {
@@ -70,7 +70,8 @@ Cloud read_again(const std::string& bytes, PlyData) {
   return read_ply(Input::view(bytes, "written.ply"), kTakeEmpty);
 }
 
-/// The part of a cloud that text preserves: a NaN is a NaN, and a zero has no sign.
+/// The part of a cloud that text preserves: any NaN becomes the same NaN, and zeros lose their
+/// sign.
 Cloud as_text_has_it(Cloud cloud) {
   for (const CloudField& field : cloud.fields) {
     if (field.type != FieldType::float32 && field.type != FieldType::float64) continue;
@@ -90,7 +91,7 @@ Cloud as_text_has_it(Cloud cloud) {
   return cloud;
 }
 
-/// A name that is not a word in a header is written differently: names are not compared.
+/// The cloud with empty names of fields: a name that is no single word is written in another form.
 Content without_names(Cloud cloud) {
   for (CloudField& field : cloud.fields) field.name.clear();
   return content_of(cloud);
@@ -109,7 +110,8 @@ void write_and_read_again(const Barcode& barcode) {
     require(content_of(again(barcode, format)) == bars_of(barcode),
             "a barcode changes when it is written and read");
   }
-  // Six digits lose something, once; each dimension has its line.
+  // Only the first writing with six digits loses digits. Each dimension has a line, and therefore
+  // there may be only a few.
   constexpr int kFewDimensions = 64;
   if (!barcode.empty() && barcode[barcode.size() - 1].dim > kFewDimensions) return;
   const Barcode rounded = again(barcode, BarcodeFormat::ripser);
@@ -119,7 +121,7 @@ void write_and_read_again(const Barcode& barcode) {
 }
 
 void write_and_read_again(const Cloud& cloud) {
-  if (cloud.fields.empty()) return;  // points without known properties
+  if (cloud.fields.empty()) return;  // nothing is known about the points
   for (const PcdData data : {PcdData::binary, PcdData::binary_compressed}) {
     require(without_names(read_again(written(cloud, data), data)) == without_names(cloud),
             "a cloud changes through PCD");
@@ -130,8 +132,9 @@ void write_and_read_again(const Cloud& cloud) {
   const bool wide = std::any_of(cloud.fields.begin(), cloud.fields.end(), [](const CloudField& f) {
     return f.type == FieldType::int64 || f.type == FieldType::uint64;
   });
-  if (wide) return;  // PLY has no such integers
-  // Fields are split and the organisation is lost once; data that came from PLY stay the same.
+  if (wide) return;  // PLY has no integers of this size
+  // The first conversion to PLY splits fields and drops the organisation. Data that came from PLY
+  // stay the same.
   const Cloud split = read_again(written(cloud, PlyData::little_endian), PlyData::little_endian);
   require(split.size() == cloud.size(), "points are lost in PLY");
   require(content_of(read_again(written(split, PlyData::little_endian), PlyData::little_endian)) ==

@@ -4,13 +4,13 @@
 
 namespace ph::fuzz {
 
-// Each function writes its argument in every format that can hold it and reads it again. Throws
+// Each function writes its argument in every format that can hold it, and reads it again. Throws
 // Violation if the result differs.
 void write_and_read_again(const Barcode& barcode);
 void write_and_read_again(const Cloud& cloud);
 void write_and_read_again(const Raster& raster);
 void write_and_read_again(const segment::SceneTree& scene);
-/// Other types are not written.
+/// libph does not write other types.
 template <class T>
 void write_and_read_again(const T&) {}
 

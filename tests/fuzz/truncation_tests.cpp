@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 
 struct Sample {
   std::string reader, name;
-  bool sized = false;  // the format says where it ends
+  bool sized = false;  // the format states the size of the data
   std::string bytes;
-  /// The path under which the reader opens it: an archive of several arrays needs the name of one.
+  /// The path to open. For an archive of several arrays, it ends in the name of one of them.
   std::string opened(const fs::path& path) const {
     return path.string() + (name == "two.npz" ? ":points" : "");
   }
@@ -75,14 +75,14 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
   return numbers;
 }
 
-/// The n of n (n - 1) / 2 or, for squares, of n^2.
+/// The n for which the count is n (n - 1) / 2 or, for square matrices, n².
 std::optional<std::size_t> size_for(std::size_t count, bool square) {
   for (std::size_t n = 1; n * (n - 1) / 2 <= count; ++n)
     if ((square ? n * n : n * (n - 1) / 2) == count) return n;
   return std::nullopt;
 }
 
-/// The lower triangle that the numbers of a file form, if they are complete.
+/// The lower triangle of the matrix whose numbers a file holds; nothing if numbers are missing.
 std::optional<std::vector<double>> triangle_of(const std::string& reader, std::string_view bytes) {
   std::optional<std::vector<double>> numbers;
   if (reader == "binary_distances") {
@@ -102,7 +102,8 @@ std::optional<std::vector<double>> triangle_of(const std::string& reader, std::s
   std::vector<double> lower;
   for (std::size_t i = 0; i < *n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const std::size_t upper_row = j * *n - j * (j + 1) / 2;  // before row j, condensed
+      // Start of row j in the upper triangle.
+      const std::size_t upper_row = j * *n - j * (j + 1) / 2;
       const double value = square                        ? (*numbers)[i * *n + j]
                            : reader == "upper_distances" ? (*numbers)[upper_row + i - j - 1]
                                                          : (*numbers)[lower.size()];
@@ -125,7 +126,7 @@ Rows rows_of(const Content& content) {
   for (std::size_t i = 0; i < content.rows(); ++i) {
     std::vector<double> row(content.row(i).begin(), content.row(i).end());
     for (double& x : row)
-      if (std::isnan(x)) x = -1e300;  // which can be ordered
+      if (std::isnan(x)) x = -1e300;  // a number that can be ordered
     rows.insert(row);
   }
   return rows;
@@ -138,7 +139,8 @@ Rows without(const Rows& all, const Rows& some) {
   return left;
 }
 
-/// True if a row ends in this number, or in its eight bytes.
+/// True if the last entry of a row is this number, or its last entries are the eight bytes of the
+/// number.
 bool ends_in(const std::vector<double>& row, double number) {
   if (row.back() == number) return true;
   unsigned char bytes[sizeof number];
@@ -147,7 +149,7 @@ bool ends_in(const std::vector<double>& row, double number) {
          std::equal(std::begin(bytes), std::end(bytes), row.end() - sizeof number);
 }
 
-/// The number that the last line ends in.
+/// The number at the end of the last line.
 std::optional<double> last_number(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   text.remove_prefix(text.rfind('\n') + 1);
@@ -158,7 +160,7 @@ std::optional<double> last_number(std::string_view text) {
 
 // ---- the test
 
-/// A file that grows.
+/// A file whose contents grow byte by byte.
 class GrowingFile {
  public:
   explicit GrowingFile(const std::string& name) {
@@ -228,7 +230,7 @@ class Prefixes {
     }
   }
 
-  /// All present numbers form a triangle.
+  /// Checks that all numbers that are present form a triangle.
   void check_triangle(std::string_view prefix, const Content& content) {
     const auto expected = triangle_of(sample_.reader, prefix);
     ASSERT_TRUE(expected) << "accepted, but no triangle";
@@ -239,8 +241,8 @@ class Prefixes {
     }
   }
 
-  /// The rows of the complete lines, and at most one more: a row of the whole file or, in a line
-  /// that was cut, one that ends in the truncated number.
+  /// Checks that the result has the rows of the complete lines and at most one more row: a row of
+  /// the whole file or, for a line that was cut, a row that ends in the truncated number.
   void check_rows(std::string_view prefix, const Content& content) {
     const Rows rows = rows_of(content);
     EXPECT_TRUE(without(lines_, rows).empty()) << "a line is lost";
@@ -253,7 +255,7 @@ class Prefixes {
     EXPECT_TRUE(ends_in(*more.begin(), *number)) << *number;
   }
 
-  /// A prefix that ends with a gzip member is a file with fewer members.
+  /// A prefix that ends after a gzip member is a valid file with fewer members.
   void check_members(const Content& content) {
     ++members_;
     EXPECT_EQ(members_, 1) << "the file has two";
@@ -262,8 +264,8 @@ class Prefixes {
 
   const Sample& sample_;
   Counts& counts_;
-  std::vector<std::optional<Content>> contents_;  // by length
-  Rows lines_;                                    // of the complete lines so far
+  std::vector<std::optional<Content>> contents_;  // for each length
+  Rows lines_;                                    // the rows of the complete lines so far
   int members_ = 0;
 };
 

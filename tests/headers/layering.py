@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which room may include which, that no folders include each other in a circle, that nobody
-looks inside a library of another folder, that includes say where they lead, how large a folder may
-be, where tests lie, and that fmt::join has its header: layering.py ROOT.
+"""Checks the structure of the sources: which room may include which; that no folders include each
+other in a circle; that no file includes private headers of another folder's library; that includes
+state full paths; how large a folder may be; where tests are; and that files with fmt::join include
+its header: layering.py ROOT.
 
-Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
-belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
+Rooms are the folders of libph/src, libsegment, libreport, apps and python. A public header belongs
+to the room that HEADERS names. The exit code is 0 if there is no violation.
 """
 import re
 import sys
 from pathlib import Path
 
-# The rooms that each room may include, beside itself.
+# For each room, the other rooms that it may include.
 MAY_INCLUDE = {
     "core": "",
     "metric": "core components",
@@ -43,8 +44,8 @@ MAY_INCLUDE = {
     "segment_program": "core metric image components complex rips facade io plot segment report common",
 }
 
-# Headers in include/ph by room; those in ph/io are of io, those in ph/detail of the room whose
-# folder they are in.
+# The room of each header in include/ph. Headers in ph/io belong to io; headers in ph/detail belong
+# to the room with the name of their folder.
 HEADERS = {
     "core": "barcode error filtration run_context",
     "metric": "distance_matrix distance_to_measure eigen greedy_permutation points sparse_distances",
@@ -68,22 +69,24 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
            ("apps/", None), ("python/", "python"))
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MAY_SHOW = {"pcl": "libsegment/pcl/", "CGAL": "libph/src/alpha/cgal/"}
-MOST_FILES = 40  # in a larger folder nobody finds a file by its name
+MOST_FILES = 40  # in a larger folder, it is hard to find a file by its name
 PUBLIC = ("libph/include", "libsegment/include", "libsegment/pcl/include", "libreport/include")
-# What only a library itself includes. Tests and benchmarks may look at anything.
+# Folders that only the library itself may include. Tests and benchmarks may include anything.
 PRIVATE = ("libph/src/", "libsegment/src/", "libreport/report/")
-# Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
+# The most headers that each folder of public headers may have. Headers that users do not include
+# themselves belong in ph/detail.
 MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 4,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
-# Folders of tests, and the sources whose rooms they mirror.
+# Folders of tests, and the folders of sources with the same rooms.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
             "tests/apps": ("apps", "libreport")}
 
 
 def room_of_header(path):
-    """@param path below include/, as ph/detail/core/chain.hpp. @return None: in no room."""
+    """@param path below include/, such as ph/detail/core/chain.hpp. @return the room; None if the
+    header is in no room."""
     if path.endswith(".h"):
         return "c"
     name = str(path)[len("ph/"):].rsplit(".", 1)[0]
@@ -93,7 +96,7 @@ def room_of_header(path):
 
 
 def room_of(file):
-    """@param file below ROOT."""
+    """@param file a path below ROOT."""
     text = str(file)
     if "/include/" in text:
         return room_of_header(text.split("/include/", 1)[1])
@@ -104,7 +107,7 @@ def room_of(file):
 
 
 def target_of(root, file, include):
-    """The file below ROOT that is meant; None if it is a third-party file."""
+    """The path below ROOT of the included file; None for a third-party file."""
     for base in (*map(Path, PUBLIC), Path(), file.parent):
         if (root / base / include).is_file():
             return (root / base / include).resolve().relative_to(root)
@@ -112,8 +115,8 @@ def target_of(root, file, include):
 
 
 def unclear_includes(root):
-    """Includes that do not say where they lead: a header that is not public is included by its path
-    from the root."""
+    """Includes without a full path: a header that is not public must be included by its path from
+    the root."""
     tops = ("libph", "libsegment", "libreport", "apps", "bench", "examples", "python", "tests")
     for path in sorted(p for top in tops for p in (root / top).rglob("*")):
         if path.suffix not in (".hpp", ".ipp", ".cpp", ".h", ".cu", ".cuh", ".mm") or \
@@ -128,7 +131,7 @@ def unclear_includes(root):
 
 
 def lacks_header_of_join(text):
-    """fmt/format.h has fmt::join in fmt 9 and 10 only."""
+    """fmt/format.h declares fmt::join only in fmt 9 and 10."""
     return re.search(r"\bfmt::join\(", text) and "#include <fmt/ranges.h>" not in text
 
 
@@ -163,7 +166,7 @@ def too_large(root):
     tops = ("libph", "libsegment", "libreport", "apps", "bench", "python", "tests")
     for folder in sorted(p for top in tops for p in (root / top, *(root / top).rglob("*"))
                          if p.is_dir()):
-        # The number of seeds is not limited, and Python's caches are not ours.
+        # The corpus may have any number of files, and Python's caches are not part of the sources.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue
         count = sum(p.is_file() and p.name != "py.typed" for p in folder.iterdir())
@@ -184,7 +187,7 @@ def misplaced_tests(root):
 
 
 def room_cycles():
-    """Rooms that may include each other."""
+    """Groups of rooms that may include each other in a circle."""
     seen = {room: set(rooms.split()) for room, rooms in MAY_INCLUDE.items()}
     for via in seen:
         for rooms in seen.values():
@@ -194,8 +197,8 @@ def room_cycles():
 
 
 def folder_of(file):
-    """The folder that a file is in. A public header lies where users look for it: it counts for its
-    room."""
+    """The folder of a file. For a public header, this is its room, because its real folder is
+    chosen for users."""
     if "/include/" in str(file):
         return f"public headers of {room_of(file)}"
     return str(file.parent)
@@ -211,8 +214,8 @@ def reachable(start, edges):
 
 
 def circles(root, files):
-    """Folders that include each other, a folder and one inside it among them: whoever reads one of
-    them has to read all."""
+    """Groups of folders that include each other, or of a folder and its subfolder: to understand
+    one, readers would have to read all."""
     edges, example = {folder_of(f): set() for f in files}, {}
     for file in files:
         for match in INCLUDE.finditer((root / file).read_text()):

@@ -3,8 +3,9 @@
 """Checks that texts of the libraries mention settings instead of options, and that each setting is
 an option of a program: settings.py ROOT.
 
-A library knows no program: its messages mark a Setting of ph/error.hpp, which the programs write as
-an option. Exit code 0 if no text holds an option and each setting is one, or is listed here.
+A library does not know which program calls it: its messages mark a Setting of ph/error.hpp, and the
+program writes the setting as an option. The exit code is 0 if no text contains an option and each
+setting is an option or is listed here.
 """
 import re
 import sys
@@ -13,9 +14,9 @@ from pathlib import Path
 TEXT = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 OPTION = re.compile(r"(?<![\w!-])--[a-z]")
 
-# Settings of C++ that no program has an option for.
+# Settings of C++ that are not options of any program.
 NO_OPTIONS = {"cell", "patience", "plane_guess"}
-# Settings whose options have other names, see apps/common/terminal/words.cpp.
+# Settings whose options have other names; see apps/common/terminal/words.cpp.
 OTHER_NAMES = {"spacing": "supervoxels", "first_meeting": "explain"}
 
 

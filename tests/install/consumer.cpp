@@ -24,7 +24,7 @@
 #include <string_view>
 
 int main(int argc, char** argv) try {
-  // Users choose their own warnings: this conversion would stop our own build.
+  // Users choose their own warnings: in our own build, this conversion would be an error.
   const int three = 3.5;
 #ifdef CORE_ALONE
   const ph::Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1.25}};
@@ -53,7 +53,7 @@ int main(int argc, char** argv) try {
   try {
     std::printf("%d pages\n", is_whole(ph::report::BarcodePage{"bars", bars}) +
                                   is_whole(ph::report::ScenePage{"parts", parts}));
-  } catch (const ph::Error& error) {  // a libph that was built without npm
+  } catch (const ph::Error& error) {  // libph was built without npm
     if (error.kind() != ph::ErrorKind::not_built_in) throw;
     std::puts("0 pages are built in");
   }

@@ -56,7 +56,7 @@ bool is_ascii(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// The metadata are JSON without tags, with the same texts and numbers as the input.
+/// Checks that the metadata are JSON without tags, with the texts and numbers of the input.
 void check_metadata(ChosenNumbers& chosen) {
   Metadata meta;
   meta.title = text_of(chosen);

@@ -21,7 +21,7 @@ std::span<const std::byte> as_bytes(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// Runs a function that may refuse its bytes. @return true if it did not.
+/// Runs a function that may refuse its bytes. @return true if it did not refuse them.
 template <class Run>
 bool is_taken(Run&& run) {
   try {

@@ -16,8 +16,8 @@
 
 namespace ph::fuzz {
 
-// The checksum of a stored tree would reject every change before any other check; here it is
-// corrected.
+// Corrects the checksum of a stored tree, which would otherwise reject every change before any
+// other check.
 void run_tree(std::string_view bytes) {
   run_reader("tree", bytes);
   if (bytes.size() < segment::kTreeSum) return;

@@ -13,7 +13,7 @@
 namespace ph::test {
 namespace {
 
-/// Anywhere on the unit sphere, up to rounding.
+/// Random points on the unit sphere, up to rounding.
 Points on_sphere(Index n, std::uint64_t seed) {
   Generator random(seed);
   Points points(n, 3);
@@ -28,7 +28,7 @@ Points on_sphere(Index n, std::uint64_t seed) {
   return points;
 }
 
-// Rounding puts many simplices out of order.
+// Rounding gives many simplices values in the wrong order.
 TEST(AlphaAdverse, PointsNearlyOnASphere) {
   const Alpha alpha(on_sphere(400, 5));
   check_contract(alpha, 3, 2);
@@ -37,7 +37,8 @@ TEST(AlphaAdverse, PointsNearlyOnASphere) {
   EXPECT_EQ(bars.bars(2).size(), 1U);
 }
 
-// Eight corners of a cube are on a sphere up to rounding: signs are those of the rounded points.
+// The eight corners of a cube are on a sphere only up to rounding: the signs must be those of the
+// rounded points.
 TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   for (const double step : {0.1, 1.0 / 3, 0.7}) {
     Points grid(343, 3);
@@ -51,13 +52,13 @@ TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   }
 }
 
-// An explicit complex refuses a face that enters after a coface.
+// The list of cells is an explicit complex, which refuses a face that enters after a coface.
 TEST(AlphaAdverse, ManySimplicesOfNearlyOneValueAreInOrder) {
   EXPECT_NO_THROW(Alpha(on_sphere(20'000, 6)).listed());
 }
 
-// Bars are those of the textbook, cell by cell of the list, which refuses a face later than a
-// coface.
+// Compares bars with those of the standard reduction of the listed cells. The list refuses a face
+// that enters after a coface.
 void check_adverse(const Points& points, std::size_t cells) {
   const Alpha alpha(points);
   EXPECT_EQ(alpha.top_dim(), 3);
@@ -90,8 +91,8 @@ TEST(AlphaAdverse, PlanesButForTheLastPlace) {
   check_adverse(points, 400);
 }
 
-// Integer points exactly on one sphere; the empty sphere has its centre outside most of the
-// simplices.
+// Points with integer coordinates exactly on one sphere. For most simplices, the centre of the
+// empty sphere is outside the simplex.
 TEST(AlphaAdverse, AllPointsOnOneSphere) {
   constexpr int radius = 45, squared = radius * radius;
   std::vector<double> on;
@@ -115,7 +116,7 @@ TEST(AlphaAdverse, SquaresThatNoDoubleHolds) {
   EXPECT_NO_THROW(Alpha(times(uniform_points(20, 3, 2), 1e150), options));
 }
 
-// The radii of a flat triangle, in units of the largest coordinate.
+// The triangle is nearly flat, and the radii are in units of the largest coordinate.
 TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   for (const bool weighted : {false, true}) {
     AlphaOptions options{.unit = AlphaOptions::Unit::squared};
@@ -130,7 +131,7 @@ TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   }
 }
 
-// Products of squares underflow, but squares do not.
+// Products of squares underflow, but the squares themselves do not.
 TEST(AlphaAdverse, WeightedPointsThatAreCloseBesideAFarOne) {
   const double distance = 1e-100;
   for (const Index dim : {2, 3}) {
@@ -150,7 +151,7 @@ TEST(AlphaAdverse, WeightedPointsThatAreCloseBesideAFarOne) {
   }
 }
 
-// All but one lie in one cell of the curve that orders points.
+// All points but one lie in one cell of the space-filling curve that orders points.
 TEST(AlphaAdverse, CopiesWithinACellOfTheCurve) {
   Points points(62, 3);
   for (Index i = 1; i < 61; ++i) points(i, 0) = 1e-9 * static_cast<double>(7 * i % 20);
@@ -173,8 +174,8 @@ TEST(AlphaAdverse, PointsNearlyOnACircle) {
             "");
 }
 
-// Nearly all points are orthogonal to one sphere, so that vertices enter late at nearly the same
-// value.
+// Nearly all points are orthogonal to the same sphere. As a result, vertices enter late and at
+// nearly the same value.
 TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   int late = 0;
   for_each_seed(20, [&](Generator& random, bool, std::int64_t) {
@@ -199,7 +200,7 @@ TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   EXPECT_TRUE(is_enough(late, 100)) << late;
 }
 
-// Edges and their late vertices have the same value up to rounding.
+// Edges and vertices that enter late have the same value up to rounding.
 TEST(AlphaAdverse, WeightedDecimals) {
   for_each_seed(60, [&](Generator& random, bool, std::int64_t) {
     Points points(12, 3);
@@ -212,7 +213,7 @@ TEST(AlphaAdverse, WeightedDecimals) {
   });
 }
 
-// Squares of distances underflow here, or nearly vanish compared to the weights.
+// Squares of distances underflow here, or are tiny compared to the weights.
 TEST(AlphaAdverse, PointsThatAreCloseBesideTheirWeights) {
   for (const double distance : {1e-9, 1e-155, 1e-170, 1e-305}) {
     const Points points{{0, 0, 0}, {distance, 0, 0}, {0, distance, 0}, {0, 0, distance}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The alpha complex of a few points from its definition, in exact numbers. Shares nothing with
-// libph but the type of the points.
+// The alpha complex of a few points, computed from its definition with exact numbers. It shares
+// nothing with libph but the type of the points.
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <map>
@@ -25,20 +25,20 @@ inline RationalPoint minus(RationalPoint a, const RationalPoint& b) {
   return a;
 }
 
-/// The smallest sphere through points, or orthogonal to them, of weights.
+/// The smallest sphere through points or, if the points have weights, orthogonal to them.
 struct ExactSphere {
   RationalPoint centre;
-  std::vector<Rational> barycentric;  ///< the centre, by point
+  std::vector<Rational> barycentric;  ///< barycentric coordinates of the centre
   Rational squared_radius;
 };
 
-/// Returns nothing if the points are affinely dependent.
+/// Nothing if the points are affinely dependent.
 inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>& points,
                                                const std::vector<Rational>& weights) {
   const std::size_t m = points.size() - 1;
   std::vector<RationalPoint> to;
   for (std::size_t i = 1; i <= m; ++i) to.push_back(minus(points[i], points[0]));
-  // 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0, by Gauss.
+  // Solves 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0 by Gaussian elimination.
   std::vector<RationalPoint> rows(m, RationalPoint(m + 1));
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j < m; ++j) rows[i][j] = 2 * dot(to[i], to[j]);
@@ -73,9 +73,9 @@ struct OracleBar {
   std::optional<Rational> death;
 };
 
-/// The bars of positive length, over Z/p: the textbook's reduction.
+/// The bars of positive length over Z/p, by the standard reduction.
 /// @param order simplices with their values, faces first.
-/// @param visit_facets(simplex, visit) calls visit(facet, sign) for each.
+/// @param visit_facets(simplex, visit) calls visit(facet, sign) for each facet.
 template <class Simplex, class Dim, class VisitFacets>
 std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex>>& order, int p,
                                    Dim&& dim_of, VisitFacets&& visit_facets) {
@@ -110,11 +110,11 @@ std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex
   return result;
 }
 
-/// A simplex is a set of points, as bits. It has a value if the Voronoi cells (power cells) of its
-/// points meet: the least power, with respect to its points, of a point in the intersection. All
-/// such simplices are listed, which for cospherical points are more than a triangulation has. They
-/// form the nerve of the balls cut to Voronoi cells, whose homology is that of the union of the
-/// balls.
+/// A simplex is a set of points, stored as bits. It is in the complex if the Voronoi cells (power
+/// cells) of its points meet, and its value is the least power of a point in the intersection with
+/// respect to the points of the simplex. All such simplices are listed; for cospherical points, a
+/// triangulation has fewer. They form the nerve of the balls restricted to Voronoi cells, whose
+/// homology is that of the union of the balls.
 class AlphaOracle {
  public:
   AlphaOracle(PointsView points, const std::vector<double>& weights) {
@@ -133,17 +133,17 @@ class AlphaOracle {
       }
   }
 
-  /// By simplex.
+  /// The value of each simplex.
   const std::map<unsigned, Rational>& values() const { return values_; }
 
-  /// True if a point is nearer than all others to the centre of one of the spheres; a hidden point
-  /// never is.
+  /// True if, among the centres of the spheres, there is one that is nearer to this point than to
+  /// all other points. For a hidden point, there is none.
   bool is_ever_alone(std::size_t point) const {
     return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
   }
 
-  /// The rounded centres and squared radii of the spheres through affinely independent points, even
-  /// if other points are inside.
+  /// The rounded centres and squared radii of the spheres through each set of affinely independent
+  /// points, including spheres with other points inside.
   std::vector<std::pair<std::vector<double>, double>> centres() const {
     std::vector<std::pair<std::vector<double>, double>> result;
     for (unsigned set = 1; set < 1U << points_.size(); ++set)
@@ -156,7 +156,7 @@ class AlphaOracle {
     return result;
   }
 
-  /// Of positive length, over Z/p.
+  /// The bars of positive length over Z/p.
   std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, unsigned>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);
@@ -176,7 +176,7 @@ class AlphaOracle {
  private:
   struct EmptySphere {
     Rational squared_radius;
-    unsigned on;  // the points on it
+    unsigned on;  // the points on the sphere
   };
   static int dim_of(unsigned simplex) { return __builtin_popcount(simplex) - 1; }
   Rational power(const RationalPoint& centre, std::size_t i) const {
@@ -196,7 +196,7 @@ class AlphaOracle {
     return sphere ? std::optional(sphere->centre) : std::nullopt;
   }
 
-  /// The least power is attained at the centre of the sphere of the nearest points.
+  /// Stores the spheres at whose centres a least power is attained.
   void find_spheres(std::size_t dim) {
     for (unsigned set = 1; set < 1U << points_.size(); ++set) {
       if (__builtin_popcount(set) > static_cast<int>(dim) + 1) continue;

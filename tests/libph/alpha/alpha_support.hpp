@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Points that are difficult for an alpha complex.
+// Generates points that are difficult for an alpha complex.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -19,9 +19,9 @@ struct Cloud {
   AlphaOptions options() const { return {.weights = weights, .unit = AlphaOptions::Unit::squared}; }
 };
 
-/// A few points of some kind: anywhere; on a small grid, where many lie on one sphere, plane or
-/// line, or on one another; on a circle, a sphere or a line; in a plane of space; on a grid that
-/// doubles cannot hold. Some points of each kind are duplicated.
+/// A few points of a random kind: anywhere; on a small grid, where many points coincide or lie on
+/// the same sphere, plane or line; on a circle, a sphere or a line; in a plane in space; on a grid
+/// that doubles cannot represent. For each kind, some points are duplicated.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));
@@ -38,9 +38,9 @@ inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
       c = random.real();
       if (kind == 1) c = random.integer(0, 4);
       if (kind == 2) c = random.integer(0, 1);
-      if (kind == 7) c = random.integer(0, 4) * 0.1 + 0.3;  // nearly on spheres: rounded
+      if (kind == 7) c = random.integer(0, 4) * 0.1 + 0.3;  // on spheres up to rounding
     }
-    if (kind == 3) {  // of integer points: exactly
+    if (kind == 3) {  // integer points exactly on a sphere
       static constexpr int on_sphere[][3]{{9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {4, 4, 7},
                                           {4, 7, 4}, {7, 4, 4}, {1, 4, 8}, {8, 1, 4},
                                           {4, 8, 1}, {6, 6, 3}, {6, 3, 6}, {3, 6, 6}};
@@ -67,7 +67,7 @@ inline Points times(const Points& points, double factor) {
   return result;
 }
 
-/// Evenly in the unit cube.
+/// Points distributed uniformly in the unit cube.
 inline Points uniform_points(Index n, Index dim, std::uint64_t seed) {
   Generator random(seed);
   return random.points(n, dim, false);

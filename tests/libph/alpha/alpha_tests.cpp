@@ -40,7 +40,7 @@ TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
       EXPECT_EQ(first_difference(persistence(alpha, {.field = field, .engine = engine.id}), oracle),
                 "");
     }
-    // A part of the dimensions.
+    // Compares the result for fewer dimensions.
     for (int dim = 0; dim <= 2; ++dim) {
       const Barcode part = persistence(
           alpha, {.max_dim = dim, .min_dim = dim, .field = field, .engine = Engine::gradient});
@@ -49,7 +49,7 @@ TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// If no two intervals have the same value, the pairs are the same, cell by cell.
+// If all intervals have different values, the pairs are the same cell by cell.
 TEST(Alpha, CellsAreThoseOfTheOracle) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t field) {
     Cloud cloud{"", random.points(25, random.integer(2, 3), false), {}};
@@ -73,7 +73,8 @@ TEST(Alpha, CyclesAreCycles) {
   });
 }
 
-// With ties, cells other than the oracle's may be named. By value, a cycle is still a cycle.
+// With ties, the bars may name other cells than those of the oracle. A representative must still be
+// a cycle at its value.
 TEST(Alpha, CyclesAmongTies) {
   for_each_seed(60, [](Generator& random, bool weighted, std::int64_t field) {
     const Cloud cloud = any_cloud(random, 25, weighted);
@@ -142,7 +143,8 @@ TEST(Alpha, TranslationOfAGridIsExact) {
     }
   const Barcode bars = persistence(Alpha(grid));
   EXPECT_EQ(first_difference(persistence(Alpha(moved)), bars), "");
-  // 124 joins at ½, 12·25 − 124 squares close at √½, 64 cubes at √¾.
+  // 124 edges merge components at ½, 12·25 − 124 loops are filled by squares at √½, and 64 voids by
+  // cubes at √¾.
   EXPECT_EQ(bars.bars(0).size(), 125U);
   EXPECT_EQ(bars.bars(1).size(), 176U);
   EXPECT_EQ(bars.bars(2).size(), 64U);
@@ -163,7 +165,7 @@ TEST(Alpha, ComponentsAreThoseOfHalfTheDistances) {
 TEST(Alpha, PlanesAndLinesInSpace) {
   const Points plane = uniform_points(200, 2, 4), line = uniform_points(50, 1, 5);
   Points in_space(200, 3), on_line(50, 3);
-  for (Index i = 0; i < 200; ++i) {  // turned, without rounding
+  for (Index i = 0; i < 200; ++i) {  // the plane, turned in space without rounding
     in_space(i, 1) = plane(i, 0);
     in_space(i, 2) = plane(i, 1);
   }
@@ -218,8 +220,8 @@ TEST(Alpha, CopiesJoinAtZero) {
 }
 
 TEST(Alpha, HiddenPointsAreNamed) {
-  // The first ball is ahead of its neighbour up to 7.25, but from 4.67 on the third is ahead of
-  // both.
+  // Up to the value 7.25, the power of the first point is less than that of the second. From 4.67
+  // on, the power of the third point is less than both.
   const Alpha alpha(Points{{0, 0, 0}, {0.5, 0, 0}, {9, 0, 0}, {0, 0, 0}},
                     {.weights = {4, -3, 1, 3}, .unit = AlphaOptions::Unit::squared});
   EXPECT_EQ(std::vector<std::uint32_t>(alpha.hidden().begin(), alpha.hidden().end()),
@@ -262,7 +264,8 @@ TEST(Alpha, Threshold) {
   });
 }
 
-// The least radius of a ball around points: through one of their subsets, and around all.
+// The radius of the smallest ball around the points: the smallest ball through a subset of the
+// points that contains all of them.
 double smallest_ball(const Points& points, const std::vector<Index>& simplex) {
   const AlphaOracle oracle(in_order(points, simplex), {});
   double least = kInfinity;
@@ -293,7 +296,7 @@ TEST(Alpha, OtherValues) {
         cech.append_input_cell(dim, cell, simplex);
         EXPECT_NEAR(cech.value(cell), smallest_ball(points, simplex), 1e-10);
       });
-    // Among ties, rounding may create bars as long as a few last digits.
+    // If values are tied, rounding may create bars as short as rounding errors.
     const auto lasting = [](const Barcode& bars) {
       std::vector<Bar> result(bars.begin(), bars.end());
       std::erase_if(result, [](const Bar& b) { return b.persistence() < 1e-9; });
@@ -387,7 +390,7 @@ TEST(Alpha, StopsAndKeepsToItsMemory) {
   LimitedContext small(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, {}, small); });
   EXPECT_EQ(small.memory.used(), 0U);
-  // CGAL's memory counts as well: in the plane, it is most of the total.
+  // CGAL's memory counts as well: in the plane, it is the larger part.
   RunContext of_plane;
   Alpha(uniform_points(20'000, 2, 11), {}, of_plane);
   EXPECT_GT(of_plane.memory.peak(), 20'000U * 200);

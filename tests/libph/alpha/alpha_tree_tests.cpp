@@ -12,13 +12,14 @@
 namespace ph::test {
 namespace {
 
-// The squared radius at which two balls meet.
+// The squared radius at which two weighted balls meet.
 double meeting(const Points& points, const std::vector<double>& weights, Index u, Index v) {
   double square = 0;
   for (Index k = 0; k < points.cols(); ++k) square += std::pow(points(u, k) - points(v, k), 2);
   if (weights.empty()) return square / 4;
   const double a = weights[static_cast<std::size_t>(u)], b = weights[static_cast<std::size_t>(v)];
-  if (std::abs(a - b) >= square) return std::max(-a, -b);  // the smaller ball begins in the other
+  // The smaller ball is born inside the other.
+  if (std::abs(a - b) >= square) return std::max(-a, -b);
   return std::pow((square + a - b) / 2, 2) / square - a;
 }
 
@@ -31,7 +32,7 @@ TEST(AlphaTree, VerticesArePoints) {
     ASSERT_EQ(tree.size(), cloud.points.rows());
     std::vector<bool> is_hidden(tree.births.size());
     for (const std::uint32_t v : alpha.hidden()) is_hidden[v] = true;
-    // A ball may begin inside others, and be seen later.
+    // A ball may be born inside others and become visible later.
     for (std::size_t v = 0; v < is_hidden.size(); ++v)
       if (is_hidden[v] || !weighted)
         EXPECT_EQ(tree.births[v], is_hidden[v] ? kInfinity : 0.0);

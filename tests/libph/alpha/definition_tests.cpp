@@ -11,7 +11,7 @@
 namespace ph::test {
 namespace {
 
-/// The tolerance of values: rounding, relative to the largest coordinates and weights.
+/// The tolerance for values: rounding errors relative to the largest coordinates and weights.
 double tolerance(const Cloud& cloud) {
   double most = largest_coordinate(cloud.points);
   most *= most;
@@ -23,7 +23,7 @@ void check_definition(const Cloud& cloud) {
   const AlphaOracle oracle(cloud.points, cloud.weights);
   const Alpha alpha(cloud.points, cloud.options());
   const double absolute = tolerance(cloud);
-  // Each simplex agrees with the definition, including its value.
+  // Each simplex and its value agree with the definition.
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
     alpha.for_each_cell(dim, [&](const Alpha::Cell& cell) {
       std::vector<Index> numbers;

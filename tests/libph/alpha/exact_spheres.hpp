@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Signs and radii of the faces of alpha complexes against integers.
+// Compares the signs and radii of the faces of alpha complexes with exact integers.
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
@@ -16,7 +16,8 @@ namespace ph::test {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
-/// The unit of which doubles are multiples here: 2^-bits. Its square divides all doubles.
+/// The unit 2^-bits, of which all doubles here are multiples; they are also multiples of its
+/// square.
 inline constexpr int kLeastBits = 540;
 
 inline int bits_of(double x) {
@@ -36,12 +37,13 @@ inline Integer dot(const IntegerPoint& a, const IntegerPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The smallest sphere through points, or orthogonal to them, of weights: its centre has the
-/// barycentric coordinates barycentric / determinant, its squared radius is radius / determinant².
+/// The smallest sphere through points or, if the points have weights, orthogonal to them. Its
+/// centre has the barycentric coordinates barycentric / determinant, and its squared radius is
+/// radius / determinant².
 struct IntegerSphere {
   std::vector<Integer> barycentric;
   Integer determinant, radius;
-  std::vector<Integer> powers;  ///< the squares of distances to the centre, times determinant²
+  std::vector<Integer> powers;  ///< the squared distances to the centre, times determinant²
 };
 
 inline Integer determinant(const std::vector<std::vector<Integer>>& m) {
@@ -52,14 +54,14 @@ inline Integer determinant(const std::vector<std::vector<Integer>>& m) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/// Returns nothing if the points are affinely dependent.
+/// Nothing if the points are affinely dependent.
 inline std::optional<IntegerSphere> integer_sphere(const std::vector<IntegerPoint>& points,
                                                    const std::vector<Integer>& weights) {
   const std::size_t m = points.size() - 1;
   std::vector<IntegerPoint> to(m);
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t k = 0; k < 3; ++k) to[i][k] = points[i + 1][k] - points[0][k];
-  // 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0, by Cramer.
+  // Solves 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0 by Cramer's rule.
   std::vector<std::vector<Integer>> rows(m, std::vector<Integer>(m));
   std::vector<Integer> right(m);
   for (std::size_t i = 0; i < m; ++i) {
@@ -87,7 +89,7 @@ inline std::optional<IntegerSphere> integer_sphere(const std::vector<IntegerPoin
   return sphere;
 }
 
-/// The faces of any of the sites.
+/// The faces spanned by any of the sites.
 class Faces {
  public:
   explicit Faces(const alpha::Sites& sites) : sites_(sites), spheres_(sites) {
@@ -102,7 +104,7 @@ class Faces {
     }
   }
 
-  /// @return the property that the sphere of a face violates, or nothing.
+  /// @return the property that the sphere of a face violates; empty if there is none.
   std::string_view violation(const std::vector<std::uint32_t>& face) const {
     std::vector<IntegerPoint> points;
     std::vector<Integer> weights;
@@ -111,7 +113,7 @@ class Faces {
       weights.push_back(weights_[v]);
     }
     const auto exact = integer_sphere(points, weights);
-    if (!exact) return "";  // flat: in no triangulation
+    if (!exact) return "";  // a flat simplex, which is in no triangulation
     std::uint8_t beyond = 0;
     for (std::size_t k = 0; k < face.size(); ++k)
       if (exact->barycentric[k] < 0) beyond = static_cast<std::uint8_t>(beyond | 1U << k);
@@ -122,7 +124,7 @@ class Faces {
                : "a squared radius has an error of some last places";
   }
 
-  /// The same of all faces.
+  /// @return a property that the sphere of any face violates; empty if there is none.
   std::string_view violation() const {
     const auto size = static_cast<std::uint32_t>(sites_.size());
     for (unsigned set = 1; set < 1U << size; ++set) {
@@ -142,7 +144,8 @@ class Faces {
     return {spheres_.triangle_radius(face[0], face[1], face[2]),
             spheres_.beyond_triangle(face[0], face[1], face[2])};
   }
-  /// Within 2^-38, or 1e-300 in units of the largest coordinate, below which squares underflow.
+  /// True if the number is exact up to a factor of 1 ± 2^-38, or up to 1e-300 in units of the
+  /// largest coordinate, below which squares underflow.
   bool is_near(double found, const IntegerSphere& exact,
                const std::vector<Integer>& weights) const {
     constexpr double largest = std::numeric_limits<double>::max();
@@ -150,7 +153,7 @@ class Faces {
     const Integer denominator = exact.determinant * exact.determinant;
     const auto times = [&](double x) { return Integer(integer_of(x, 2 * bits_) * denominator); };
     if (exact.radius > times(largest)) return found == largest;
-    // With weights, the largest summand counts: |z - p|² or w.
+    // With weights, the error is relative to the largest summand, |z - p|² or w.
     Integer scale = abs(exact.radius);
     if (sites_.is_weighted())
       for (std::size_t i = 0; i < weights.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Bars against those of an oracle.
+// Compares bars with those of an oracle.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -15,7 +15,7 @@ inline bool is_near(double found, const Rational& exact, double absolute) {
   return std::abs(found - expected) <= absolute + 1e-12 * std::abs(expected);
 }
 
-/// Removes matching bars one by one; the remaining found bars must have no length.
+/// Removes matching bars one by one. The found bars that remain must have length 0.
 inline void expect_bars(const Barcode& found, const std::vector<OracleBar>& exact,
                         double absolute) {
   std::vector<Bar> left(found.begin(), found.end());

@@ -13,7 +13,8 @@
 namespace ph::test {
 namespace {
 
-using Chain = std::map<std::vector<Index>, std::int64_t>;  // by vertices, ascending
+// Coefficients by the ascending vertices of a cell.
+using Chain = std::map<std::vector<Index>, std::int64_t>;
 
 Chain facets_of(const std::vector<Index>& cell) {
   Chain facets;
@@ -41,7 +42,8 @@ Alpha alpha_of(Generator& random, Index dim, int count) {
   return Alpha(points, {.period = std::vector<double>(static_cast<std::size_t>(dim), 1.5)});
 }
 
-// By generic engines: representatives of loops are the edges from a point to its images.
+// With engines for any complex, the representatives of loops are edges from a point to its own
+// images.
 TEST(PeriodicChains, OfOnePoint) {
   const Barcode bars = persistence(Alpha(Points{{0, 0}}, {.period = {2, 3}}),
                                    {.field = 3, .representatives = Representatives::cycles});
@@ -51,10 +53,10 @@ TEST(PeriodicChains, OfOnePoint) {
     ASSERT_EQ(cycle.size(), 1U);
     EXPECT_TRUE(std::ranges::equal(cycle.cell(0).numbers, std::vector<Index>{0, 0}));
   }
-  EXPECT_EQ(bars.representative(3).size(), 2U);  // both triangles
+  EXPECT_EQ(bars.representative(3).size(), 2U);  // both triangles of the torus
 }
 
-// Also with so few points that cells share their vertices.
+// Some clouds have so few points that different cells have the same vertices.
 TEST(PeriodicChains, CyclesHaveNoBoundary) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
     const Index dim = random.integer(1, 3);
@@ -91,7 +93,7 @@ TEST(PeriodicChains, CocyclesHaveNoCoboundary) {
         values[numbers] = alpha.value(cell);
         ++count;
       });
-    if (values.size() < count) return;  // vertices do not tell cells apart
+    if (values.size() < count) return;  // different cells have the same vertices
     const Barcode bars = persistence(alpha, {.max_dim = 3,
                                              .field = field,
                                              .engine = Engine::cohomology,

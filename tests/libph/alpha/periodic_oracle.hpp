@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The alpha complex of a few points of a periodic space from its definition, in exact numbers.
-// Shares nothing with libph but the type of the points.
+// The alpha complex of a few points in a periodic space, computed from its definition with exact
+// numbers. It shares nothing with libph but the type of the points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace ph::test {
 
-/// An image of a point: by how many periods it is displaced.
+/// An image of a point, given by the number of periods along each axis.
 struct Image {
   std::array<int, 3> periods{};
   std::size_t point = 0;
@@ -25,12 +25,12 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// The points are unrolled: a simplex is a set of images, up to translation, that lie on an empty
-/// sphere. All such simplices are listed up to a radius at which the balls cover the convex hull,
-/// because nothing changes beyond it.
+/// The points are repeated periodically in space. A simplex is a set of images on an empty sphere,
+/// up to translation. All such simplices are listed up to the radius at which the balls cover the
+/// convex hull, because nothing changes beyond it.
 class PeriodicOracle {
  public:
-  /// Ascending; the first image is not displaced.
+  /// Images in ascending order; the first image is not translated.
   using Simplex = std::vector<Image>;
 
   PeriodicOracle(PointsView points, const std::vector<double>& period,
@@ -65,7 +65,7 @@ class PeriodicOracle {
 
   const std::map<Simplex, Rational>& values() const { return values_; }
 
-  /// Of positive length, over Z/p.
+  /// The bars of positive length over Z/p.
   std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, Simplex>> order;
     for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);
@@ -109,8 +109,8 @@ class PeriodicOracle {
     return simplex;
   }
 
-  /// The images up to a distance from a point in the box. @return the place of the point among
-  /// them.
+  /// Finds the images up to a distance from a point in the box. @return the index of the point
+  /// among them.
   std::size_t find_neighbours(std::size_t of, const Rational& squared) {
     neighbours_.clear();
     places_.clear();
@@ -146,10 +146,9 @@ class PeriodicOracle {
     return home;
   }
 
-  using Places = std::vector<std::size_t>;  // of some of the neighbours
+  using Places = std::vector<std::size_t>;  // indices of some neighbours
 
-  /// The spheres of some images and of those with some of the neighbours from `next` on in
-  /// addition.
+  /// Adds the spheres of some images, and of these images together with neighbours from `next` on.
   void add_spheres(const Places& set, std::size_t next) {
     if (!add_sphere(set) || set.size() > period_.size()) return;
     for (std::size_t i = next; i < neighbours_.size(); ++i) {
@@ -160,9 +159,10 @@ class PeriodicOracle {
     }
   }
 
-  /// @return true if a larger set may have an empty sphere of the required radius.
+  /// @return true if a larger set of images may have an empty sphere of at most the required
+  /// radius.
   bool add_sphere(const Places& set) {
-    // Doubles are enough to show that most spheres are too large or not empty.
+    // Most spheres are too large or not empty, and doubles are enough to show it.
     constexpr double flat = 1e-6, room = 1e-6;
     if (const auto centre = centre_of<double>(set, flat, rounded_, rounded_weights_)) {
       const auto power_of = [&](std::size_t i) {
@@ -179,14 +179,14 @@ class PeriodicOracle {
     const auto centre = centre_of<Rational>(set, 0, places_, weights_of_places_);
     if (!centre) return false;
     const Rational radius = power(*centre, set[0]);
-    if (radius > most_) return false;  // and so are those of larger sets
+    if (radius > most_) return false;  // larger sets have larger radii
     Simplex on;
     for (std::size_t i = 0; i < neighbours_.size(); ++i) {
       const Rational of_image = power(*centre, i);
       if (of_image < radius) return true;
       if (of_image == radius) on.push_back(neighbours_[i]);
     }
-    // Each set of what is on it.
+    // Visits each subset of the images on the sphere.
     for (unsigned part = 1; part < 1U << on.size(); ++part) {
       Simplex simplex;
       for (std::size_t i = 0; i < on.size(); ++i)
@@ -201,7 +201,8 @@ class PeriodicOracle {
     return dot(to, to) - weights_of_places_[i];
   }
 
-  /// The point in the affine hull with equal powers to all points; nothing for dependent points.
+  /// The point in the affine hull that has the same power with respect to all points; nothing for
+  /// dependent points.
   template <class Number, class AnyPoint>
   std::optional<std::vector<Number>> centre_of(const Places& set, const Number& flat,
                                                const std::vector<AnyPoint>& places,
@@ -240,11 +241,11 @@ class PeriodicOracle {
   std::vector<Point> points_;
   std::vector<Rational> weights_;
   Point period_;
-  Rational most_ = 0;              // the largest radius wanted, squared
-  std::vector<Image> neighbours_;  // of the first image
+  Rational most_ = 0;              // the largest required radius, squared
+  std::vector<Image> neighbours_;  // the neighbours of the first image
   std::vector<Point> places_;
   std::vector<Rational> weights_of_places_;
-  std::vector<std::array<double, 3>> rounded_;  // the same in doubles
+  std::vector<std::array<double, 3>> rounded_;  // the same points as doubles
   std::vector<double> rounded_weights_;
   std::map<Simplex, Rational> values_;
 };

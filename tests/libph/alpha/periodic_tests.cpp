@@ -32,7 +32,7 @@ struct PeriodicCloud {
 };
 
 /// A few points inside and outside a box with some periodic axes: anywhere; on a grid, with copies
-/// and on its border; in layers; on a grid that doubles cannot represent.
+/// and points on the border; in layers; on a grid that doubles cannot represent.
 PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool weighted) {
   PeriodicCloud cloud{"", Points(random.integer(1, static_cast<int>(most)), dim), {}, {}};
   const int kind = random.integer(0, 3);
@@ -62,7 +62,7 @@ PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool 
   return cloud;
 }
 
-/// The complex has as many classes that never die as the space.
+/// Checks that the complex has as many classes that never die as the periodic space.
 void expect_betti_numbers(const Barcode& bars, int closed, std::size_t components = 1) {
   static constexpr std::size_t binomials[4][4]{
       {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
@@ -74,7 +74,7 @@ void expect_betti_numbers(const Barcode& bars, int closed, std::size_t component
 
 void check_definition(const PeriodicCloud& cloud) {
   const Alpha alpha(cloud.points, cloud.options());
-  // The oracle lists each set of what is on a sphere, copies included.
+  // The oracle lists each subset of the points on a sphere, including copies of points.
   if (static_cast<int>(alpha.copies().size()) + alpha.top_dim() > 3) return;
   const PeriodicOracle oracle(cloud.points, cloud.period, cloud.weights);
   double size = 1;
@@ -85,8 +85,8 @@ void check_definition(const PeriodicCloud& cloud) {
     ASSERT_NO_FATAL_FAILURE(expect_bars(bars, oracle.bars(p), absolute));
     expect_betti_numbers(bars, cloud.closed());
   }
-  // Each cell belongs to the definition, and there are no others. Rounding may move points off a
-  // sphere.
+  // Each cell must be in the oracle's complex, and no cell may be missing. Rounding may move points
+  // off a sphere, and then the cells may differ.
   if (cloud.name[0] == 'd') return;
   std::vector<std::pair<std::vector<Index>, double>> left;
   for (const auto& [simplex, value] : oracle.values()) {
@@ -98,7 +98,7 @@ void check_definition(const PeriodicCloud& cloud) {
   for (const auto& [numbers, value] : left) most = std::max(most, value);
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
     alpha.for_each_cell(dim, [&](const Alpha::Cell& cell) {
-      if (alpha.value(cell) > most + absolute) return;  // beyond the oracle's range
+      if (alpha.value(cell) > most + absolute) return;  // beyond the range of the oracle
       std::vector<Index> numbers;
       alpha.append_input_cell(dim, cell, numbers);
       const auto at = std::ranges::find_if(left, [&](const auto& other) {
@@ -149,7 +149,7 @@ TEST(Periodic, EveryEngineFindsTheBarsOfTheOracle) {
                            oracle),
           "");
     }
-    for (int dim = 0; dim <= 3; ++dim) {  // a part of the dimensions
+    for (int dim = 0; dim <= 3; ++dim) {  // compares fewer dimensions
       const Barcode part = persistence(
           alpha, {.max_dim = dim, .min_dim = dim, .field = field, .engine = Engine::gradient});
       EXPECT_TRUE(std::ranges::equal(part, oracle.bars(dim))) << "H" << dim;
@@ -158,7 +158,8 @@ TEST(Periodic, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// The edge lengths of a lattice, and the radii of its triangles and tetrahedra, by hand.
+// The points form a lattice: edge lengths and the radii of triangles and tetrahedra are computed by
+// hand.
 TEST(Periodic, OnePointIsALattice) {
   const Barcode circle = persistence(Alpha(Points{{7.5}}, {.period = {2}}));
   ASSERT_EQ(circle.size(), 2U);
@@ -194,14 +195,14 @@ TEST(Periodic, OneToTenPoints) {
     }
 }
 
-// A box of twice the length holds each point and each cell twice.
+// A box with one side doubled holds each point and each cell twice.
 TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   for_each_seed(40, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3);
     const PeriodicCloud once = [&] {
       PeriodicCloud cloud = any_periodic_cloud(random, dim, 12, false);
       while ((cloud.name[0] == 'g') != ties) cloud = any_periodic_cloud(random, dim, 12, false);
-      // Numbers that can be added exactly.
+      // Makes the coordinates numbers that can be added without rounding.
       for (double& x : cloud.points.coordinates())
         x = std::ldexp(std::round(std::ldexp(x, 20)), -20);
       for (double& x : cloud.period) x = std::ldexp(std::round(std::ldexp(x, 20)), -20);
@@ -234,8 +235,8 @@ TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   });
 }
 
-// All in units in which translations are exact; values may still differ by rounding, because they
-// are computed from vertices in another order.
+// The numbers are such that translations are exact. Values may still differ by rounding, because
+// they are computed from the vertices in another order.
 TEST(Periodic, TranslationChangesNothing) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3), n = random.integer(1, 60);
@@ -263,7 +264,8 @@ TEST(Periodic, TranslationChangesNothing) {
   });
 }
 
-// Near the open ends spheres are huge: two layers, all but flat, and points far apart.
+// Near the ends of axes that are not periodic, spheres are huge: two nearly flat layers, and points
+// far apart.
 TEST(Periodic, CylindersAndSlabs) {
   for_each_seed(16, [](Generator& random, bool is_flat, std::int64_t field) {
     Points points = random.points(200, 3, false);
@@ -281,7 +283,7 @@ TEST(Periodic, CylindersAndSlabs) {
     expect_betti_numbers(bars, period[1] == 0 ? 1 : 2);
   });
   const Barcode far = persistence(Alpha(Points{{0, 0}, {0.25, 50}}, {.period = {1, 0}}));
-  ASSERT_EQ(far.size(), 5U);  // two circles, two edges between them, two triangles
+  ASSERT_EQ(far.size(), 5U);  // the cells: two circles, two edges between them, two triangles
   EXPECT_EQ(far[1], (Bar{0, 0, kInfinity}));
   EXPECT_NEAR(far[0].death, std::hypot(0.25, 50) / 2, 1e-13);
   EXPECT_EQ(std::ranges::count(far, Bar{1, 0.5, kInfinity}), 1);
@@ -360,7 +362,8 @@ TEST(Periodic, UnitsArePowersOfTwoExactly) {
   }
 }
 
-// Sites far from the faces of their box have no images there: what lies outside is not the end.
+// Points far from the faces of their box get no images beyond the faces. The code must notice that
+// the space continues there.
 TEST(Periodic, TooFewImagesAreNoticed) {
   const RunContext context;
   const Points points = uniform_points(30, 3, 12);

@@ -15,7 +15,7 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// All simplices with their values.
+/// All simplices of the complex with their values.
 std::map<Simplex, double> simplices_of(const Alpha& alpha) {
   std::map<Simplex, double> all;
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
@@ -27,7 +27,7 @@ std::map<Simplex, double> simplices_of(const Alpha& alpha) {
   return all;
 }
 
-/// The simplices left after a collapse with a face of one dimension less.
+/// The facets of a simplex.
 std::vector<Simplex> facets_of(const Simplex& simplex) {
   std::vector<Simplex> facets;
   for (std::size_t i = 0; simplex.size() > 1 && i < simplex.size(); ++i) {
@@ -37,7 +37,7 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-/// Triangles by the number of tetrahedra of a set that contain them, except triangles with two.
+/// The triangles that are in one or in more than two tetrahedra of a set, each with this number.
 std::map<Simplex, int> surface_of(const std::set<Simplex>& set) {
   std::map<Simplex, int> sides;
   for (const Simplex& simplex : set)
@@ -59,7 +59,7 @@ void expect_surface(const SurfaceMesh& mesh, const std::set<Simplex>& set) {
   EXPECT_EQ(found, surface_of(set));
 }
 
-/// Six times the volume that the regular triangles enclose.
+/// Six times the volume inside the regular triangles.
 double volume(const Points& points, const SurfaceMesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.regular; ++i) {
@@ -86,7 +86,8 @@ TEST(AlphaShapes, AreTheSurfacesOfTheSimplices) {
   });
 }
 
-// In general position, each value is one interval, and a simplex alone in an interval is critical.
+// In general position, each value belongs to one interval of simplices, and a simplex that is alone
+// in its interval is critical.
 TEST(AlphaShapes, WrapsAreWhatLiesBelowCriticalSimplices) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t) {
     Cloud cloud{"", random.points(40, 3, false), {}};
@@ -126,7 +127,7 @@ TEST(AlphaShapes, FaceOutwards) {
   EXPECT_EQ(volume(grid, cube), 6 * 64.0);
   EXPECT_EQ(cube.regular, cube.triangles.size());
   EXPECT_EQ(cube.triangles.size(), 2 * 6 * 16U);
-  // Before the cubes fill, squares stand alone.
+  // Before cubes are filled, their squares are surfaces without a solid.
   const SurfaceMesh walls = alpha_shape(Alpha(grid), 0.8);
   EXPECT_EQ(walls.regular, 0U);
   EXPECT_GE(walls.triangles.size(), 2 * (3 * 5 * 16U));

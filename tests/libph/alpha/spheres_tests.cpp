@@ -11,7 +11,7 @@ namespace {
 TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
   for_each_seed(3000, [](Generator& random, bool weighted, std::int64_t) {
     const Index count = random.integer(2, 5), coordinates = random.integer(1, 3);
-    // Rounded decimals: angles and spheres that are exact up to this rounding.
+    // Rounded decimals, whose angles and spheres are special up to rounding.
     const double step = random.coin() ? 0.1 : 1;
     const bool moves = random.coin();
     const auto number = [&](int low, int high) {
@@ -22,7 +22,7 @@ TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
     };
     Points points(count, coordinates);
     for (double& x : points.coordinates()) x = number(-3, 3);
-    // So flat that even twice the digits cannot tell.
+    // Makes the points so flat that even twice the digits cannot decide.
     const Index flat = random.integer(0, 4);
     for (Index i = 0; flat < coordinates && i < count; ++i) points(i, flat) *= 1e-25;
     std::vector<double> weights;

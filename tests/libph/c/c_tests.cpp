@@ -20,7 +20,7 @@ ph_options defaults() {
   return options;
 }
 
-/// The bars with their cells, without any use of the C++ library.
+/// Compares all bars and their cells, using only the C interface for the first.
 void expect_same(ph_barcode* found, const Barcode& expected) {
   ASSERT_EQ(ph_barcode_size(found), expected.size());
   const ph_bar* bars = ph_barcode_bars(found);
@@ -49,7 +49,7 @@ TEST(CInterface, GivesTheBarsOfPoints) {
     if (random.coin()) rips.threshold = options.threshold = random.value(ties);
     Options task{.field = field};
     if (options.max_dim >= 0) task.max_dim = options.max_dim;
-    // Columns first, as Fortran and Julia have it.
+    // The numbers column by column, as in Fortran and Julia.
     std::vector<double> by_columns;
     for (Index k = 0; k < points.cols(); ++k)
       for (Index i = 0; i < points.rows(); ++i) by_columns.push_back(points(i, k));
@@ -92,7 +92,7 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
                                extents.data(), nullptr, &options, &found),
               PH_OK)
         << ph_last_error();
-    // The same backwards, as in an array in reverse order.
+    // The numbers in reverse order, read with negative strides.
     std::vector<float> reversed(values.rbegin(), values.rend());
     std::vector<std::int64_t> strides(extents.size(), -1);
     for (std::size_t k = extents.size() - 1; k > 0; --k) strides[k - 1] = strides[k] * extents[k];
@@ -147,7 +147,7 @@ TEST(CInterface, TakesManyAtATime) {
     for (std::size_t i = 0; i < bars.size(); ++i)
       expect_same(bars[i], persistence(Cubical(Image{{4, 5}, images[i]})));
   }
-  // An error leaves nothing behind, and names its input.
+  // A failing call leaves nothing behind, and names the input that failed.
   std::vector<ph_barcode*> none(clouds.size(), nullptr);
   images[42][3] = std::nanf("");
   const std::int64_t extents[] = {4, 5};
@@ -165,7 +165,7 @@ TEST(CInterface, TakesManyAtATime) {
   for (const ph_barcode* bars : none) EXPECT_EQ(bars, nullptr);
 }
 
-// Each pair of these would be an edge, 2e10 in all.
+// Each pair of these points would be an edge, 2e10 in total.
 TEST(CInterface, TakesManyEqualPoints) {
   constexpr std::int64_t rows = 200'000;
   const double point[] = {1, 2, 3};
@@ -217,7 +217,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, with([](auto& o) { o.distance = 6; }), "distance");
   expect(PH_USAGE, with([](auto& o) { o.size += 1; }), "size");
   expect(PH_USAGE, with([](auto& o) { o.size = 0; }), "size");
-  // An older caller, which knows only the first members.
+  // A caller compiled with an older header, which has only the first members.
   EXPECT_EQ(with([](auto& o) {
               o.distance = 6;
               o.size = offsetof(ph_options, distance);

@@ -72,7 +72,7 @@ TEST(ExplicitComplexes, TheEmptyComplex) {
   EXPECT_TRUE(persistence(ExplicitComplex::from_boundary({})).empty());
 }
 
-// The oracle gives the cells beyond the threshold the value infinity, with which they never enter.
+// The oracle gives the cells beyond the threshold the value infinity: they never enter.
 TEST(ExplicitComplexes, AThresholdLeavesTheSubcomplexBelowIt) {
   InputGenerator gen(RandomChoices(7));
   for (int round = 0; round < 60; ++round) {
@@ -103,7 +103,7 @@ TEST(ExplicitComplexes, AThresholdLeavesTheSubcomplexBelowIt) {
   expect_error(ErrorKind::usage, "threshold: found nan", [&] { none.set_threshold(kNan); });
 }
 
-// A triangle with its boundary, by columns.
+// A triangle with its boundary, column by column.
 BoundaryMatrix triangle() {
   BoundaryMatrix m;
   m.dims = {0, 0, 0, 1, 1, 1, 2};
@@ -135,7 +135,7 @@ TEST(ExplicitComplexes, WithoutIncidencesOnlyTwoWillDo) {
   expect_error(ErrorKind::usage, "incidence", [&] { persistence(complex, {.field = 3}); });
 }
 
-// The projective plane with one cell per dimension: the 2-cell goes twice round the loop.
+// The projective plane with one cell per dimension: the 2-cell goes round the loop twice.
 TEST(ExplicitComplexes, IncidencesThatVanishOverSomeFields) {
   BoundaryMatrix m;
   m.dims = {0, 1, 2};
@@ -148,7 +148,8 @@ TEST(ExplicitComplexes, IncidencesThatVanishOverSomeFields) {
   EXPECT_EQ(betti_at_the_end(persistence(plane, {.field = 3}), 2), (std::vector<int>{1, 0, 0}));
 }
 
-// Lens spaces L(p, q): the 2-cell goes p times round; homology differs only over Z/p.
+// For a lens space L(p, q), the 2-cell goes round the loop p times. The homology differs only over
+// Z/p.
 TEST(ExplicitComplexes, LensSpaces) {
   for (const int p : {2, 3, 5, 7}) {
     BoundaryMatrix m;
@@ -189,14 +190,14 @@ TEST(ExplicitComplexes, RefuseBrokenBoundaryMatrices) {
   broken("boundary of its boundary", [](auto& m) { m.incidences[6] = -1; });
   broken("boundary of its boundary",
          [](auto& m) { m.rows[8] = 4, m.rows[7] = 3, m.rows[6] = 5, m.incidences[8] = 1; });
-  broken("boundary of its boundary", [](auto& m) {  // over Z/2: an edge is missing
+  broken("boundary of its boundary", [](auto& m) {  // an edge is missing, over Z/2
     m.incidences.clear();
     m.rows.pop_back();
     m.offsets.back() = 8;
   });
 }
 
-// A dimension is a number in a file: it must not determine how much memory is taken.
+// A dimension read from a file must not determine how much memory is allocated.
 TEST(ExplicitComplexes, AbsurdDimensionsAreRefused) {
   BoundaryMatrix m;
   m.dims = {0, std::numeric_limits<int>::max()};
@@ -212,7 +213,7 @@ TEST(LowerStars, AddFacesAndLoneVertices) {
   EXPECT_EQ(mesh.size(), 8U) << "every vertex enters, faces are added";
   check(mesh, 2);
   EXPECT_EQ(bars_of(persistence(mesh)), (std::vector<Bar>{{0, 1, kInf}, {0, 9, kInf}}));
-  // Simplices that overlap or occur twice count once.
+  // Simplices that share faces or occur twice are counted once.
   EXPECT_EQ(
       lower_star(list_of({{{0, 1}, 0}, {{1, 0}, 0}, {{0, 1, 2}, 0}, {{2}, 0}}), values).size(), 8U);
 }
@@ -286,7 +287,8 @@ TEST(CubicalComplexes, RefuseBrokenImages) {
 TEST(CubicalComplexes, CellsHaveDoubledCoordinates) {
   const Image image{{3, 2}, {5, 3, 4, 9, 2, 1}};
   const Barcode barcode = persistence(Cubical(image));
-  // 1 at (2, 1) is oldest; 3 at (0, 1) is joined to it through 4 or 9: by voxel (1, 0).
+  // The oldest voxel has the value 1 at (2, 1). The voxel with value 3 at (0, 1) is joined to it by
+  // way of 4, at (1, 0), or 9.
   ASSERT_EQ(bars_of(barcode), (std::vector<Bar>{{0, 1, kInf}, {0, 3, 5}}));
   EXPECT_EQ(barcode.cell_kind(), CellKind::grid);
   const auto numbers = [](const InputCell& cell) {

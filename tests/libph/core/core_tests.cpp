@@ -159,7 +159,8 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_TRUE(barcode.bars(2).empty());
 }
 
-// In any order and reversed; few and many bars with the same birth are sorted differently.
+// The bars are added in any order, and reversed. Few and many bars with the same birth are sorted
+// by different methods.
 TEST(Barcodes, WithoutCellsAreOrderedByValues) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Generator random(seed);

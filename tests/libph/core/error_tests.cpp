@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// An interface that has no setting nan.
+/// An interface without the setting nan.
 const Words kShouting{[](Setting setting, std::string_view value) {
   if (setting == Setting::nan) return std::string();
   return "SET " + std::string(setting_name(setting)) + (value.empty() ? "" : " TO ") +
@@ -39,7 +39,7 @@ TEST(Message, LeavesClausesOfUnknownSettingsOut) {
             "found NaN; SET columns takes some");
   EXPECT_EQ(Message("found NaN; " + columns + ", " + nan + "; else").in_words(kShouting),
             "found NaN; else");
-  // The text about a setting stays, in the terms of C++.
+  // A text about a setting that the interface lacks keeps the terms of C++.
   EXPECT_EQ(Message(mark(Setting::nan, "drop") + ": nothing to do").in_words(kShouting),
             "nan drop: nothing to do");
   EXPECT_EQ(Message("a; " + nan + "; " + columns).without(Setting::columns).str(),

@@ -8,7 +8,8 @@
 namespace ph::test {
 namespace {
 
-// Numbers that a table might reserve for itself, and numbers packed from -1, -2, 0 and 1.
+// Numbers that a table might reserve for its own use, and numbers packed from the halves -2, -1, 0
+// and 1.
 std::vector<std::uint64_t> keys_at_the_ends() {
   std::vector<std::uint64_t> keys = {1ULL << 63, (1ULL << 63) - 1};
   for (const int high : {-2, -1, 0, 1})
@@ -37,7 +38,7 @@ TEST(FlatMap, EveryNumberIsAKey) {
     map.clear();
     EXPECT_EQ(map.find(key), nullptr);
     EXPECT_TRUE(map.try_emplace(key).second);
-    EXPECT_EQ(*map.find(key), 0);  // not the previous content
+    EXPECT_EQ(*map.find(key), 0);  // not the value stored before
   }
 }
 

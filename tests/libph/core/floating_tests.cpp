@@ -88,8 +88,8 @@ TEST(Floating, LongNumbersAndWhatFollows) {
 }
 
 TEST(Floating, FloatsAreRoundedOnce) {
-  // Slightly more than half of the last place of a float above 1: as a double it is exactly the
-  // half.
+  // The text is slightly more than 1 plus half a unit in the last place of a float. Rounded to a
+  // double, it is exactly 1 plus this half.
   const std::string_view text = "1.00000005960464477539062500000000001";
   float value = 0;
   floating_by_strtod(text.data(), text.data() + text.size(), value);
@@ -113,7 +113,8 @@ constexpr bool kHasFromChars = requires(T& value) {
   std::from_chars("", "", value);
 };
 
-/// Like from_chars: both stop at the same place, report the same and read the same bits.
+/// Compares with from_chars: both stop at the same place, report the same error and read the same
+/// bits.
 template <class T>
 void compare(const std::string& text) {
   if constexpr (kHasFromChars<T>) {
@@ -131,7 +132,7 @@ void compare(const std::string& text) {
 TEST(Floating, RandomTextsAsFromCharsReadsThem) {
   if (!kHasFromChars<double>) GTEST_SKIP() << "this C++ library has no std::from_chars of a double";
   for_each_seed(20000, [](Generator& random, bool, std::int64_t) {
-    // Pieces of numbers in any order: most of the results are numbers up to some place.
+    // Joins pieces of numbers in any order: most of the results begin with a number.
     constexpr std::string_view pieces[] = {
         "-",   "+",        ".", "e", "E-", "e+3",  "0",   "1", "7",   "12",  "99999999", "inf",
         "nan", "infinity", " ", ",", "x",  "e-32", "e30", "(", "ab)", "000", "5e-324"};
@@ -140,7 +141,7 @@ TEST(Floating, RandomTextsAsFromCharsReadsThem) {
       text += pieces[random.integer(0, int{std::size(pieces)} - 1)];
     compare<double>(text);
     compare<float>(text);
-    // Any double, with all necessary digits or fewer.
+    // Any double, printed with as many digits as needed or with fewer.
     std::uint64_t bits = 0;
     for (int half = 0; half < 2; ++half)
       bits = bits << 32 | static_cast<unsigned>(random.integer(INT_MIN, INT_MAX));

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-// A tree of control groups, as the kernel presents it.
+// A tree of control groups in the form that the kernel shows.
 class ControlGroups : public testing::Test {
  protected:
   void SetUp() override {

@@ -30,7 +30,8 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_NO_THROW(budget.require(400));
   expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(401); });
   expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(SIZE_MAX); });
-  const volatile std::size_t huge = SIZE_MAX - 8;  // a constant would be a warning of the compiler
+  // Volatile, because the compiler would warn about a constant.
+  const volatile std::size_t huge = SIZE_MAX - 8;
   expect_error(ErrorKind::resource, "memory limit", [&] { (void)budget.allocate(huge, 8); });
   void* b = budget.allocate(400, 64);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(b) % 64, 0U);
@@ -40,8 +41,8 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_EQ(budget.peak(), 1000U);
 }
 
-// Under any limit, a computation gives the right answer or reports that memory is short, and in
-// that case it has freed everything.
+// Under any limit, a computation gives the right answer or reports that memory is short; in the
+// second case it has freed everything.
 TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);
@@ -88,18 +89,18 @@ TEST(MemoryBudgets, HoldForImages) {
   }
 }
 
-/// The engines that list the cells of an image.
+/// The engines that list all cells of an image.
 constexpr Engine kListCells[] = {Engine::standard, Engine::twist, Engine::cohomology,
                                  Engine::union_find};
 
-/// The number of voxels that ever enter.
+/// The number of voxels with a finite value.
 std::size_t entering(const Image& image) {
   return static_cast<std::size_t>(std::count_if(image.values.begin(), image.values.end(),
                                                 [](double v) { return v < kInfinity; }));
 }
 
-// Data that a filtration builds later belong to it and count with it; the run that needs them is
-// bounded nevertheless.
+// Tables that a filtration builds in its first run belong to the filtration and count towards its
+// own budget. The budget of the run limits them nevertheless.
 TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
   const Image image = Generator(3).image({9, 8, 7}, false);
   for (const Engine engine : kListCells) {
@@ -123,7 +124,7 @@ TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
       EXPECT_GE(run.memory.peak(), table);
       EXPECT_EQ(run.memory.used(), 0U);
       EXPECT_EQ(home.memory.used(), voxels + table);
-    }  // the filtration outlives the context of its first run
+    }  // the context of the first run ends here
     EXPECT_EQ(bars, bars_of(persistence(cubical, options)));
     EXPECT_EQ(bars, bars_of(persistence(Cubical(image), options)));
   }
@@ -234,7 +235,7 @@ TEST(MemoryBudgets, CountWhatComesFromElsewhere) {
 
 using Clock = std::chrono::steady_clock;
 
-// A job of many seconds for every engine that goes beyond H0.
+// The points of a job that takes every engine many seconds, if the engine goes beyond H0.
 Points long_job(Engine engine) {
   return Generator(1).points(engine == Engine::cohomology ? 400 : 90, 6, false);
 }
@@ -297,7 +298,8 @@ TEST(RunContexts, WhatACubicalFiltrationMakesLateIsStoppedAndReported) {
       stage = progress.stage;
       run.request_stop();
     };
-    std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
+    // Reports are at least 100 ms apart.
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
     expect_error(ErrorKind::cancelled, "stopped",
                  [&] { persistence(cubical, {.max_dim = 0, .engine = engine}, run); });
     EXPECT_EQ(stage, "cells");
@@ -313,7 +315,7 @@ TEST(RunContexts, AThreadThatWaitsForACubicalFiltrationCanBeStopped) {
     is_making = true;
     while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   };
-  std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
+  std::this_thread::sleep_for(std::chrono::milliseconds(110));  // reports are at least 100 ms apart
   std::thread maker([&] { cubical.prepare(slow); });
   while (!is_making) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   StoppableContext waiting;
@@ -333,7 +335,7 @@ TEST(RunContexts, SlowStepsAreReportedAndStopped) {
   int reports = 0;
   context.on_progress = [&](const Progress&) { ++reports; };
   Ticker ticker(context, "slow");
-  for (int step = 0; step < 100; ++step) ticker.tick(1000);  // quick ones before
+  for (int step = 0; step < 100; ++step) ticker.tick(1000);  // quick steps come first
   const auto step = [&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ticker.tick(400);

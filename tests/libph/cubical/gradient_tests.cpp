@@ -77,7 +77,8 @@ TEST(Gradient, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(longer, std::size_t{3000})) << longer;
 }
 
-// Larger images against the boundary matrix: loops with long boundaries, columns that are added.
+// Compares larger images, with loops of long boundaries and columns that are added, with the
+// boundary matrix.
 TEST(Gradient, AgreeOnLargerVolumes) {
   for_each_seed(24, [&](Generator& random) {
     const std::vector<Index> extents{random.integer(10, 16), random.integer(10, 16),
@@ -91,7 +92,7 @@ TEST(Gradient, AgreeOnLargerVolumes) {
   });
 }
 
-// Few critical cells: arrows are followed on demand, not all at once.
+// With few critical cells, gradient paths are followed on demand, not all at once.
 TEST(Gradient, AgreeOnSmoothImages) {
   for_each_seed(40, [&](Generator& random) {
     const bool flat = random.coin();
@@ -121,8 +122,9 @@ TEST(Gradient, AgreeOnSmoothImages) {
   });
 }
 
-// V of f equals T of -f with a border that enters first, with dimension k in place of d-1-k and
-// with the ends swapped and negated, except for the classes that never die.
+// The V-construction of f is dual to the T-construction of -f with a border that enters first:
+// dimension d-1-k corresponds to k, and the ends of bars are swapped and negated. The classes that
+// never die are the exception.
 TEST(Gradient, ConstructionsAreDual) {
   for_each_seed(300, [&](Generator& random) {
     const int axes = random.integer(1, 4);
@@ -164,12 +166,12 @@ TEST(Gradient, ConstructionsAreDual) {
     };
     std::ranges::sort(direct, before);
     std::ranges::sort(dual, before);
-    // The border dies at the highest value: one more bar, in the highest dimension.
+    // The border dies at the highest value, which adds one bar in the highest dimension.
     EXPECT_EQ(direct, dual);
   });
 }
 
-// A periodic axis of one voxel is a circle: each bar also has a copy in the next dimension.
+// A periodic axis of one voxel is a circle: each bar has a copy one dimension higher.
 TEST(Gradient, CirclesRaiseDimensions) {
   std::size_t raised = 0;
   for_each_seed(200, [&](Generator& random) {
@@ -216,7 +218,7 @@ TEST(Gradient, SolidAndHollowTori) {
   }
 }
 
-// A trefoil is a circle, however it lies in space; around it there is one loop and one surface.
+// A trefoil knot is a circle, however it lies in space. Its complement has one loop and one void.
 TEST(Gradient, AKnotAndWhatIsAroundIt) {
   constexpr Index width = 41, depth = 21;
   constexpr int steps = 400;
@@ -255,7 +257,7 @@ TEST(Gradient, AreTakenWhereTheyCan) {
   const Image flat{{2, 3}, {1, 2, 3, 4, 5, 6}};
   EXPECT_EQ(plan(Cubical(flat), {}).options.engine, Engine::gradient);
   EXPECT_EQ(plan(Cubical(flat), {.max_dim = 0}).options.engine, Engine::gradient);
-  // Axes of one voxel do not count.
+  // Axes with one voxel do not count.
   const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
   EXPECT_EQ(plan(Cubical(thin), {}).options.engine, Engine::gradient);
   const Options cycles{.representatives = Representatives::cycles};
@@ -316,11 +318,12 @@ TEST(Gradient, HolesTakeNoMemory) {
   const Image image = image_of<std::uint8_t>(random, extents, 250);
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     ThreadsContext context(1);
-    // All but a tenth of the voxels never enter.
+    // The threshold keeps all but a tenth of the voxels out.
     const Cubical cubical(image, {.construction = construction, .threshold = 25}, context);
     const std::size_t before = context.memory.used();
     persistence(cubical, {.max_dim = 0, .cells = false}, context);
-    // A star and a node of a graph for each voxel; critical cells.
+    // Memory per voxel for its star and its node in the graph; in addition, memory for the critical
+    // cells.
     EXPECT_LE(context.memory.peak() - before, std::size_t{18'000'000});
   }
 }

@@ -44,7 +44,7 @@ Case random_case(Generator& random) {
   CubicalOptions& cubical = result.options.cubical;
   cubical = random.cubical_options(static_cast<int>(extents.size()));
   if (random.integer(0, 2) == 0) cubical.periodic.assign(extents.size(), true);
-  for (std::size_t k = 0; k < extents.size(); ++k)  // an axis of one voxel is no fourth one
+  for (std::size_t k = 0; k < extents.size(); ++k)  // makes an axis of one voxel periodic
     if (extents[k] == 1 && cubical.construction == Construction::cells) cubical.periodic[k] = true;
   result.image = random.image(extents, random.coin());
   if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
@@ -63,7 +63,7 @@ Case random_case(Generator& random) {
   return result;
 }
 
-/// The schedule of parts and messages.
+/// The order in which parts work and messages arrive.
 enum class Schedule { rounds, random, one_at_a_time, last_message_first };
 
 struct Outcome {
@@ -77,7 +77,7 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   for (int i = 0; i < count; ++i) {
     ImagePart part(c.image, i, count, c.options);
     loops.emplace_back(part, c.field);
-    // A part travels as its bytes.
+    // Some parts are written to bytes and read back, as between machines.
     if (random.coin()) part = ImagePart::of_bytes(part.bytes());
     if (whole)
       whole->join(std::move(part));
@@ -128,7 +128,8 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
       post(loops[i]);
     }
     if (on_their_way.empty()) continue;
-    // Messages that have waited longest are held back as long as any part can work without them.
+    // The last message is delivered first. No message is delivered while a part can work without
+    // it.
     if (schedule == Schedule::last_message_first) {
       if (std::ranges::all_of(loops, &ImageLoops::is_idle)) deliver(on_their_way.size() - 1);
     } else if (random.coin()) {
@@ -149,8 +150,8 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   return run;
 }
 
-/// Memory that parts free is reused at once, because requesting it from the system each time would
-/// dominate the time of these tests.
+/// Makes malloc keep the memory that parts free, because otherwise these tests would spend most of
+/// their time on system calls.
 void keep_memory() {
 #ifdef __GLIBC__
   constexpr int much = 1 << 30;
@@ -183,11 +184,11 @@ TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(runs, std::size_t{50000})) << runs;
   EXPECT_TRUE(is_enough(loops, std::size_t{3000})) << loops;
   EXPECT_TRUE(is_enough(sent, std::size_t{10000})) << sent;
-  // For longer searches by hand.
+  // These numbers help in longer searches, which are started by hand.
   std::cout << runs << " runs, " << loops << " loops, " << sent << " columns sent\n";
 }
 
-/// The loops of all parts of an image after all have begun, and their first messages.
+/// The loops of all parts of an image, which have all begun, and their first messages.
 struct Begun {
   std::vector<ImageLoops> loops;
   std::vector<ImageLoops::Message> messages;
@@ -211,7 +212,7 @@ Begun begun(const Image& image, int count, const ImagePartOptions& options, std:
   return all;
 }
 
-/// Runs rounds until no message is in transit. @return the bars of all parts.
+/// Exchanges messages until none is in transit. @return the bars of all parts.
 std::vector<Pair> finished(Begun all) {
   while (!all.messages.empty()) {
     for (const auto& message : std::exchange(all.messages, {}))
@@ -230,7 +231,7 @@ std::vector<Pair> finished(Begun all) {
   return pairs;
 }
 
-// Enough columns for several threads, and for rounds in which they take pivots from each other.
+// Enough columns for several threads, and for rounds in which threads take pivots from each other.
 TEST(ImageLoops, ThreadsDoNotMatter) {
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     Generator random(7);

@@ -108,7 +108,7 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {.max_dim = 0, .loops = true}));
-  // Parts of other layers are parts of other options.
+  // Parts with other first layers have other options, and do not fit together.
   const ImagePartOptions equal{.max_dim = 0}, other{.max_dim = 0, .first_layers = {0, 1, 6}};
   ImagePart first(image, 0, 3, other);
   EXPECT_TRUE(first.is_of(image, 0, 3, other));
@@ -118,7 +118,8 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_EQ(first.last(), 1);
 }
 
-// Except for holes: of two that have always existed, either may be closed first.
+// The result does not depend on how parts are grouped. Images with holes are left out: of two holes
+// that have always existed, either may be closed first.
 TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   int compared = 0;
   for_each_seed(1000, [&](Generator& random) {
@@ -130,7 +131,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
     };
     if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) return;
     ++compared;
-    // The first three of four parts, in both groupings.
+    // Joins the first three of four parts in both groupings.
     if (c.layers < 4) return;
     auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
     left[0].join(std::move(left[1]));
@@ -197,7 +198,8 @@ TEST(ImagePart, RefusesDamagedBytes) {
   const Image image = random.image({6, 7}, false);
   const std::vector<std::byte> bytes = ImagePart(image, 1, 3).bytes();
   std::size_t refused = 0;
-  // Bytes accepted as a part can be joined: no index leaves its list.
+  // If damaged bytes are accepted as a part, joining the part must be safe: no index is out of
+  // range.
   const auto is_refused = [&](std::span<const std::byte> damaged) {
     return fails_with(ErrorKind::bad_data, [&] {
       ImagePart whole(image, 0, 3);
@@ -217,7 +219,7 @@ TEST(ImagePart, RefusesDamagedBytes) {
       damaged[i] ^= flipped;
       ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  // With a matching checksum: a changed value may be accepted, a changed list may not.
+  // The checksum is corrected: a changed value may be accepted, but a changed list may not.
   for (std::size_t i = 0; i < content.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       std::vector<std::byte> damaged(content.begin(), content.end());
@@ -225,7 +227,7 @@ TEST(ImagePart, RefusesDamagedBytes) {
       refused += is_refused(sealed_part("image", damaged)) ? 1 : 0;
     }
   EXPECT_GT(refused, content.size() / 4);
-  // NaN in every place of a value.
+  // Writes NaN to each place that may hold a value.
   for (std::size_t i = 0; i + sizeof(double) <= content.size(); ++i) {
     std::vector<std::byte> damaged(content.begin(), content.end());
     std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(i), sizeof(double), std::byte{0xff});
@@ -260,7 +262,7 @@ TEST(ImagePart, RefusesDamagedLayers) {
     }
 }
 
-// The check value of the catalogue of CRCs (Cook), of the digits 1 to 9.
+// The check value for the digits 1 to 9 in Cook's catalogue of CRCs.
 TEST(Crc32, HasTheKnownValue) {
   std::vector<std::byte> digits;
   for (const char digit : std::string_view("123456789"))

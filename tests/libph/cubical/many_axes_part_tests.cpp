@@ -49,7 +49,7 @@ TEST(ManyAxesPart, AgreesWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(of_many, std::size_t{1500})) << of_many;
 }
 
-// Whatever threads take which voxels, parts are the same bytes.
+// However threads share the voxels, the bytes of a part are the same.
 TEST(ManyAxesPart, AgreesOnLargerImages) {
   std::size_t bars = 0;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
@@ -65,7 +65,7 @@ TEST(ManyAxesPart, AgreesOnLargerImages) {
     }
     const auto expected = pairs_of_one_process(c, Engine::gradient);
     bars += expected.size();
-    RunContext threads;  // each takes some thousand voxels at a time
+    RunContext threads;  // each thread takes some thousand voxels at a time
     threads.threads = 3;
     for (const int count : {1, 4, 9}) {
       auto parts = parts_of(c.image, count, c.options, threads);
@@ -93,7 +93,8 @@ TEST(ManyAxesPart, AgreesUpToEightAxes) {
   EXPECT_TRUE(is_enough(bars, std::size_t{200})) << bars;
 }
 
-// The dimensions between need all layers: no part returns less than requested.
+// The dimensions between the first and the last need all layers. Parts refuse to compute them
+// instead of returning less than requested.
 TEST(ManyAxesPart, SaysWhatCanBeHad) {
   const auto refused = [](std::vector<Index> extents, ImagePartOptions options, const char* why) {
     Generator random(1);
@@ -128,7 +129,8 @@ TEST(ManyAxesPart, RefusesDamagedBytes) {
       for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
         std::vector<std::byte> damaged(content.begin(), content.end());
         damaged[i] ^= flipped;
-        // Bytes accepted as a part can be joined: no index leaves its list.
+        // If damaged bytes are accepted as a part, joining the part must be safe: no index is out
+        // of range.
         try {
           ImagePart whole(image, 0, 3, options);
           whole.join(ImagePart::of_bytes(sealed_part("image", damaged)));

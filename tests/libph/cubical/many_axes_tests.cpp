@@ -27,7 +27,7 @@ std::vector<Index> random_extents(Generator& random, int axes, int least, int mo
   return extents;
 }
 
-/// Few values, 256, or all different; some never enter.
+/// Images with a few values, 256 values, or all values different. Some voxels never enter.
 Image any_image(Generator& random, const std::vector<Index>& extents) {
   Image image = random.image(extents, random.coin());
   if (random.coin()) return image;
@@ -63,7 +63,8 @@ TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(found_in_all, std::size_t{3000})) << found_in_all;
 }
 
-// Larger ones against the boundary matrix: columns that are added, and taken from each other.
+// Compares larger images with the boundary matrix. Columns are added, and threads take pivots from
+// each other.
 TEST(ManyAxes, AgreeOnLargerImages) {
   for_each_seed(12, [&](Generator& random) {
     const Image image = any_image(random, random_extents(random, 4, 5, 8));
@@ -96,7 +97,7 @@ TEST(ManyAxes, KnownSpaces) {
       const Options options{.field = field, .engine = Engine::gradient};
       const Cubical shell(Image{{11, 11, 11, 11}, from_sphere}, {.construction = construction});
       EXPECT_EQ(betti_at(persistence(shell, options), 1.1, 4), (std::vector<int>{1, 0, 0, 1, 0}));
-      // Circles of 1, 2 and 3 voxels.
+      // Periodic axes of 1, 2 and 3 voxels.
       const Cubical torus(Image{{3, 1, 2, 3, 2}, std::vector<double>(36, 7)},
                           {.construction = construction, .periodic = std::vector<bool>(5, true)});
       EXPECT_EQ(betti_at(persistence(torus, options), 7, 5),
@@ -118,7 +119,7 @@ TEST(ManyAxes, AreTakenWhereTheyCan) {
   EXPECT_TRUE(cubical::can_pair_voxels(grid, 8));
   grid.voxels_are_vertices = false;  // 17^8
   EXPECT_FALSE(cubical::can_pair_voxels(grid, 8));
-  EXPECT_TRUE(cubical::can_pair_voxels(grid, 0));  // voxels and edges alone
+  EXPECT_TRUE(cubical::can_pair_voxels(grid, 0));  // only voxels and edges
 }
 
 TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {
@@ -129,8 +130,8 @@ TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {
             std::vector<Bar>(without.begin(), without.end()));
 }
 
-// Under any limit, an image gives the right answer or reports that memory is short, and in that
-// case everything is freed; a stop is obeyed at every stage.
+// Under any limit, the computation gives the right answer or reports that memory is short, and in
+// that case everything is freed. A stop is obeyed at every stage.
 TEST(ManyAxes, BudgetsAndStops) {
   const Image image = Generator(5).image({8, 9, 7, 8}, false);
   const auto run = [&](const RunContext& context) {

@@ -27,7 +27,7 @@ void expect_in_order(const ImagePartForecast::Bytes& bytes) {
   EXPECT_TRUE(std::isfinite(bytes.high));
 }
 
-/// Makes a forecast for each number of parts, and checks that parts may begin with the predicted
+/// Makes a forecast for each number of parts, and checks that parts accept the predicted first
 /// layers.
 void expect_valid(const Image& image, ImagePartOptions options, int layers) {
   for (int parts = 1; parts <= layers; ++parts) {
@@ -52,7 +52,7 @@ TEST(PartForecast, LayersAreAlwaysValid) {
   for_each_seed(1000, [&](Generator& random) {
     ImageCase c = random_image_case(random);
     c.options.loops = true;
-    if (is_refused(c)) return;  // more axes
+    if (is_refused(c)) return;  // images with more axes
     ASSERT_NO_FATAL_FAILURE(expect_valid(c.image, c.options, c.layers));
   });
 }
@@ -116,7 +116,7 @@ TEST(PartForecast, LayersWithMuchInThemAreShared) {
   }
 }
 
-// Layers with few rows, and layers with long rows: some voxels of these are also examined.
+// Layers with few rows and layers with long rows, for which the forecast examines only some voxels.
 TEST(PartForecast, LongRowsAreSeen) {
   Generator random(3);
   for (const std::vector<Index>& extents :
@@ -131,12 +131,13 @@ TEST(PartForecast, LongRowsAreSeen) {
   }
 }
 
-/// The memory of all parts together.
+/// What the parts took in total or at most.
 struct Taken {
-  double memory = 0, file = 0, sent = 0;  ///< of the largest part; of all parts together
+  /// Memory and file of the largest part; messages of all parts together.
+  double memory = 0, file = 0, sent = 0;
 };
 
-/// The memory of ranks. The image and the parts on each rank have separate memory budgets.
+/// Measures the parts on ranks. The image and the parts of each rank have separate memory budgets.
 Taken taken_on_ranks(const Image& image, const ImagePartOptions& options, int parts) {
   Taken taken;
   std::mutex mutex;
@@ -166,7 +167,7 @@ TEST(PartForecast, NoiseTakesWhatIsForeseen) {
   Generator random(4);
   const Image image = volume_of({64, 64, 64}, [&](Index) { return random.real(); });
   for (const auto construction : {Construction::vertices, Construction::cells})
-    for (const int dims : {0, 2, 3})  // components; hollows; all
+    for (const int dims : {0, 2, 3})  // only components; without loops; all dimensions
       for (const int parts : {2, 3}) {
         ImagePartOptions options{.cubical = {.construction = construction}, .cells = dims == 3};
         if (dims == 0) options.max_dim = 0;
@@ -178,7 +179,8 @@ TEST(PartForecast, NoiseTakesWhatIsForeseen) {
         const Taken taken = taken_on_ranks(image, options, parts);
         EXPECT_GE(taken.file, forecast.file.low);
         EXPECT_LE(taken.file, forecast.file.high);
-        // Voxels of a mapped file are counted there, and here those of the image are not.
+        // The forecast counts the voxels of a mapped file. The measurement here does not count
+        // those of the image.
         EXPECT_GE(taken.memory + 8.0 * 64 * 64 * (64 / parts + 1), forecast.memory.low);
         EXPECT_LE(taken.memory, forecast.memory.high);
         EXPECT_GE(taken.sent, forecast.sent.low);

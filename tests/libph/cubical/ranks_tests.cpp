@@ -17,7 +17,7 @@
 namespace ph::test {
 namespace {
 
-/// The result of rank 0.
+/// The barcode that rank 0 computes.
 Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks, std::int64_t field = 2) {
   Barcode bars(CellKind::grid);
   ranks.run([&](Transport& transport) {
@@ -48,13 +48,13 @@ TEST(Ranks, AgreeWithTheOracle) {
   for_each_seed(1500, [&](Generator& random) {
     const bool has_many_axes = random.integer(0, 7) == 0;
     ImageCase c = has_many_axes ? random_case_of_many_axes(random) : random_image_case(random);
-    if (c.image.values.size() > 200) return;  // the oracle is slow
+    if (c.image.values.size() > 200) return;  // the oracle would be slow
     c.options.loops = true;
     if (random.coin()) {
       c.options.min_dim = 0;
       c.options.max_dim = std::nullopt;
     }
-    if (is_refused(c)) return;  // other dimensions of more axes
+    if (is_refused(c)) return;  // not possible for images with more axes
     const std::int64_t field = random.coin() ? 2 : 3;
     ASSERT_EQ(ImagePart::most_parts(c.image, c.options.cubical), c.layers);
     const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
@@ -104,7 +104,7 @@ TEST_P(Mishaps, AreSeen) {
     ranks.plan(GetParam(), static_cast<int>(seed) % 8);
     fails_with(ErrorKind::io, [&] {
       const Barcode bars = bars_of_ranks(c, ranks);
-      // The second of two equal messages stays unread, because nobody asks for it.
+      // A message that arrives twice is read once; the second copy stays unread.
       EXPECT_TRUE(GetParam() == Mishap::doubled || !ranks.has_happened());
       EXPECT_EQ(pairs_of(bars), pairs_of(ImagePart(c.image, 0, 1).barcode()));
     });
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(All, Mishaps,
                          testing::Values(Mishap::lost, Mishap::doubled, Mishap::swapped,
                                          Mishap::changed));
 
-/// Sends three messages from rank 1 to rank 0 and reads three.
+/// Sends three messages from rank 1 to rank 0, where three are read.
 void three_messages(ThreadRanks& ranks) {
   ranks.run([](Transport& transport) {
     Post post(transport);

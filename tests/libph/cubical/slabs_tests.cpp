@@ -56,7 +56,7 @@ TEST(Slabs, AgreeWithTheOracleCellByCell) {
     Options oracle = wanted;
     oracle.engine = Engine::standard;
     const auto expected = pairs_of(persistence(cubical, oracle));
-    // 0: not in slabs.
+    // With 0 layers, the image is not cut into slabs.
     for (int layers = 0; layers <= extents[0]; ++layers)
       ASSERT_EQ(bars_in_slabs(cubical, wanted, layers), expected) << layers;
     longer += expected.size();
@@ -105,7 +105,7 @@ TEST(Slabs, AreTakenWhereMemoryIsShort) {
   }
 }
 
-// Bytes of zeros that take no memory until they are written to.
+// An image of zero bytes, which take no memory until they are written to.
 Image zeros(std::vector<Index> extents) {
   std::size_t count = 1;
   for (const Index n : extents) count *= static_cast<std::size_t>(n);
@@ -116,7 +116,7 @@ void set(const Image& image, Index place, std::uint8_t value) {
   static_cast<std::uint8_t*>(const_cast<void*>(image.values.data()))[place] = value;
 }
 
-// Bars are (birth, death, coordinate of the voxel that bears it).
+// A bar as (birth, death, coordinate of the voxel where it is born).
 using FarBar = std::tuple<double, double, Index>;
 std::vector<FarBar> far_bars(const Image& image, const CubicalOptions& options) {
   LimitedContext context(image.values.bytes() + 20'000'000);
@@ -128,7 +128,7 @@ std::vector<FarBar> far_bars(const Image& image, const CubicalOptions& options) 
   return found;
 }
 
-// Rows are processed in blocks of some thousand voxels.
+// Long rows are processed in blocks of some thousand voxels.
 TEST(Slabs, HaveLongRows) {
   Generator random(8);
   for (const std::vector<Index>& extents :
@@ -170,7 +170,8 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
                [&] { persistence(cubical); });
 }
 
-// Noise has more critical cells than voxels: loops do not fit, but everything else does.
+// Noise has more critical cells than voxels: its loops do not fit into memory, but everything else
+// does.
 TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);

@@ -24,7 +24,8 @@ TEST(VoxelRepresentatives, SetsByFloodFill) {
   });
 }
 
-// All shapes with one to three voxels along one to three axes, with any periodic axes.
+// Tests all shapes with one to three voxels along one to three axes, with any choice of periodic
+// axes.
 TEST(VoxelRepresentatives, OfAllSmallShapes) {
   for_each_seed(4, [](Generator& random, bool ties, std::int64_t field) {
     for (std::size_t axes = 1; axes <= 3; ++axes) {
@@ -50,17 +51,18 @@ TEST(VoxelRepresentatives, OfAllSmallShapes) {
   });
 }
 
-// The circle of one voxel that everything surrounds.
+// A periodic axis with a single voxel, which is a circle: sets of voxels do not surround it, but
+// cycles go around it.
 TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   const Image pair{{1, 2}, {1, 2}};
   const Barcode bars = persistence(Cubical(pair, {.periodic = {true}}),
                                    {.representatives = Representatives::voxels});
-  ASSERT_EQ(bars.size(), 2U);  // a component, and what goes around it
+  ASSERT_EQ(bars.size(), 2U);  // a component, and a loop around the axis
   EXPECT_EQ(bars.voxels(0).size(), 2U);
   EXPECT_EQ(bars[1], (Bar{1, 1, kInfinity}));
   EXPECT_TRUE(bars.voxels(1).empty());
   EXPECT_GT(bars.representative(1).size(), 0U);
-  // A ring with nothing beside it surrounds no voxel.
+  // A ring that fills its whole row surrounds no voxel.
   const Image ring{{5, 1}, {1, 2, 3, 4, 5}};
   const Barcode around = persistence(
       Cubical(ring, {.construction = CubicalOptions::Construction::cells, .periodic = {true}}),
@@ -70,8 +72,8 @@ TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   EXPECT_GT(around.representative(1).size(), 0U);
 }
 
-// Columns that are added to each other, long paths through the forest: with any number of threads,
-// the representatives are the same, closed, and born at the right value.
+// With columns that are added to each other and long paths through the forest, the representatives
+// must be the same for any number of threads, have no boundary, and be born at the right value.
 TEST(VoxelRepresentatives, CyclesOfLargerVolumes) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const std::vector<Index> extents{12, 9, 11};
@@ -105,7 +107,7 @@ TEST(VoxelRepresentatives, APitAndARing) {
                              9, 1, 1, 1, 9, 9,  //
                              9, 9, 9, 9, 9, 9}};
   const Barcode bars = persistence(Cubical(image), {.representatives = Representatives::voxels});
-  ASSERT_EQ(bars.size(), 3U);  // the ring for ever, the pit, the hole of the ring
+  ASSERT_EQ(bars.size(), 3U);  // the ring, which never dies; the pit; the hole of the ring
   EXPECT_EQ(bars.voxels(0).size(), 30U);
   const auto pit = bars.voxels(1);
   EXPECT_EQ(std::set<std::uint32_t>(pit.begin(), pit.end()), (std::set<std::uint32_t>{11, 17}));
@@ -125,7 +127,7 @@ TEST(VoxelRepresentatives, OnlyOfImagesWithPositiveLength) {
   Options zero_length = voxels;
   zero_length.min_persistence = -1;
   EXPECT_THROW(persistence(Cubical(flat), zero_length), Error);
-  // Without cells, there are still sets.
+  // Sets are computed even if cells are not requested.
   Options bare = voxels;
   bare.cells = false;
   EXPECT_EQ(persistence(Cubical(flat), bare).voxels(0).size(), 4U);

@@ -32,8 +32,8 @@ long double power(long double distance, int order) {
   return order == 1 ? distance : distance * distance;
 }
 
-/// Prices are feasible, and their sum and the cost of the pairs equal the stated cost: the duality
-/// of linear programs, in more digits than those of the prices.
+/// Checks optimality by the duality of linear programs: the prices are feasible, and their sum and
+/// the cost of the pairs both equal the stated cost. The sums have more digits than the prices.
 void expect_proof(const Assignment& found, int order, const std::string& where) {
   const auto &a = found.side(0), &b = found.side(1);
   const auto alone = [&](const Point& p) {
@@ -44,7 +44,7 @@ void expect_proof(const Assignment& found, int order, const std::string& where) 
                           std::abs(static_cast<long double>(p[1]) - q[1])),
                  order);
   };
-  constexpr long double rounding = 4e-15L;  // in the unit of the largest cost, which is about 1
+  constexpr long double rounding = 4e-15L;  // in units of the largest cost, which is about 1
   long double sum = 0, cost = 0;
   std::size_t broken = 0;
   for (std::uint32_t x = 0; x < a.tree.size(); ++x) {
@@ -88,7 +88,8 @@ TEST(Assignment, PricesProveTheMatching) {
     Assignment found(a, b, cost, default_context());
     ASSERT_TRUE(Auction(found, default_context()).run(kToTheEnd, 1'000'000));
     expect_proof(found, order, std::to_string(round));
-    // Ties make auctions long and shortest paths many. In a unit that makes costs about 1.
+    // Ties make auctions long and shortest paths many. The points are scaled such that costs are
+    // about 1.
     auto c = random_points(random, 300, 8), d = random_points(random, 200 + random() % 200, 8);
     for (auto* points : {&c, &d})
       for (Point& p : *points) p = {p[0] / 8, p[1] / 8};
@@ -98,8 +99,8 @@ TEST(Assignment, PricesProveTheMatching) {
   }
 }
 
-// An auction ends whatever the costs: it is abandoned after a number of bids, and shortest paths
-// have no increments.
+// An auction always ends: after a number of bids, it is abandoned, and shortest paths finish the
+// assignment.
 TEST(Assignment, ShortestPathsFollowAnAuctionThatIsGivenUp) {
   std::mt19937 random(2);
   for (int round = 0; round < 30; ++round) {
@@ -111,7 +112,7 @@ TEST(Assignment, ShortestPathsFollowAnAuctionThatIsGivenUp) {
       for (auto* points : {&a, &b})
         for (Point& p : *points) p = {p[0] / 8, p[1] / 8};
     if (round % 5 == 0) b = a;
-    if (round % 5 == 1) b.assign(b.size(), b.front());  // copies
+    if (round % 5 == 1) b.assign(b.size(), b.front());  // many copies of one bar
     Assignment whole(a, b, cost, default_context()), broken(a, b, cost, default_context());
     ASSERT_TRUE(Auction(whole, default_context()).run(kToTheEnd, 1'000'000));
     if (a.size() + b.size() > 40) {

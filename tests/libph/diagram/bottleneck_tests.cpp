@@ -25,8 +25,8 @@ double apart(const Bar& a, const Bar& b) {
   return std::max(std::abs(a.birth - b.birth), std::abs(a.death - b.death));
 }
 
-/// The least worst cost over all ways to pair bars of `a`, from the i-th on, with unused ones of
-/// `b`.
+/// The least possible value of the largest cost, over all ways to pair the bars of `a`, from the
+/// i-th on, with unused bars of `b` or the diagonal.
 double best_of_all(const Bars& a, const Bars& b, std::vector<bool>& used, std::size_t i) {
   if (i == a.size()) {
     double worst = 0;
@@ -49,7 +49,8 @@ double by_all_matchings(const Bars& a, const Bars& b) {
   return best_of_all(a, b, used, 0);
 }
 
-/// With copies on the diagonal, all differences in a list, and matchings that grow one by one.
+/// The bottleneck distance by a simple method: bars are copied to the diagonal, all costs are
+/// listed, and matchings grow pair by pair.
 double by_growing_matchings(const Bars& a, const Bars& b) {
   const std::size_t n = a.size() + b.size();
   std::vector<double> costs(n * n, 0.0), values{0};
@@ -99,7 +100,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   for (int round = 0; round < 40; ++round) {
     const int steps = round % 2 == 0 ? 0 : 20;
     const Bars a = random_bars(random, 10 + random() % 51, steps);
-    Bars b = a;  // near the first in one half of the rounds: then most bars have a partner
+    Bars b = a;  // in half of the rounds, similar to `a`: then most bars have a partner
     if (round % 4 < 2)
       b = random_bars(random, 10 + random() % 51, steps);
     else
@@ -111,7 +112,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   }
 }
 
-// Bars in a row, each within reach of two of the other diagram, with the free one at the end: paths
+// The bars of both diagrams alternate in a row, and the unmatched bars are at its ends: paths
 // between unmatched bars are long.
 TEST(Bottleneck, OfBarsInARow) {
   std::mt19937 random(6);
@@ -145,7 +146,7 @@ TEST(Bottleneck, BoundsAreAsNearAsAsked) {
     const DistanceBounds all = bottleneck_bounds(a, b, {});
     ASSERT_EQ(all.value, distance) << round;
     ASSERT_EQ(all.lower, distance) << round;
-    // Just below it, far below it, at it.
+    // A bound just below the distance, far below it, and equal to it.
     for (const double at_most : {std::nextafter(distance, 0.0), distance / 3, distance}) {
       const DistanceBounds most = bottleneck_bounds(a, b, {.at_most = at_most});
       ASSERT_LE(most.lower, distance) << round;
@@ -159,8 +160,8 @@ TEST(Bottleneck, BoundsAreAsNearAsAsked) {
       }
     }
   }
-  EXPECT_GT(narrower, 50);  // no error was used up otherwise
-  EXPECT_GT(beyond, 50);    // they end early
+  EXPECT_GT(narrower, 50);  // otherwise, the bounds never differed
+  EXPECT_GT(beyond, 50);    // these computations stopped at the bound
 }
 
 TEST(Bottleneck, RefusesLimitsOutOfRange) {
@@ -183,7 +184,8 @@ TEST(Bottleneck, IsAMetric) {
   }
 }
 
-// Copies, bars on the diagonal, and clusters far from each other made others loop.
+// Copies, bars on the diagonal, and clusters far from each other have made other programs loop
+// forever.
 TEST(Bottleneck, OfManyCopies) {
   const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
   EXPECT_EQ(bottleneck_distance(half, half), 0);
@@ -194,8 +196,8 @@ TEST(Bottleneck, OfManyCopies) {
     a.push_back({1, 1e6, 1e6 + 1 + i % 3});
     b.push_back({1, 1e6, 1e6 + 1 + i % 2});
   }
-  // None of 1 000 bars of length 3 has a partner of that length; there are 500 too many of the
-  // others.
+  // None of the 1 000 bars of length 3 has a partner of the same length. Of the other bars, 500
+  // have no partner.
   EXPECT_EQ(bottleneck_distance(a, b), 1);
 }
 
@@ -206,7 +208,8 @@ TEST(Bottleneck, OfDiagramsThatAreKnown) {
   EXPECT_EQ(bottleneck_distance(one, one), 0);
   EXPECT_EQ(bottleneck_distance(one, two), 0.25);
   EXPECT_EQ(bottleneck_distance(Bars{{0, 1, 5}, {0, 1, 5}}, one), 2);  // each copy counts
-  EXPECT_EQ(bottleneck_distance(Bars{{0, 3, 3}, {0, 1, 5}}, one), 0);  // no length, no bar
+  // A bar of length 0 does not count.
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 3, 3}, {0, 1, 5}}, one), 0);
   EXPECT_EQ(bottleneck_distance(Bars{{0, 0, 10}}, Bars{{0, 1, 8}}), 2);
 }
 
@@ -220,7 +223,8 @@ TEST(Bottleneck, BarsWithoutEndAreForEachOther) {
   EXPECT_EQ(bottleneck_distance(Bars{{0, kInfinity, kInfinity}}, {}), 0);
 }
 
-/// True if a pairing costs at most the distance, exactly by the definition.
+/// Checks that a pairing proves the distance: each cost is at most the distance, exactly and by the
+/// definition.
 void expect_certificate(const Bars& a, const Bars& b, const BottleneckMatching& matching,
                         const std::string& where) {
   std::vector<bool> in_a(a.size()), in_b(b.size());
@@ -246,7 +250,7 @@ TEST(Bottleneck, ItsMatchingCostsNoMore) {
     const int steps = round % 3 == 0 ? 0 : round % 3 == 1 ? 5 : 15;
     Bars a = random_bars(random, random() % 14, steps),
          b = random_bars(random, random() % 14, steps);
-    if (round % 4 == 0) {  // most bars have a partner near them
+    if (round % 4 == 0) {  // most bars have a close partner
       b = a;
       for (Bar& bar : b) bar.death += 0.3 * std::uniform_real_distribution<>()(random);
       std::ranges::shuffle(b, random);
@@ -267,7 +271,7 @@ TEST(Bottleneck, EqualBarsArePairedAndWhatDiffersForEverIsNot) {
   const BottleneckMatching same = bottleneck_matching(a, a);
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
   EXPECT_EQ(same.distance, 0);
-  EXPECT_EQ(same.pairs, (Pairs{{0, 0}, {1, 1}, {2, 2}}));  // no length, no bar
+  EXPECT_EQ(same.pairs, (Pairs{{0, 0}, {1, 1}, {2, 2}}));  // a bar of length 0 does not count
   const BottleneckMatching other = bottleneck_matching(a, Bars{{0, 0, 1}});
   EXPECT_EQ(other.distance, kInfinity);
   EXPECT_TRUE(other.pairs.empty());

@@ -13,7 +13,8 @@ namespace {
 
 std::vector<Point> random_points(std::mt19937& random, std::size_t count) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < count; ++i)  // many equal coordinates, and many equal distances
+  // Few different coordinates, and therefore many equal distances.
+  for (std::size_t i = 0; i < count; ++i)
     points.push_back({static_cast<double>(random() % 20), static_cast<double>(random() % 20)});
   return points;
 }
@@ -24,7 +25,7 @@ TEST(PointsLeft, AreThoseOfAList) {
     const std::vector<Point> points = random_points(random, count);
     const PointTree tree(points, default_context());
     PointsLeft left(tree, default_context());
-    std::set<std::uint32_t> list;  // positions
+    std::set<std::uint32_t> list;  // the points that are left
     for (std::uint32_t q = 0; q < count; ++q) list.insert(q);
     const auto apart = [&](const Point& p, std::uint32_t q) {
       const Point& other = points[tree.places()[q]];
@@ -48,7 +49,7 @@ TEST(PointsLeft, AreThoseOfAList) {
         ASSERT_EQ(found.position, kNone);
       }
       switch (random() % 8) {
-        case 0:  // all of them
+        case 0:  // takes all points in reach
           left.take_all(p, radius, [&](std::uint32_t q) {
             ASSERT_EQ(within.erase(q), 1U);
             list.erase(q);

@@ -55,7 +55,8 @@ struct Costs {
   }
 };
 
-// Prices had only the digits of the most expensive bar: above order 6 or so, matchings were random.
+// A test for the digits of prices: if all prices were as coarse as that of the most expensive bar,
+// matchings above order 6 or so would be random.
 TEST(WassersteinScales, SmallDifferencesOfLongBars) {
   for_each_seed(3000, [](Generator& random, bool has_ties, std::int64_t) {
     static constexpr double orders[]{1, 2, 3, 4, 8, 16, 30};
@@ -73,14 +74,15 @@ TEST(WassersteinScales, SmallDifferencesOfLongBars) {
       for (Bars* bars : {&a, &b})
         bars->push_back({1, scale * (bar.birth + shift()), scale * (bar.death + shift())});
     }
-    // Short bars, which cost about as much alone as in a pair.
+    // Adds short bars, which cost about as much alone as in a pair.
     for (Bars* bars : {&a, &b})
       for (int i = random.integer(0, 1); i > 0; --i) {
         const double birth = 1 + shift();
         bars->push_back({1, scale * birth, scale * (birth + 4 * apart * random.real())});
       }
     std::ranges::reverse(b);
-    // In units in which long doubles still have digits for the cost of the best matching.
+    // The bars are scaled such that long doubles have enough digits for the cost of the best
+    // matching.
     std::vector<bool> used(b.size());
     Bars a_in_unit = a, b_in_unit = b;
     for (Bars* bars : {&a_in_unit, &b_in_unit})
@@ -94,7 +96,7 @@ TEST(WassersteinScales, SmallDifferencesOfLongBars) {
     EXPECT_NEAR(found.value / scale, expected, 1e-9 * expected);
     EXPECT_LE(found.lower, found.value);
     EXPECT_LE(found.lower / scale, expected * (1 + 1e-12));
-    // The matching costs that.
+    // The matching has the stated cost.
     const WassersteinMatching matching = wasserstein_matching(a, b, options);
     Real sum = 0;
     for (const auto& [i, j] : matching.pairs)

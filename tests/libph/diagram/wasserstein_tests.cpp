@@ -29,7 +29,7 @@ double norm(double x, double y, double q) {
   return std::pow(std::pow(std::abs(x), q) + std::pow(std::abs(y), q), 1 / q);
 }
 
-/// Costs of pairs, and of unmatched bars: the distance to the nearest point of the diagonal.
+/// The cost of a pair, and of an unmatched bar: its distance to the nearest point of the diagonal.
 double pair_cost(const Bar& a, const Bar& b, double p, double q) {
   return std::pow(norm(a.birth - b.birth, a.death - b.death, q), p);
 }
@@ -56,7 +56,8 @@ double best_of_all(const Bars& a, const Bars& b, double p, double q, std::vector
   return best;
 }
 
-/// The Hungarian method on the square of all costs: each bar has a copy of its own on the diagonal.
+/// The Hungarian method on the full square matrix of costs, in which each bar has its own copy of
+/// the diagonal.
 double by_hungarian_method(const Bars& a, const Bars& b, double p, double q) {
   const std::size_t n = a.size() + b.size();
   const auto cost = [&](std::size_t i, std::size_t j) {
@@ -108,8 +109,9 @@ double by_hungarian_method(const Bars& a, const Bars& b, double p, double q) {
   return sum;
 }
 
-/// True if bounds fit a known distance, up to rounding.
-/// @param alone the cost of all bars on the diagonal: the rounding of prices is proportional to it.
+/// Checks that bounds enclose a known distance, up to rounding.
+/// @param alone the cost of pairing all bars with the diagonal: rounding errors of prices are
+/// proportional to it.
 void expect_distance(const DistanceBounds& found, double expected, const std::string& where,
                      double p = 1, double alone = 0) {
   ASSERT_NEAR(found.value, expected, 1e-11 * expected) << where;
@@ -135,7 +137,7 @@ TEST(Wasserstein, IsTheBestOfAllMatchings) {
   }
 }
 
-/// True if each bar is in one pair, and the pairs have the stated cost.
+/// Checks that each bar is in exactly one pair, and that the pairs have the stated cost.
 void expect_matching(const Bars& a, const Bars& b, double p, double q,
                      const WassersteinMatching& found, const std::string& where) {
   std::vector<int> in_a(a.size()), in_b(b.size());
@@ -164,7 +166,7 @@ TEST(Wasserstein, IsThatOfTheHungarianMethod) {
     const std::size_t most = round < 3 ? 300 : 60;
     const Bars a = random_bars(random, most / 2 + random() % (most / 2), steps);
     Bars b = random_bars(random, most / 2 + random() % (most / 2), steps);
-    if (round % 5 == 0) {  // near the first
+    if (round % 5 == 0) {  // similar to `a`
       b = a;
       for (Bar& bar : b) bar.death += 0.05 * std::uniform_real_distribution<>()(random);
       std::ranges::shuffle(b, random);
@@ -212,8 +214,8 @@ TEST(Wasserstein, BoundsAreAsNearAsAsked) {
       }
     }
   }
-  EXPECT_GT(narrower, 30);  // no error was used up otherwise
-  EXPECT_GT(beyond, 30);    // they end early
+  EXPECT_GT(narrower, 30);  // otherwise, the bounds never differed
+  EXPECT_GT(beyond, 30);    // these computations stopped at the bound
 }
 
 TEST(Wasserstein, OfDiagramsThatAreKnown) {
@@ -225,7 +227,8 @@ TEST(Wasserstein, OfDiagramsThatAreKnown) {
   EXPECT_EQ(wasserstein_distance(two, none, {.order = 2}).value, std::sqrt(4.25));
   EXPECT_DOUBLE_EQ(wasserstein_distance(one, none, {.ground = 2}).value, 4 / std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(wasserstein_distance(one, none, {.ground = 1}).value, 4);
-  EXPECT_EQ(wasserstein_distance(Bars{{0, 3, 3}, {0, 1, 5}}, one).value, 0);  // no length, no bar
+  // A bar of length 0 does not count.
+  EXPECT_EQ(wasserstein_distance(Bars{{0, 3, 3}, {0, 1, 5}}, one).value, 0);
   EXPECT_EQ(wasserstein_distance(Bars{{0, 0, 10}}, Bars{{0, 1, 8}}).value, 2);
   EXPECT_NEAR(wasserstein_distance(Bars{{0, 0, 10}}, Bars{{0, 1, 8}}, {.ground = 2}).value,
               std::sqrt(5.0), 1e-12);
@@ -236,7 +239,7 @@ TEST(Wasserstein, BarsWithoutEndAreForEachOther) {
   const Bars b = {{0, 3.5, kInfinity}, {0, 0.25, kInfinity}};
   EXPECT_EQ(wasserstein_distance(a, b).value, 1.25);
   EXPECT_EQ(wasserstein_distance(a, b, {.order = 2}).value, std::sqrt(0.5625));
-  // Equal bars cost the others no digits.
+  // Bars that are equal in both diagrams do not reduce the precision of the others.
   const Bars equal = {{0, 0, 5}, {0, 0, kInfinity}, {0, 100, kInfinity}, {0, 200, kInfinity}};
   const Bars moved = {{0, 0, 5}, {0, 19, kInfinity}, {0, 118, kInfinity}, {0, 205, kInfinity}};
   EXPECT_EQ(wasserstein_distance(equal, moved).value, 42);
@@ -286,7 +289,8 @@ TEST(Wasserstein, IsStable) {
   }
 }
 
-// Copies, bars on the diagonal, and lengths of many magnitudes made others loop, or be wrong.
+// Copies, bars on the diagonal, and lengths of many magnitudes have made other programs loop
+// forever, or be wrong.
 TEST(Wasserstein, OfManyCopies) {
   const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
   for (const double p : {1.0, 2.0}) {
@@ -307,7 +311,8 @@ TEST(Wasserstein, OfGridValues) {
       for (int i = 0; i < 3000; ++i) {
         const double birth = static_cast<double>(random() % 16);
         side.push_back(
-            {1, birth, birth + static_cast<double>(random() % 4)});  // or on the diagonal
+            // Some bars are on the diagonal.
+            {1, birth, birth + static_cast<double>(random() % 4)});
       }
     const WassersteinMatching found = wasserstein_matching(bars[0], bars[1], {.order = p});
     EXPECT_LE(found.distance.value, found.distance.lower * (1 + 1e-11)) << round;
@@ -320,7 +325,7 @@ TEST(Wasserstein, OfLengthsOfManyMagnitudes) {
   const Bars b = {{0, 0, 1e9}, {0, 1, 1 + 1e-9}};
   const DistanceBounds found = wasserstein_distance(a, b);
   EXPECT_GE(found.value * (1 + 1e-12), 5e-10);
-  EXPECT_LE(found.value, 5e-10 * (1 + 1e-6));  // 1e-9 after 1 is not exact
+  EXPECT_LE(found.value, 5e-10 * (1 + 1e-6));  // 1 + 1e-9 is not exact as a double
   EXPECT_LE(found.lower, 5e-10 * (1 + 1e-12));
 }
 

@@ -26,7 +26,8 @@
 namespace ph::test {
 namespace {
 
-/// Joins any two in any order until one is left. Now and then a part becomes bytes and comes back.
+/// Joins parts in random order until one is left. Now and then, a part is written to bytes and read
+/// back.
 CloudPart joined(Generator& random, std::vector<CloudPart> parts) {
   const auto any = [&] {
     return static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1));
@@ -53,7 +54,7 @@ std::vector<CloudPart> parts_of(PointsView points, int count, const CloudPartOpt
   return parts;
 }
 
-/// Deaths of the components, from all pairs and without libph.
+/// The deaths of the components, computed from all pairs without libph.
 std::vector<double> deaths_by_all_pairs(const Points& points, double limit) {
   const auto n = static_cast<std::size_t>(points.rows());
   std::vector<double> nearest(n, std::numeric_limits<double>::infinity()), deaths;
@@ -95,26 +96,26 @@ Points random_cloud(Generator& random, Index most, bool ties) {
       random.points(random.integer(1, static_cast<int>(most)), random.integer(1, 4), ties);
   const Index n = points.rows(), d = points.cols();
   switch (random.integer(0, 6)) {
-    case 0:  // a lattice, perhaps with gaps
+    case 0:  // a lattice, some with gaps
       for (double& x : points.coordinates()) x = std::round(5 * x);
       break;
-    case 1:  // clusters far apart, and clusters of these
+    case 1:  // clusters far apart, some of them clusters of clusters
       for (Index i = 0; i < n; ++i) {
         const double size = std::ldexp(1, -random.integer(0, 30));
         const Index of = random.integer(0, 3) % n;
         for (Index k = 0; k < d; ++k) points(i, k) = points(i, k) * size + 100.0 * points(of, k);
       }
       break;
-    case 2:  // a line
+    case 2:  // points on a line
       for (Index i = 0; i < n; ++i)
         for (Index k = 1; k < d; ++k) points(i, k) = points(i, 0);
       break;
-    case 3:  // copies
+    case 3:  // copies of a few points
       for (Index i = 1; i < n; ++i)
         if (random.coin())
           copy_point(points, random.integer(0, static_cast<int>(i) - 1), points, i);
       break;
-    case 4:  // one dense place, and few points elsewhere
+    case 4:  // a dense group, and few points elsewhere
       for (Index i = 0; i < n; ++i)
         if (random.integer(0, 9) > 0) scale(points.row(i), 1e-3);
       break;
@@ -155,7 +156,7 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
     const Barcode without_cells = whole.barcode();
     ASSERT_TRUE(std::ranges::equal(without_cells, found));
     ASSERT_EQ(pairs_of(found), pairs_of(bars));
-    ASSERT_EQ(all_pairs(rips), pairs);  // including those of length zero
+    ASSERT_EQ(all_pairs(rips), pairs);  // includes pairs of length 0
     const MergeTree found_tree = merge_tree(rips);
     ASSERT_EQ(found_tree.births, tree.births);
     ASSERT_EQ(found_tree.merges, tree.merges);
@@ -163,7 +164,8 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
   EXPECT_TRUE(is_enough(parts, std::size_t{20000})) << parts;
 }
 
-// Enough points that most of a cloud is far from a block, so that the omitted points matter.
+// There are enough points that most of a cloud is far from a block: the points that a part leaves
+// out matter.
 TEST(CloudPart, OfManyPoints) {
   for_each_seed(40, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 20000, false);
@@ -180,7 +182,7 @@ TEST(CloudPart, OfManyPoints) {
   });
 }
 
-// A part does not depend on others: it holds its block and the points near it.
+// A part is computed independently of the others. It holds its block and the points near the block.
 TEST(CloudPart, LeavesOutWhatIsFar) {
   Generator random(1);
   const Points points = random.points(200000, 2, false);
@@ -189,11 +191,11 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   one.graph(RipsForm::forest, of_one);
   const CloudPart part(points, 3, 16, {}, of_part);
   EXPECT_LT(of_part.memory.peak(), of_one.memory.peak() / 6);
-  // About 16 bytes and a little for each of its points.
+  // A part takes about 16 bytes per point of its own, and a little more.
   EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
 }
 
-// Coordinates whose squares exceed doubles, in all parts or only in one.
+// Coordinates with squares beyond the range of doubles, in all parts or in only one.
 TEST(CloudPart, OfCoordinatesOfAnySize) {
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 40, ties);
@@ -237,7 +239,7 @@ TEST(CloudPart, WhatIsKeptDoesNotDependOnGroupsAndThreads) {
     const int count = random.integer(3, 7);
     const auto some = [&](const RunContext& context) {
       auto parts = parts_of(points, count, options, context);
-      parts.erase(parts.begin() + 1);  // of all but the second
+      parts.erase(parts.begin() + 1);  // the second part is missing
       return joined(random, std::move(parts)).bytes();
     };
     ThreadsContext threads(3);
@@ -309,7 +311,8 @@ TEST(CloudPart, StopsAndKeepsToItsMemory) {
   expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
 }
 
-// A part of another cloud that claims to belong to this one: it joins fewer points, or others.
+// A part of another cloud that claims to belong to this cloud: it joins fewer points or other
+// points.
 TEST(CloudPart, FindsEdgesThatAreMissing) {
   constexpr std::size_t fingerprint = 40, bytes_of_it = 8;
   int found = 0, counted = 0, all = 0;
@@ -344,7 +347,7 @@ TEST(CloudPart, FindsEdgesThatAreMissing) {
   EXPECT_GT(found, all / 4);
 }
 
-// Every flipped bit is found.
+// Every flipped bit must be detected.
 TEST(CloudPart, RefusesDamagedBytes) {
   Generator random(8);
   const Points points = random.points(40, 2, true);

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kInf = kInfinity;
 
-// The connected components of a graph by flooding, each named by its oldest vertex.
+// The connected components of a graph, computed by flooding. Each component is named by its oldest
+// vertex.
 std::vector<Index> flooded(const std::vector<double>& births,
                            const std::vector<WeightedEdge>& edges, double value) {
   const auto n = births.size();
@@ -44,7 +45,7 @@ std::vector<Index> flooded(const std::vector<double>& births,
   return component;
 }
 
-// All promises of a merge tree of a graph on vertices with births.
+// Checks everything that a merge tree promises, for a graph whose vertices have births.
 void check_tree(const MergeTree& tree, const std::vector<double>& births,
                 const std::vector<WeightedEdge>& edges, const Barcode& oracle) {
   ASSERT_EQ(tree.births, births);
@@ -82,13 +83,13 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
     if (bar.second < kInf) finite.push_back(bar);
   std::sort(bars.begin(), bars.end());
   EXPECT_EQ(bars, finite);
-  // The classes are all bars, in their order.
+  // The classes are all bars, in the order of the bars.
   const std::vector<MergeTree::Class> classes = tree.classes();
   ASSERT_EQ(classes.size(), oracle.bars(0).size());
   for (std::size_t i = 0; i < classes.size(); ++i) {
     const auto& [birth, death, vertex, merge] = classes[i];
     EXPECT_EQ((Bar{0, birth, death}), oracle[i]);
-    if (oracle.cell_kind() == CellKind::vertices) {  // of images they are coordinates
+    if (oracle.cell_kind() == CellKind::vertices) {  // for images, cells are coordinates instead
       EXPECT_EQ(vertex, oracle.birth_cell(i).numbers[0]);
     }
     if (merge < 0) {
@@ -98,7 +99,8 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
       EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].value, death);
     }
   }
-  // The same holds for branches, each of which joins one that is no younger and dies no sooner.
+  // The same holds for branches. Each branch joins another one that is at least as old and dies no
+  // sooner.
   const std::vector<Branch> branches = tree.branches();
   std::vector<std::pair<double, double>> ends, all;
   for (const auto& c : classes) all.emplace_back(c.birth, c.death);
@@ -148,7 +150,7 @@ TEST(MergeTrees, OfGraphs) {
   });
 }
 
-// Voxels that never enter keep their place in the numbering.
+// Voxels that never enter keep their numbers.
 TEST(MergeTrees, OfImages) {
   for_each_seed(200, [&](Generator& random) {
     const Index rows = random.integer(1, 4), columns = random.integer(1, 4);
@@ -185,7 +187,7 @@ TEST(MergeTrees, CornersOfTheOtherConstruction) {
   EXPECT_EQ(tree.components(5), (std::vector<Index>{0, 0, 0, 0}));
 }
 
-// Prim's algorithm on all pairs.
+// The weight of a minimum spanning tree, by Prim's algorithm on all pairs.
 double spanning_weight(const Points& points) {
   const PointMetric metric(points);
   std::vector<double> nearest(static_cast<std::size_t>(points.rows()), kInf);
@@ -261,7 +263,7 @@ TEST(MergeTrees, AtAValueThatIsNoneNothingHasEntered) {
   EXPECT_EQ(line.components(std::numeric_limits<double>::quiet_NaN()), std::vector<Index>(5, -1));
 }
 
-// A chain of merges as long as the number of vertices must not take quadratic time.
+// A chain of as many merges as there are vertices must not take quadratic time.
 TEST(MergeTrees, LongChains) {
   constexpr Index n = 300000;
   std::vector<double> births(static_cast<std::size_t>(n));

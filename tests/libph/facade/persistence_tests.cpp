@@ -87,7 +87,7 @@ TEST(Options, MinPersistenceIsExclusive) {
   EXPECT_EQ(count(kInf), 1U) << "infinite bars stay";
 }
 
-// Fields differ only in the torsion that they detect: all large ones give the same bars.
+// Over different fields, bars differ only by torsion. All large primes give the same bars.
 TEST(Options, LargeCharacteristics) {
   const ExplicitComplex klein = vertex_by_vertex(klein_bottle());
   check(klein, 2, {65537, 2147483647});
@@ -134,7 +134,7 @@ TEST(Estimates, CountTheCells) {
     };
     EXPECT_EQ(with_twist(2), count_cells(cubical, 2));
     EXPECT_EQ(with_twist(0), count_cells(cubical, 1));
-    EXPECT_TRUE(estimate(cubical).cells.empty());  // voxel by voxel: none is listed
+    EXPECT_TRUE(estimate(cubical).cells.empty());  // the engine lists no cells
     const auto complex = ExplicitComplex::from_simplices(random.simplices(7, 3, 6, true));
     EXPECT_EQ(estimate(complex).cells, count_cells(complex, 3));
 
@@ -172,12 +172,12 @@ TEST(Estimates, SampleTheCellsWhereTheyAreMany) {
     });
   };
   check_sample(Rips(random.points(140, 3, false)), 3);  // most pairs are edges
-  check_sample(Rips(random.points(1500, 2, false), {.threshold = 0.11}), 3);  // few are
+  check_sample(Rips(random.points(1500, 2, false), {.threshold = 0.11}), 3);  // few pairs are edges
   check_sample(Rips(DistanceMatrix(30, std::vector<double>(435, 1.0))), 6);
 }
 
-// The memory that a computation counts lies in the predicted interval, for engines that list cells
-// and engines that do not, for metrics and other distances.
+// The memory that a computation takes lies in the predicted interval. This is tested for engines
+// that list cells and engines that do not, for metrics and for other distances.
 TEST(Estimates, HoldThePeak) {
   Generator random(11);
   const auto check_peak = [](const auto& input, const Options& options) {
@@ -203,7 +203,7 @@ TEST(Estimates, HoldThePeak) {
       check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
     }
   }
-  // Columns take far more than the fixed allowance.
+  // Here columns take far more than the fixed allowance.
   check_peak(random.distances(140, false),
              {.max_dim = 2, .engine = Engine::cohomology, .collapse = Collapse::off});
 }
@@ -262,15 +262,15 @@ TEST(Estimates, OfNothing) {
   for (const AnyComplex& nothing : {AnyComplex(Rips(Points(0, 2))), AnyComplex(Cubical(Image{})),
                                     AnyComplex(ExplicitComplex::from_simplices({}))}) {
     const Estimate e = estimate(nothing);
-    EXPECT_LE(e.bytes_high, 5 << 20);  // code and the allocator
+    EXPECT_LE(e.bytes_high, 5 << 20);  // the code and the allocator
     for (const double count : e.cells) EXPECT_EQ(count, 0);
   }
 }
 
-// ---- a filtration of the user's own: facets only
+// ---- a filtration of the user's own, with facets only
 
-/// The boundary of a square, 4 vertices and 4 edges; vertex i enters at i, edge i joins i to i + 1
-/// and enters at 10 + i. With `filled` a square on top, at 20.
+/// The boundary of a square with 4 vertices and 4 edges. Vertex i enters at i. Edge i joins i to i
+/// + 1 and enters at 10 + i. With `filled`, the square itself enters at 20.
 struct Square {
   using Cell = int;
   bool filled = false;
@@ -282,7 +282,8 @@ struct Square {
   void for_each_cell(int dim, Visit&& visit) const {
     if (dim > top_dim()) return;
     if (dim == 2) visit(20);
-    for (int i = 3; dim < 2 && i >= 0; --i) visit(10 * dim + i);  // any order
+    // Cofacets may be visited in any order.
+    for (int i = 3; dim < 2 && i >= 0; --i) visit(10 * dim + i);
   }
   template <class Visit>
   void for_each_facet(int dim, Cell c, Visit&& visit) const {
@@ -317,7 +318,8 @@ TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
                [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
 }
 
-/// The same with cofacets in the worst order, declared truthfully by `false`.
+/// The same square, visiting its cofacets in the worst order, which `first_equal_cofacet_is_oldest
+/// = false` permits.
 struct SquareWithCofacets : Square {
   static constexpr bool first_equal_cofacet_is_oldest = false;
   unsigned key(Cell c) const { return static_cast<unsigned>(value(c)); }
@@ -333,8 +335,8 @@ TEST(UserFiltrations, CofacetsInAnyOrder) {
   for (const bool filled : {false, true}) check(SquareWithCofacets{{filled}}, 2);
 }
 
-/// Simplices all at value 0, numbered from 0 in each dimension: as in the contract, a cell is
-/// unique only within its dimension.
+/// Simplices with value 0, numbered from 0 in each dimension: a cell is unique only within its
+/// dimension, as the contract allows.
 class NumberedByDimension {
  public:
   using Cell = unsigned;
@@ -389,11 +391,12 @@ class NumberedByDimension {
   const std::vector<std::vector<Index>>& of(int dim) const {
     return cells_[static_cast<std::size_t>(dim)];
   }
-  std::vector<std::vector<std::vector<Index>>> cells_;  // by dimension: vertices, ascending
+  // For each dimension, the ascending vertices of each cell.
+  std::vector<std::vector<std::vector<Index>>> cells_;
 };
 static_assert(CofacetFiltration<NumberedByDimension>);
 
-/// The same without cofacets, so that no pair can be found without a reduction.
+/// The same filtration without cofacets: no pair can be found without a reduction.
 struct FacetsOnly : private NumberedByDimension {
   using Cell = unsigned;
   using NumberedByDimension::append_input_cell, NumberedByDimension::cell_kind,

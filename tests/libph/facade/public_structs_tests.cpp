@@ -66,7 +66,7 @@ TEST(PublicStructs, BoundaryMatrix) {
   const auto complex_of = [](BoundaryMatrix matrix) {
     return [matrix = std::move(matrix)] { ExplicitComplex::from_boundary(matrix); };
   };
-  const auto edge = [](auto&& change) {  // two vertices and an edge
+  const auto edge = [](auto&& change) {  // a complex of two vertices and an edge
     BoundaryMatrix matrix{{0, 0, 1}, {0, 0, 0, 2}, {0, 1}, {}, {}};
     change(matrix);
     return matrix;
@@ -103,8 +103,8 @@ TEST(PublicStructs, BoundaryMatrix) {
          m.values = {0, 2, 1};
        }))},
   });
-  // An incidence is any number; one without a representable absolute value is not an edge between
-  // two vertices.
+  // An incidence may be any number. A column whose coefficients have no representable absolute
+  // value is not an edge between two vertices.
   const auto odd = ExplicitComplex::from_boundary(edge([](auto& m) {
     m.incidences = {INT_MIN, INT_MAX};
   }));
@@ -286,7 +286,7 @@ TEST(PublicStructs, Options) {
     cases.push_back({"field", kUsage, "field", [&, options] { persistence(cubical, options); }});
   }
   expect_errors(cases);
-  // A dimension beyond all others is invalid.
+  // A max_dim beyond all dimensions is allowed.
   EXPECT_EQ(persistence(cubical, {.max_dim = INT_MAX}).size(), persistence(cubical).size());
   EXPECT_EQ(persistence(listed, {.max_dim = INT_MAX}).size(), persistence(listed).size());
 }

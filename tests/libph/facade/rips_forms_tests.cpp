@@ -113,7 +113,7 @@ TEST(RipsForms, OfOneRipsForManyThreads) {
   }
 }
 
-/// A metric that reports calls, and answers when it is allowed to.
+/// A metric that reports each call, and waits until it may answer.
 struct Gate {
   std::atomic<bool> is_asked = false, may_answer = false;
 };
@@ -190,7 +190,7 @@ TEST(RipsForms, AreMadeAgainAfterAStop) {
   EXPECT_NO_THROW(rips.graph(RipsForm::edges, stopped)) << "it is there";
 }
 
-// Stopped in the middle, by the metric.
+// The metric stops the computation in the middle.
 TEST(RipsForms, AreMadeAgainAfterAStopInTheMiddle) {
   struct Stopping {
     std::stop_source* source;
@@ -251,7 +251,7 @@ TEST(RipsForms, OutliveTheContextOfTheCall) {
   for (const RipsForm form : {RipsForm::edges, RipsForm::forest}) rips.graph(form, *call);
   source.request_stop();
   call.reset();
-  // Data that engines build later from a form are counted with it.
+  // Data that engines add to a form later count towards the form's budget.
   for (const Rips& used : {rips, plain})
     for (const Engine engine : {Engine::edge_links, Engine::cohomology, Engine::twist})
       EXPECT_GT(persistence(used, {.engine = engine}).size(), 0U);
@@ -279,7 +279,7 @@ TEST(RipsForms, CountInTheContextOfTheConstructor) {
   EXPECT_EQ(home.memory.used(), 0U);
   expect_counted(Rips::borrowed(points, {}, home), 0);
   EXPECT_EQ(home.memory.used(), 0U);
-  expect_counted(Rips(distances, {}, home), 0);  // the caller has them as well
+  expect_counted(Rips(distances, {}, home), 0);  // the caller holds the distances as well
   EXPECT_EQ(home.memory.used(), 0U);
   const SparseDistances sparse(3, {{0, 1, 1}, {1, 2, 1}});
   expect_counted(Rips(sparse, {}, home), 0);
@@ -321,7 +321,7 @@ TEST(RipsInputs, DistancesAreShared) {
   const SparseDistances sparse(3, {{0, 1, 1}, {1, 2, 1}});
   const SparseDistances other = sparse;
   EXPECT_EQ(other.edges().data(), sparse.edges().data());
-  // They outlive the object that was passed.
+  // The distances outlive the object that was passed.
   auto first = std::make_unique<DistanceMatrix>(some_distances());
   const DistanceMatrix second = *first;
   const Rips rips(*first);
@@ -354,7 +354,7 @@ TEST(RipsInputs, ForgottenTheyLeaveWhatWasMade) {
     expect_error(ErrorKind::usage, "the input was freed", [&] { left->with({}); });
     expect_error(ErrorKind::usage, "the input was freed", [&] { run(*left, components); });
   }
-  // Points alone keep the points.
+  // The form `points alone` keeps the points.
   Rips alone(some_points());
   const RunPlan by_points = plan(alone, {.engine = Engine::beta_skeleton});
   build(alone, by_points);
@@ -362,7 +362,7 @@ TEST(RipsInputs, ForgottenTheyLeaveWhatWasMade) {
   EXPECT_EQ(pairs_of(run(alone, by_points)), expected);
 }
 
-/// A metric that can tell whether somebody holds it.
+/// A metric that can tell whether any object still holds it.
 struct Held {
   std::shared_ptr<int> token = std::make_shared<int>(0);
   Index size() const { return 9; }

@@ -24,7 +24,7 @@ constexpr std::array kDistances{PointDistance::euclidean, PointDistance::manhatt
                                 PointDistance::chebyshev, PointDistance::hamming};
 constexpr std::array kExponents{WeightExponent::infinity, WeightExponent::one, WeightExponent::two};
 
-/// Ties, copies, clouds.
+/// Points with ties, copies, or in general position.
 Points random_points(Generator& random, Index most, bool ties) {
   Points points =
       random.points(random.integer(0, static_cast<int>(most)), random.integer(1, 4), ties);
@@ -82,7 +82,7 @@ TEST(RipsPlans, TakeTheFormThatIsEnough) {
   EXPECT_EQ(plan(Cubical(Image{{2}, {0, 1}})).form, std::nullopt);
 }
 
-// An edge would be 16 bytes, and there are 2 * 10^8 pairs.
+// An edge would take 16 bytes, and there are 2 * 10^8 pairs.
 TEST(RipsPlans, MakeNoEdges) {
   const Points points = Generator(1).points(20'000, 3, false);
   const auto expect_little = [&](const RipsOptions& options, const Options& task) {
@@ -103,7 +103,7 @@ TEST(RipsPlans, MakeNoEdges) {
     expect_little(options, {.representatives = Representatives::cycles});
     expect_little(options, {.engine = Engine::edge_links});
   }
-  // Components and loops of points never need them.
+  // Components and loops of points in the plane need no edges.
   const Points plane = Generator(1).points(20'000, 2, false);
   for (const int max_dim : {0, 1}) {
     RunContext home;
@@ -115,7 +115,7 @@ TEST(RipsPlans, MakeNoEdges) {
   EXPECT_LT(home.memory.peak(), std::size_t{16} << 20);
 }
 
-/// Everything that a plan decides.
+/// All decisions of a plan, as text.
 std::string said(const RunPlan& plan) {
   const Options& options = plan.options;
   return fmt::format("{} up to {}, form {}, collapse {}: {}; {}", options.engine.name(),
@@ -123,7 +123,7 @@ std::string said(const RunPlan& plan) {
                      static_cast<int>(options.collapse), plan.reason, plan.collapse_reason);
 }
 
-/// The plan, or the reason why there can be none.
+/// The plan as text, or the reason why there is none.
 std::string said(const Rips& rips, const Options& task,
                  const RunContext& context = default_context()) {
   try {
@@ -172,7 +172,8 @@ TEST(RipsPlans, DependOnNothingButQuestionAndTask) {
   EXPECT_TRUE(is_enough(planned, 1000)) << planned;
 }
 
-// Planning a plan again does not change it, unless there are no edges: then a forest is enough.
+// Planning again with the options of a plan does not change the plan. Plans that lower max_dim to
+// 0, because there are no edges, are left out.
 TEST(RipsPlans, AreSettled) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 12, ties));
@@ -247,7 +248,7 @@ TEST(RipsForms, HaveTheSameBarsAndCells) {
     if (!options.births.empty()) {
       EXPECT_EQ(distinct, all) << "copies with births are not merged";
     }
-    // Whatever is planned.
+    // The plan must give these bars, whatever it decides.
     const auto planned = [&](int dim, double least, std::optional<bool> merges) {
       RipsOptions asked = options;
       asked.merge_equal_points = merges;
@@ -388,7 +389,7 @@ TEST(RipsChoices, ThatMakeNoSenseAreRefused) {
 
 // ---- estimates of what does not fit
 
-/// About how many pairs are within a distance.
+/// The approximate number of pairs within a distance.
 double pairs_within(const Points& points, double limit) {
   Generator random(9);
   const PointMetric metric(points);
@@ -431,7 +432,7 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
     EXPECT_EQ(e.cells[0], 20'000);
     EXPECT_EQ(e.counted_dims, 1) << "edges are estimated";
     EXPECT_FALSE(e.built.edges);
-    // The radius of a sample of the points is at least that of all.
+    // The enclosing radius of a sample of the points is at least that of all points.
     EXPECT_GT(e.cells[1], 0.95 * of_all);
     EXPECT_LT(e.cells[1], 1.25 * of_all);
     EXPECT_GT(e.bytes_low, 0.85 * 16 * of_all);
@@ -461,7 +462,7 @@ TEST(RipsEstimates, OfWhatNeedsNoEdgesAreMade) {
   }
 }
 
-// The same message whether a form exists, can be made or cannot.
+// The message is the same whether a form exists, can be made, or cannot be made.
 TEST(RipsEstimates, WhereTheyFitAreThoseOfTheForm) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 20, ties));
@@ -489,7 +490,7 @@ TEST(RipsEstimates, OfGraphsThatWereGiven) {
   EXPECT_EQ(estimate(used).cells, expected.cells);
 }
 
-// If many points have few edges, the edges are made and counted.
+// If many points have few edges, the edges are built and counted exactly.
 TEST(RipsEstimates, OfFewEdgesAreExact) {
   Points copies(4'000, 2);
   for (Index i = 0; i < copies.rows(); ++i) {

@@ -63,7 +63,8 @@ Points points_of(Generator& random, Kind kind, Index n, Index d) {
       if (kind == Kind::two_lines && k > 0) x = double(i % 2);
       if (kind == Kind::outlier && i > 0) x *= 1e-12;
       if (kind == Kind::growing) x = k > 0 ? 0 : std::ldexp(1, static_cast<int>(i % 900) - 450);
-      if (kind == Kind::tiny && i > 0) x = std::ldexp(x, small);  // squares underflow
+      // Squares of these coordinates underflow.
+      if (kind == Kind::tiny && i > 0) x = std::ldexp(x, small);
     }
   }
   for (Index i = 1; i < n; ++i)
@@ -82,7 +83,7 @@ TEST_F(GpuForest, IsThatOfTheCpu) {
     expect_same(points);
     RipsOptions options;
     const auto edges = edges_of(points, {});
-    if (edges.empty()) return;  // the threshold: at an edge, and the last number before
+    if (edges.empty()) return;  // tests a threshold equal to an edge, and the next smaller number
     options.threshold = edges[static_cast<std::size_t>(random.real() * double(edges.size()))].value;
     expect_same(points, options);
     options.threshold = std::nextafter(*options.threshold, 0.0);
@@ -97,7 +98,7 @@ TEST_F(GpuForest, OfAMillionPoints) {
   }
 }
 
-// More than one range of others, more than one tile of those asked for.
+// More points than one range of candidates and one tile of query points hold.
 TEST_F(GpuForest, OfManyAxes) {
   for (const Index d : {9, 15, 16, 17, 33, 768}) {
     Generator random(static_cast<std::uint64_t>(d));

@@ -44,7 +44,8 @@ Eigen::RowVectorXd centre(const PointImage& image, Index i) {
   return x;
 }
 
-// An array in any layout equals the result of a loop over its voxels; in C order it is not copied.
+// An array in any layout gives the same image as a loop over its voxels. An array in C order is not
+// copied.
 TEST(ImageOfArray, TakesAnyLayout) {
   std::mt19937 random(5);
   int borrowed = 0, copied = 0;
@@ -52,7 +53,7 @@ TEST(ImageOfArray, TakesAnyLayout) {
     const std::size_t axes = 1 + random() % 4;
     std::vector<Index> extents(axes);
     for (Index& n : extents) n = static_cast<Index>(random() % 4) + (round % 5 == 0 ? 0 : 1);
-    // Axes in any order of nesting, with gaps and backwards.
+    // The axes are nested in any order, with gaps and reversed directions.
     std::vector<std::size_t> nesting(axes);
     std::iota(nesting.begin(), nesting.end(), 0U);
     if (round % 2 == 0) std::shuffle(nesting.begin(), nesting.end(), random);
@@ -85,7 +86,7 @@ TEST(ImageOfArray, TakesAnyLayout) {
       EXPECT_FALSE(image.values.is_in_file());
     }
     if (expected.empty()) continue;
-    // No operation changes the array.
+    // Operations on the image do not change the array.
     Image changed = image;
     changed.values.change([](auto& all) { all[0] = 7; });
     const Cubical cubical(image, {.superlevel = true});
@@ -144,7 +145,7 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
     const auto size = static_cast<Index>(image.image.values.size());
     for (Index i = 0; i < size; ++i)
       if (image.image.values[static_cast<std::size_t>(i)] == 0) occupied.push_back(i);
-    // Each point lies in an occupied voxel, and each of these has a point.
+    // Each point lies in an occupied voxel, and each occupied voxel has a point.
     const auto has = [&](Index i, Index p) {
       return ((as_matrix(points).row(p) - centre(image, i)).cwiseAbs().array() <=
               0.5 * voxel + 1e-12)
@@ -167,7 +168,7 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
 }
 
 TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
-  // Two points in the first voxel, one in the last, none in the second of three.
+  // The first of three voxels has two points, the second none, and the last one.
   const Points points{{0.1}, {0.9}, {2.5}};
   const auto values = [&](VoxelValue value) {
     const PointImage image = voxel_image(points, 1, value, 0);
@@ -188,7 +189,7 @@ TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
   EXPECT_EQ(persistence(Cubical(density.image)).bars(0).size(), 2U);
 }
 
-/// Bars of a dimension longer than `length`.
+/// The bars of a dimension that are longer than `length`.
 std::vector<Bar> long_bars(const Barcode& barcode, int dim, double length) {
   std::vector<Bar> found;
   for (const Bar& bar : barcode.bars(dim))
@@ -217,7 +218,7 @@ TEST(VoxelImage, HasTheHomologyOfTheShape) {
     EXPECT_EQ(long_bars(barcode, 3 - dim, 0.4).size(), 0U);
     const std::vector<Bar> hollow = long_bars(barcode, dim, 0.4);
     ASSERT_EQ(hollow.size(), 1U);
-    EXPECT_NEAR(hollow[0].death, 1, 2 * voxel);  // the radius
+    EXPECT_NEAR(hollow[0].death, 1, 2 * voxel);  // the radius of the sphere
   }
 }
 
@@ -244,7 +245,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
-// An image of one line: the memory for the line is as large as the image.
+// An image with a single line: the memory for processing a line is as large as the image.
 TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {
@@ -267,7 +268,8 @@ TEST(VoxelImage, IsStoppedWithinALine) {
     if (progress.done > 0 && progress.done < progress.total)
       context.request_stop();
     else
-      std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
+      // Reports are at least 100 ms apart.
+      std::this_thread::sleep_for(std::chrono::milliseconds(101));
   };
   std::this_thread::sleep_for(std::chrono::milliseconds(101));
   EXPECT_TRUE(test::fails_with(ErrorKind::cancelled,
@@ -335,9 +337,10 @@ TEST(Voxels, AreChangedInPlaceByTheirOnlyOwner) {
   EXPECT_EQ(voxels, (Voxels{5, 2, 3}));
 }
 
-// One copy per thread: no thread sees the other's changes. The later thread is the only owner by
-// then and changes its numbers in place, after the other has read them. Only the count of owners
-// orders these accesses, the flag does not, and ThreadSanitizer watches.
+// Each thread has its own copy of the voxels and sees no changes of the other thread. The thread
+// that comes later is then the only owner and changes the numbers in place, after the other thread
+// has read them. Only the reference count orders these accesses (the flag does not), and
+// ThreadSanitizer watches them.
 TEST(Voxels, AreChangedByThreadsWithACopyEach) {
   Voxels early{1, 2, 3}, late = early;
   const void* const place = late.data();

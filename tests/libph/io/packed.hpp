@@ -7,7 +7,8 @@
 
 namespace ph::test {
 
-/// What zlib makes of bytes. @param window_bits its name for the format.
+/// The bytes compressed by zlib. @param window_bits zlib's parameter, which also selects the
+/// format.
 inline std::string packed(const std::string& bytes, int level, int window_bits) {
   std::string out(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
   z_stream stream{};
@@ -26,7 +27,7 @@ inline std::string gzipped(const std::string& bytes, int level = 9) {
   return packed(bytes, level, 15 + 16);
 }
 
-/// Without a header, as in ZIP.
+/// The bytes compressed without a header, as in ZIP.
 inline std::string deflated(const std::string& bytes) { return packed(bytes, 6, -15); }
 
 }  // namespace ph::test

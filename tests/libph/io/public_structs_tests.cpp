@@ -118,7 +118,7 @@ TEST(PublicStructs, RasterAndCamera) {
   expect_errors({
       {"too few", kBad, "found 3 values", depth({2, 2}, 3)},
       {"negative", kBad, "-2 x -2", depth({-2, -2}, 4)},
-      // The square of the greatest extent is 1 in 64 bits.
+      // The square of the largest extent is 1 modulo 2^64.
       {"overflow", kBad, "found 1 values", depth({kMost, kMost}, 1)},
       {"volume", kUsage, "found 3 axes", depth({1, 1, 1}, 1)},
       {"focal length NaN", kUsage, "focal lengths nan", depth({1, 1}, 1, {kNan, 1, 0, 0})},

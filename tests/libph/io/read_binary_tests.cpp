@@ -43,7 +43,7 @@ TEST(ReadNpy, PointsKeepToTheBudget) {
     EXPECT_TRUE(
         fails_with(ErrorKind::resource, [&] { read_points(input, {.context = &context}); }));
   };
-  // The array and the points.
+  // Memory for the array and for the points.
   check(npy("<f4", "False", "(500, 3)", floats), numbers * (4 + 8));
   check(npy("<f8", "False", "(500, 3)", doubles), numbers * (8 + 8));
 }
@@ -91,7 +91,8 @@ TEST(ReadNpy, BringsFortranOrderToCOrder) {
 TEST(ReadNpy, BringsFortranOrderOfAnyShapeToCOrder) {
   for (const std::vector<Index>& extents : std::vector<std::vector<Index>>{
            {19}, {1, 9}, {9, 1}, {17, 8}, {8, 23}, {11, 3, 9}, {2, 1, 3, 1, 2}, {9, 2, 2, 17}}) {
-    // A value says its own place in C order; it is written with the first axis fastest.
+    // Each value states its own position in C order. The array is written with the first axis
+    // fastest.
     std::size_t count = 1;
     std::string shape;
     for (const Index extent : extents) {
@@ -230,7 +231,7 @@ TEST(ReadPhat, TakesValues) {
   const std::vector<double> expected{0, 0, 1.5};
   EXPECT_EQ(read_phat(matrix, text).matrix.values, expected);
   EXPECT_EQ(read_phat(matrix, raw).matrix.values, expected);
-  // Doubles whose bytes could also occur in text, but are not valid UTF-8.
+  // Doubles whose bytes are printable in part, but are not valid UTF-8.
   EXPECT_EQ(read_values(Input::view("\xda\x29\xc1\xd3\xbc\x3b\xd3\x3f", "v"), 1).size(), 1U);
   bad_data([] { read_values(Input::view("1.5 abc\n", "v"), 1); });
   const ReadResult any = read_any(matrix, Format::automatic, {}, raw);
@@ -287,13 +288,13 @@ TEST(Png, RefusesAnyFlippedByte) {
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ 0x20);
-    // A flipped byte of a name makes a chunk that decoders may skip.
+    // A flipped byte in its name can turn a chunk into one that decoders may skip.
     fails_with(ErrorKind::bad_data, [&] {
       EXPECT_EQ(read_png(Input::view(bytes, "r.png")).samples, right.samples) << i;
     });
   }
   std::string bomb =
-      whole.substr(0, 33);  // signature and IHDR; its checksum must not be the reason
+      whole.substr(0, 33);  // only the signature and IHDR; its checksum is corrected below
   bomb[16] = bomb[20] = 0;
   EXPECT_TRUE(contains(bad_data([&] { read_png(Input::view(bomb, "r.png")); }), "r.png: byte"));
 }

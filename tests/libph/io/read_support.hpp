@@ -19,10 +19,10 @@
 
 namespace ph::test {
 
-/// Stands for an absent voxel, whose NaN equals nothing.
+/// Stands for an absent voxel, because NaN equals nothing.
 inline constexpr double kMark = -987654321;
 
-/// The numbers of an image with kMark for absent voxels.
+/// The numbers of an image, with kMark for absent voxels.
 inline std::vector<double> marked(const Voxels& voxels) {
   std::vector<double> numbers = voxels.doubles();
   for (double& number : numbers)
@@ -30,8 +30,8 @@ inline std::vector<double> marked(const Voxels& voxels) {
   return numbers;
 }
 
-/// The message of the bad_data error that `f` throws; fails the test if it throws something else or
-/// nothing.
+/// The message of the bad_data error that `f` throws. The test fails if `f` throws something else
+/// or nothing.
 template <class F>
 std::string bad_data(F&& f) {
   try {
@@ -44,8 +44,8 @@ std::string bad_data(F&& f) {
   return {};
 }
 
-/// Calls `read(Input)` on every proper prefix of `bytes`: it must throw bad_data or return true
-/// where `complete(length)` says that the prefix is a whole input.
+/// Calls `read(Input)` on every proper prefix of `bytes`. It must throw bad_data, or succeed where
+/// `complete(length)` says that the prefix is a complete input.
 template <class Read, class Complete>
 void check_prefixes(const std::string& bytes, const std::string& name, Read read,
                     Complete complete) {
@@ -65,7 +65,7 @@ inline auto never() {
   return [](std::size_t) { return false; };
 }
 
-/// A folder that is removed with all its files.
+/// A temporary folder, which is removed with all its files.
 class TempDir {
  public:
   TempDir() {
@@ -88,13 +88,13 @@ class TempDir {
   std::filesystem::path path_;
 };
 
-/// Bytes in a run's budget, like an opened file.
+/// An input whose bytes count towards the run's memory budget, like those of an opened file.
 inline Input held(const std::string& bytes, const std::string& name, const RunContext& context) {
   return Input::hold(std::pmr::vector<char>(bytes.begin(), bytes.end(), &context.memory), name,
                      &context);
 }
 
-/// The bytes of a number, little endian.
+/// The bytes of a number in little-endian order.
 template <class T>
 std::string le(T value) {
   std::string bytes(sizeof(T), '\0');
@@ -106,14 +106,14 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The image that bytes hold, read as a file of that name.
+/// The image read from bytes, as from a file with this name.
 inline Image image_of(const std::string& bytes, const std::string& name,
                       const ReadOptions& options = {}) {
   ReadResult result = read_any(Input::view(bytes, name), Format::automatic, options);
   return std::get<Image>(std::move(result.data));
 }
 
-/// Expects each of these to be bad data, in messages that name the file.
+/// Checks that each of these contents is refused as bad data, with a message that names the file.
 inline void expect_refused(const std::string& name, const std::vector<std::string>& cases) {
   for (const std::string& bytes : cases) {
     const std::string message = bad_data([&] { read_any(Input::view(bytes, name)); });

@@ -44,14 +44,14 @@ TEST(ReadPoints, KeepsTheNumbersExactly) {
   EXPECT_FALSE(std::signbit(p(1, 0)));
   EXPECT_EQ(p(1, 1), 0);
   EXPECT_EQ(p(1, 2), 0);
-  // Digits before and behind the point count as well, and the exponent may be of any size.
+  // Digits before and after the point count as well, and the exponent may be of any size.
   const Points tiny = points("0.00012e-400 12.5e-9223372036854775807 -100.0e-999\n");
   for (Index k = 0; k < 3; ++k) EXPECT_EQ(tiny(0, k), 0);
 }
 
 struct BadText {
   const char* text;
-  const char* place;  // ":line:column:" or part of the message
+  const char* place;  // ":line:column:", or a part of the message
   const char* what;
 };
 
@@ -273,7 +273,7 @@ TEST(ReadOff, ReadsMeshes) {
   }
   check_prefixes(
       text, "m.off", [](const Input& in) { read_off(in); },
-      // a face without its colour or with fewer digits of it is a face
+      // A face is still complete if its colour is missing or has fewer digits.
       [&](std::size_t length) { return length + 5 >= text.size(); });
   for (const char* bad :
        {"OFF\n1000000000000 0 0\n", "OFF\n-1 0 0\n", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",

@@ -29,14 +29,14 @@ TEST(ClosedWalks, OfAnEight) {
 }
 
 TEST(ClosedWalks, WithCoefficients) {
-  // Three ways from 0 to 9, each once: a cycle modulo 3.
+  // Three paths from 0 to 9, each with coefficient 1: their sum is a cycle modulo 3.
   const std::vector<Index> edges{0, 1, 1, 9, 0, 2, 2, 9, 0, 3, 3, 9};
   const std::vector<std::int64_t> ones(6, 1);
   const InputChain chain = chain_of(edges, ones);
   const auto walks = closed_walks(chain, 3);
   EXPECT_EQ(sum_of(walks, 3), edges_of(chain, 3));
   EXPECT_EQ(walks.size(), 2u);
-  // The other way round is the same walk with the opposite coefficient.
+  // Traversed in the other direction, a walk has the opposite coefficient.
   const std::vector<Index> ring{0, 1, 1, 2, 0, 2};
   EXPECT_EQ(closed_walks(chain_of(ring, {2, 2, -2}), 7), (std::vector{Loop{{0, 1, 2}, 2, {}}}));
   EXPECT_EQ(closed_walks(chain_of(ring, {-2, -2, 2}), 7), (std::vector{Loop{{0, 2, 1}, 2, {}}}));
@@ -66,7 +66,7 @@ TEST(ClosedWalks, OfRandomCycles) {
     const auto walks = closed_walks(chain_of(numbers, coefficients), p);
     EXPECT_EQ(sum_of(walks, p), sum);
     check_form(walks, 1, p);
-    // Any order of the edges gives the same.
+    // The order of the edges does not matter.
     std::vector<Index> reversed;
     for (std::size_t i = coefficients.size(); i-- > 0;)
       reversed.insert(reversed.end(), {numbers[2 * i], numbers[2 * i + 1]});
@@ -92,7 +92,8 @@ TEST(ClosedWalks, RefuseWhatIsNoCycleOfEdges) {
   EXPECT_TRUE(closed_walks(chain_of({}, {}), 2).empty());
 }
 
-/// Loops of an image as a chain of edges, each by the doubled coordinates of its middle.
+/// The loops of an image as a chain of edges. Each edge is named by the doubled coordinates of its
+/// middle.
 std::map<std::vector<Index>, std::int64_t> grid_sum(const std::vector<Loop>& loops,
                                                     const std::vector<Index>& periods,
                                                     std::int64_t p) {
@@ -158,7 +159,7 @@ TEST(ClosedWalks, OfImages) {
   EXPECT_TRUE(is_enough(count, 1000)) << count;
 }
 
-// Vertices do not identify the edge, but all steps exist.
+// On such an axis, two vertices may have several edges between them, but each step must exist.
 TEST(ClosedWalks, OfShortPeriodicAxes) {
   for (const Index n : {1, 2}) {
     const Image image{{n, 3}, Voxels(std::vector<double>(static_cast<std::size_t>(3 * n), 1.0))};
@@ -191,7 +192,7 @@ TEST(ClosedWalks, OfSimplicialComplexes) {
   EXPECT_TRUE(is_enough(count, 50)) << count;
 }
 
-// Rows of a boundary matrix have no vertices to walk along.
+// Rows of a boundary matrix have no vertices, and thus no walks.
 TEST(ClosedWalks, OfABoundaryMatrixThereAreNone) {
   BoundaryMatrix matrix;
   for (const int dim : {0, 0, 0, 1, 1, 1}) matrix.dims.push_back(dim);

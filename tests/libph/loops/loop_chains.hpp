@@ -14,7 +14,7 @@
 
 namespace ph::test {
 
-/// Coefficients by the ends of edges, none of them 0.
+/// The non-zero coefficients of edges, by the endpoints of each edge.
 using EdgeChain = std::map<std::pair<std::vector<Index>, std::vector<Index>>, std::int64_t>;
 
 inline std::int64_t modulo(std::int64_t a, std::int64_t p) { return (a % p + p) % p; }
@@ -31,7 +31,7 @@ inline void add(EdgeChain& chain, const std::vector<Index>& tail, const std::vec
   if (sum == 0) chain.erase({tail, head});
 }
 
-/// The vertices of a loop.
+/// The vertices of a loop, one after another. @param arity the number of coordinates per vertex.
 inline std::vector<std::vector<Index>> vertices_of(const Loop& loop, std::size_t arity) {
   std::vector<std::vector<Index>> vertices;
   for (auto it = loop.numbers.begin(); it != loop.numbers.end();
@@ -40,7 +40,8 @@ inline std::vector<std::vector<Index>> vertices_of(const Loop& loop, std::size_t
   return vertices;
 }
 
-/// Loops of simplices as a chain of edges from the smaller to the larger vertex.
+/// The loops of a simplicial complex as a chain of edges, each directed from the smaller to the
+/// larger vertex.
 inline EdgeChain sum_of(const std::vector<Loop>& loops, std::int64_t p) {
   EdgeChain chain;
   for (const Loop& loop : loops) {
@@ -65,7 +66,7 @@ inline EdgeChain edges_of(const InputChain& chain, std::int64_t p) {
   return edges;
 }
 
-/// The promises of closed_walks about the form of its walks.
+/// Checks what closed_walks promises about the form of its walks.
 inline void check_form(const std::vector<Loop>& loops, std::size_t arity, std::int64_t p) {
   std::size_t last = SIZE_MAX;
   for (const Loop& loop : loops) {

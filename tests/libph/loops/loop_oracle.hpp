@@ -18,13 +18,13 @@ namespace ph::test {
 /// A coefficient for each edge of a complex.
 using EdgeRow = std::vector<std::int64_t>;
 
-/// A flag complex, edge by edge, in the oracle's form.
+/// A flag complex with a list of its edges, as the oracle needs it.
 struct FlagComplex {
   struct Edge {
-    std::array<Index, 2> ends;  // named, ascending
+    std::array<Index, 2> ends;  // the two vertices, ascending
     double value;
   };
-  std::vector<Edge> edges;  // in order
+  std::vector<Edge> edges;  // in the order of the filtration
   std::int64_t p;
 
   FlagComplex(const RipsGraph& graph, std::int64_t field) : p(field) {
@@ -39,7 +39,7 @@ struct FlagComplex {
       if (edges[i].ends == ends) return i;
     return std::nullopt;
   }
-  /// Boundaries of the triangles whose edges are all in `in`, as rows over all edges.
+  /// The boundaries of the triangles whose edges all satisfy `in`, as rows over all edges.
   template <class In>
   std::vector<EdgeRow> boundaries(In&& in) const {
     std::set<Index> vertices;
@@ -64,7 +64,7 @@ struct FlagComplex {
   }
 };
 
-/// Reduces rows to echelon form. @return the pivot of each remaining row.
+/// Reduces the rows to echelon form. @return the pivot of each row that remains.
 inline std::vector<std::size_t> eliminate(std::vector<EdgeRow>& rows, std::int64_t p) {
   std::vector<std::size_t> pivots;
   const std::size_t columns = rows.empty() ? 0 : rows.front().size();
@@ -94,7 +94,8 @@ inline bool is_in_span(std::vector<EdgeRow> rows, const EdgeRow& row, std::int64
   return eliminate(rows, p).size() == rank;
 }
 
-/// All functions on the edges that `in` has that vanish on the boundaries of its triangles.
+/// A basis of the cocycles on the edges that satisfy `in`: the functions that vanish on the
+/// boundaries of all triangles of these edges.
 template <class In>
 std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
   std::vector<EdgeRow> rows = complex.boundaries(in);
@@ -111,9 +112,10 @@ std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
   return cocycles;
 }
 
-/// The length of the shortest closed walk that passes edge `birth` once, goes on along edges that
-/// `may_use` allows, and with the coefficient of that edge in `chain` is homologous to it where all
-/// `cocycles` are; nothing if there is none, or if there are too many pairs to examine.
+/// The length of the shortest closed walk that passes edge `birth` once, otherwise uses edges that
+/// `may_use` allows, and agrees with `chain` on all `cocycles` when it is multiplied by the
+/// coefficient of `birth` in `chain`. Nothing if there is no such walk, or if too many cases would
+/// have to be examined.
 inline std::optional<double> shortest_walk(const FlagComplex& complex, const EdgeRow& chain,
                                            std::size_t birth, const std::vector<bool>& may_use,
                                            const std::vector<EdgeRow>& cocycles, bool& gave_up) {

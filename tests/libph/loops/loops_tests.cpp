@@ -28,7 +28,7 @@ struct Counts {
   int bars = 0, shortest = 0, shorter = 0, locally = 0;
 };
 
-/// All promises of ph/loops.hpp about the loops of one filtration.
+/// Checks everything that ph/loops.hpp promises about the loops of a filtration.
 void check_loops(const Rips& rips, const Options& asked, Counts& counts) {
   Options options = asked;
   options.representatives = Representatives::cycles;
@@ -79,7 +79,7 @@ void check_loops(const Rips& rips, const Options& asked, Counts& counts) {
     }
     check_form(tight[i].loops, 1, p);
     for (const Loop& loop : tight[i].loops) {
-      // No vertex can be left out.
+      // No vertex of the loop can be left out.
       const auto& v = loop.numbers;
       for (std::size_t k = 0; k < v.size() && v.size() > 3; ++k) {
         const auto first = complex.place(v[k], v[(k + 1) % v.size()]),
@@ -147,13 +147,14 @@ TEST(Loops, AreShortestInRandomDistances) {
     const Rips complex(random.distances(random.integer(4, 10), ties), rips);
     check_loops(complex, options_of(random), counts);
   });
-  // Checks that the inputs are not trivial.
+  // Checks that the inputs were not trivial.
   EXPECT_TRUE(is_enough(counts.bars, 1500)) << counts.bars;
   EXPECT_TRUE(is_enough(counts.shortest, 1000)) << counts.shortest;
   EXPECT_TRUE(is_enough(counts.shorter, 50)) << counts.shorter;
 }
 
-// The shortest walk passes three vertices twice. Its chain, split edge by edge, has longer loops.
+// The shortest walk passes three vertices twice. Splitting its chain edge by edge would give longer
+// loops.
 TEST(Loops, AreNoLongerThanTheirWalk) {
   const std::vector<double> lower{
       0.369, 0.679, 0.677, 0.695, 0.476, 0.334, 0.151, 0.415, 0.607, 0.956, 0.194,
@@ -222,7 +223,7 @@ TEST(Loops, OfSparseRipsFiltrations) {
   EXPECT_TRUE(is_enough(counts.bars, 20)) << counts.bars;
 }
 
-// A bar that is only represented by a difference: two rings that a tube joins.
+// Two rings joined by a tube: one bar is only represented by the difference of two walks.
 TEST(Loops, MayNeedTwoWalks) {
   Points points(16, 3);
   for (Index i = 0; i < 8; ++i) {

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kInf = kInfinity;
 
-/// The pairs of a form, those of length zero as well.
+/// The pairs that are computed from a form, including pairs of length 0.
 std::vector<Pair> components_of(const Rips& rips, RipsForm form, Engine engine,
                                 const RunContext& context = default_context()) {
   return with_rips_filtration(rips.graph(form, context), 0,
                               [&](const auto& f) { return pairs_of(f, 0, 2, engine); });
 }
 
-// The oracle has the whole filtration, every engine the forest.
+// The oracle uses the whole filtration; every engine uses the forest.
 template <class Data>
 void expect_components_of_the_whole(const Data& data, const RipsOptions& options) {
   const Rips rips(data, options);
@@ -33,8 +33,8 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
   EXPECT_EQ(forest.size(), rips.size());
   EXPECT_LE(forest.edge_count(), static_cast<std::size_t>(std::max<Index>(forest.size() - 1, 0)));
   for (const auto& engine : detail::engine_facts()) {
-    if (engine.id == Engine::standard || engine.id == Engine::gradient ||  // images only
-        engine.id == Engine::beta_skeleton)                                // points alone
+    if (engine.id == Engine::standard || engine.id == Engine::gradient ||  // for images only
+        engine.id == Engine::beta_skeleton)                                // for points only
       continue;
     EXPECT_EQ(components_of(rips, RipsForm::forest, engine.id), expected) << engine.id.name();
   }
@@ -46,8 +46,8 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
                                        PointDistance::chebyshev, PointDistance::minkowski};
 
-// One to five coordinates, copies, ties, thresholds at ties; some numbers are too large to be
-// squared.
+// One to five coordinates, copies, ties, and thresholds equal to distances. Some numbers are too
+// large to be squared.
 TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
   for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
@@ -96,14 +96,15 @@ TEST(Components, OfSparseDistances) {
   });
 }
 
-// A user's own distance works on pairs, whatever the points are.
+// A user's own distance takes indices, and therefore works for any points.
 struct AnyDistance {
   const PointMetric& metric;
   Index size() const { return metric.size(); }
   double operator()(Index i, Index j) const { return metric(i, j); }
 };
 
-// Clusters within clusters, a grid full of ties, a line, a cloud: enough for all of the search.
+// Clusters of clusters, a grid full of ties, a line, and scattered points: enough points to use all
+// parts of the search.
 TEST(Components, OfManyPointsAreThoseOfAllPairs) {
   for_each_seed(48, [](Generator& random, bool, std::int64_t) {
     const Index n = random.integer(200, 2500), d = random.integer(1, 5);
@@ -131,7 +132,7 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
   });
 }
 
-// A given forest has no other data.
+// From a given forest, no other form can be made.
 TEST(Components, NothingElseIsThere) {
   const Points points = to_points(PointMatrix::Random(9, 2));
   const Rips rips(RipsGraph::forest_of_metric(PointMetric(points), {}, default_context()));

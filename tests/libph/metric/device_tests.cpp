@@ -45,7 +45,7 @@ TEST(Device, ArgumentsAreCheckedFirst) {
   });
 }
 
-#ifndef PH_WITH_CUDA  // otherwise the driver reports what is missing
+#ifndef PH_WITH_CUDA  // with CUDA, the driver reports what is missing
 TEST(Device, IsSaidToBeMissing) {
   const Options task{.max_dim = 0};
   expect_error(ErrorKind::not_built_in, "device gpu: not built in: it needs CUDA 12 or later",

@@ -169,7 +169,7 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     double radius = 0;
-    // A radius that is a distance to the last bit is inclusive.
+    // A radius that equals a distance to the last bit includes the pair.
     if (n >= 2 && random.integer(0, 3) != 0)
       radius = PointMetric(points)(random.integer(0, static_cast<int>(n) - 1), 0);
     EXPECT_EQ(SparseDistances::within(points, radius).edges(), all_pairs_within(points, radius))
@@ -180,7 +180,8 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
   }
 }
 
-// Tests the tree directly, because for_each_pair_within uses it only for more points than here.
+// Tests the tree directly, because for_each_pair_within uses it only for more points than this test
+// has.
 TEST(NearPairsOfATree, AreThoseOfAllPairs) {
   constexpr PointDistance distances[] = {PointDistance::euclidean, PointDistance::manhattan,
                                          PointDistance::chebyshev, PointDistance::minkowski};
@@ -190,7 +191,7 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     const PointDistance distance = distances[random.integer(0, 3)];
-    // Beside a point with ordinary squares, powers of tiny distances are 0.
+    // With one point of ordinary size, the powers of tiny distances are 0 in comparison.
     if (distance != PointDistance::minkowski && random.coin()) points(0, 0) = 1;
     const double p = 1 + 3 * random.real();
     const PointMetric given(points, distance, p);
@@ -214,7 +215,7 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
   });
 }
 
-// Far from the origin coordinates have few digits left of the point.
+// Far from the origin, coordinates have few digits after the decimal point.
 TEST(SparseDistanceSets, NearPairsFarFromTheOrigin) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Generator random(seed);
@@ -227,7 +228,8 @@ TEST(SparseDistanceSets, NearPairsFarFromTheOrigin) {
   }
 }
 
-// In units of the radius, these lie around a power of two, where the step of rounding changes.
+// In units of the radius, these coordinates lie around a power of two, where the spacing of doubles
+// changes.
 TEST(SparseDistanceSets, NearPairsAtAStepOfRounding) {
   const double radius = 0.8575754491187267;
   const Points pair = rows({{230203656.9687939}, {230203657.82636935}});
@@ -253,7 +255,7 @@ TEST(SparseDistanceSets, RadiiAtTheEnds) {
   expect_error(ErrorKind::usage, "radius", [&] { SparseDistances::within(points, kNan); });
 }
 
-// All pairs would be 5 * 10^9 distances here.
+// All pairs would be 5 * 10^9 distances.
 TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
   for (const Index d : {2, 4}) {
     Points line = to_points(PointMatrix::Constant(100000, d, 7));
@@ -278,7 +280,8 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
   }
 }
 
-// Bit by bit: the method that computes a distance must not decide ties.
+// Rows of distances equal single distances bit by bit: the method of computation must not decide
+// ties.
 TEST(RowDistancesOf, APointMetricAreItsDistances) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(0, 70);

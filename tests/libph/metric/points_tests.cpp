@@ -63,7 +63,7 @@ TEST(PointsOwner, TakesNumbersOfAnyType) {
   EXPECT_EQ(Points::of(floats.data(), 2, 1, 1, 1), (Points{{double{0.1F}}, {-1}}));
 }
 
-/// The same points in several layouts: each must give the result of contiguous rows.
+/// Reads the same points in several layouts. Each must give the same result as contiguous rows.
 void expect_same_from(PointsView view, const Points& points, std::int64_t field) {
   ASSERT_EQ(Points(view), points);
   for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan}) {
@@ -93,7 +93,7 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
     const Index n = points.rows(), d = points.cols();
     const Eigen::MatrixXd by_columns = as_matrix(points);
     expect_same_from(by_columns, points, field);
-    // Every second row of a matrix, columns 1 to d, in both orders.
+    // Every second row of a matrix and its columns 1 to d, in row-major and column-major order.
     PointMatrix wide = PointMatrix::Constant(2 * n + 1, d + 2, 77);
     Eigen::MatrixXd wide_by_columns = wide;
     for (Index i = 0; i < n; ++i) {
@@ -104,7 +104,7 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
     expect_same_from(PointsView(wide_by_columns.data() + wide_by_columns.rows(), n, d, 2,
                                 wide_by_columns.rows()),
                      points, field);
-    // Backwards.
+    // The rows in reverse order.
     const PointMatrix reversed = as_matrix(points).colwise().reverse();
     expect_same_from(PointsView(reversed.data() + (n - 1) * d, n, d, -d, 1), points, field);
   });
@@ -135,7 +135,7 @@ TEST(DelayEmbedding, HasTheValuesOfLaterTimes) {
                    [&] { static_cast<void>(delay_embedding(series, dimension, delay)); });
       return;
     }
-    // The same from a view with separated quantities.
+    // The coordinates stored column by column.
     std::vector<double> by_columns;
     for (Index k = 0; k < series.cols(); ++k)
       for (Index t = 0; t < series.rows(); ++t) by_columns.push_back(series(t, k));

@@ -25,7 +25,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr PointDistance kMetrics[] = {PointDistance::euclidean, PointDistance::manhattan,
                                       PointDistance::chebyshev, PointDistance::hamming};
 
-/// Ties, copies, clusters.
+/// Points with ties, copies or clusters.
 Points random_points(Generator& random, Index most, bool ties) {
   Points points =
       random.points(random.integer(1, static_cast<int>(most)), random.integer(1, 3), ties);
@@ -46,7 +46,7 @@ DistanceMatrix matrix_of(const PointMetric& metric) {
   return DistanceMatrix(metric.size(), lower);
 }
 
-/// By definition, with all distances.
+/// The greedy permutation by its definition, from all distances.
 template <Metric M>
 GreedyPermutation greedy_by_definition(const M& metric, const GreedyLimits& limits) {
   GreedyPermutation result;
@@ -93,7 +93,7 @@ TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
   });
 }
 
-// Several blocks of points, and a tail.
+// Several full blocks of points, and an incomplete one.
 TEST(GreedyPermutations, OfManyPoints) {
   Generator random(3);
   for (const Index n : {511, 512, 513, 2000}) {
@@ -113,7 +113,7 @@ TEST(GreedyPermutations, OfFewPointsAndBadLimits) {
   const Points copies = to_points(PointMatrix::Ones(5, 2));
   EXPECT_EQ(greedy_permutation(copies).points, (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(greedy_permutation(copies).covering_radius, 0);
-  // Distances that are equal, of squares that are not.
+  // Two distances are equal although their squares differ.
   const Points equal{{0, 0}, {1, 0}, {1, std::ldexp(1, -26)}};
   EXPECT_EQ(greedy_permutation(equal).points, (std::vector<std::uint32_t>{0, 1, 2}));
   const DistanceMatrix apart(3, {kInf, 1, kInf});
@@ -172,10 +172,11 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
           << "epsilon " << epsilon;
     fewer += all_edges(sparse).edge_count() < all_edges(exact).edge_count() ? 1 : 0;
   });
-  EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test is about something
+  EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test covers enough cases
 }
 
-// By definition: the value at which balls of their largest diameters meet, unless that is too late.
+// Computes the edges by the definition: the value at which the two balls meet, which stop growing
+// at their largest diameters. There is no edge if that value is too late.
 TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {
@@ -214,7 +215,7 @@ TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   EXPECT_TRUE(is_enough(late, std::size_t{1000})) << late;
 }
 
-// Points on many scales: where edges are left out.
+// Points on many scales, for which edges are left out.
 TEST(SparseRipsFiltrations, KeepWhatTheyPromiseOnManyScales) {
   for_each_seed(150, [](Generator& random, bool, std::int64_t field) {
     Points points = random.points(random.integer(20, 50), 2, false);
@@ -302,7 +303,7 @@ TEST(DistanceToMeasure, OfLargeAndSmallPointsAndBadNumbers) {
   EXPECT_EQ(distance_to_measure(DistanceMatrix(2, {kInf}), 2)[0], kInf);
 }
 
-// An outlier between dense parts: without weights it makes a component of its own.
+// An outlier between two dense groups: without weights, it is a component of its own.
 TEST(DistanceToMeasure, OutliersComeLate) {
   Points points(41, 2);
   for (Index i = 0; i < 40; ++i)
@@ -312,7 +313,7 @@ TEST(DistanceToMeasure, OutliersComeLate) {
   for (double& b : births) b *= 2;
   const Barcode bars = persistence(
       Rips(points, {.births = births, .weight_exponent = WeightExponent::one}), {.max_dim = 0});
-  // The outlier is joined at its birth or soon after; the two parts live long.
+  // The outlier joins a component at its birth or soon after. The two groups live long.
   std::size_t long_bars = 0;
   for (const Bar& bar : bars) long_bars += bar.persistence() > 1 ? 1 : 0;
   EXPECT_EQ(long_bars, 2U);

@@ -11,7 +11,7 @@ namespace ph::test {
 
 inline constexpr std::array kPlotKinds{PlotKind::barcode, PlotKind::diagram, PlotKind::betti};
 
-/// A barcode of these bars, with arbitrary cells.
+/// A barcode with these bars and arbitrary cells.
 inline Barcode barcode_of(const std::vector<Bar>& bars) {
   Barcode barcode;
   const std::array<Index, 1> cell{0};

@@ -30,7 +30,7 @@ std::size_t pixels_of(const Raster& raster, const Colour& colour) {
   return count;
 }
 
-/// The box around all pixels of a colour: left, top, right, bottom.
+/// The bounding box of all pixels of a colour: left, top, right, bottom.
 std::array<Index, 4> box_of(const Raster& raster, const Colour& colour) {
   std::array<Index, 4> box{raster.width, raster.height, -1, -1};
   for (Index y = 0; y < raster.height; ++y)
@@ -78,11 +78,11 @@ TEST_F(PngPlot, AnyValues) {
     }
 }
 
-/// Half as long a bar takes half as many pixels, and begins where it is born.
+/// A bar of half the length takes half as many pixels, and begins at its birth.
 TEST_F(PngPlot, BarsAreAsLongAsTheyLive) {
   const Raster whole = decoded(png_plot(test::barcode_of({{1, 0, 8}})));
   const Raster half = decoded(png_plot(test::barcode_of({{0, 0, 8}, {1, 4, 8}})));
-  // The letter H also has this colour, to the left of x = 125.
+  // The letter H, to the left of x = 125, has the same colour.
   const auto bar = [](const Raster& raster) {
     Raster right = raster;
     for (Index y = 0; y < raster.height; ++y)
@@ -112,7 +112,7 @@ TEST_F(PngPlot, TextIsDrawn) {
   EXPECT_GT(pixels_of(narrow, ink), axis + 20);
   EXPECT_GT(pixels_of(wide, ink), pixels_of(narrow, ink) + 100);
   EXPECT_EQ(drawn("\xff\x01").samples, drawn("\xef\xbf\xbd\xef\xbf\xbd").samples) << "no UTF-8";
-  // An O has a hole: its middle is white, while it is ink on both sides.
+  // The letter O has a hole: its middle is white between two sides of ink.
   const Raster hole = drawn("O");
   bool found = false;
   for (Index y = 20; y < 46; ++y)
@@ -166,7 +166,7 @@ TEST_F(PngPlot, PixelsCountInMemory) {
   EXPECT_GT(context.memory.peak(), 4u << 20);
 }
 
-/// 40 x 20 pixels: red on the left, blue on the right.
+/// A picture of 40 x 20 pixels: red on the left, blue on the right.
 ColouredPicture red_and_blue() {
   ColouredPicture picture;
   picture.raster = {40, 20, 3, 8, {}};
@@ -196,7 +196,7 @@ TEST(ColouredPlot, SvgHoldsThePixelsAndTheLegendAsText) {
 TEST_F(PngPlot, PixelsOfAPictureAreKept) {
   ColouredPicture picture = red_and_blue();
   const Raster raster = decoded(png_plot(picture));
-  // In the middle, and in the two squares of the legend.
+  // Pixels in the middle of the picture, and in the two squares of the legend.
   for (const auto& [x, colour] : {std::pair(500, Colour{200, 0, 0}),
                                   {519, Colour{200, 0, 0}},
                                   {520, Colour{0, 0, 200}},
@@ -213,7 +213,7 @@ TEST_F(PngPlot, PixelsOfAPictureAreKept) {
   EXPECT_LT(pixels_of(marked, {200, 0, 0}), pixels_of(raster, {200, 0, 0}) - 50);
   picture.legend.clear();
   EXPECT_EQ(decoded(png_plot(picture)).height, 20);
-  // A raster wider than the column is made smaller.
+  // A raster wider than the column is scaled down.
   ColouredPicture wide;
   wide.raster = {2080, 2, 1, 16, std::vector<std::uint16_t>(4160, 0x8000)};
   const Raster narrow = decoded(png_plot(wide));

@@ -23,7 +23,8 @@ std::vector<std::uint32_t> numbers_of(const NumberSet& set) {
   return numbers;
 }
 
-// Against std::set; small sets stay lists, large ones become bits, and both are added to both.
+// Compares with std::set. Small sets are lists and large ones are bits; sets of both kinds are
+// added to each other.
 TEST(NumberSet, IsASet) {
   for_each_seed(300, [](Generator& random, bool, std::int64_t) {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();
@@ -56,7 +57,7 @@ TEST(NumberSet, IsASet) {
 
 TEST(ActiveEdges, AreAMap) {
   for_each_seed(100, [](Generator& random, bool, std::int64_t) {
-    const int n = random.integer(2, 90);  // so that lists are searched in blocks
+    const int n = random.integer(2, 90);  // up to 90, for which lists are searched in blocks
     ActiveEdges edges(static_cast<std::size_t>(n), random.coin(), std::pmr::get_default_resource());
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> labels;
     std::set<std::pair<std::uint32_t, std::uint32_t>> gone;
@@ -96,16 +97,17 @@ TEST(ActiveEdges, AreAMap) {
   });
 }
 
-// Compared with vectors that are all updated at each death. Some of them are read in between.
+// Compares with vectors that are all updated at each death. Some vectors are read between deaths.
 template <Field K>
 void check_dead_generators(const K& field, Generator& random) {
   using Vector = typename DeadGenerators<K>::Vector;
-  using Coefficients = std::vector<typename K::Element>;  // by generator
+  using Coefficients = std::vector<typename K::Element>;  // one coefficient per generator
   const auto count = static_cast<std::size_t>(random.integer(2, 300));
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   DeadGenerators<K> dead(field, memory);
   const auto is_dead = [&](std::size_t g) { return dead.contains(static_cast<std::uint32_t>(g)); };
-  const int most = random.coin() ? 8 : 100;  // terms: relations are lists, or rows of bits over Z/2
+  // Number of terms: relations are lists, or rows of bits over Z/2.
+  const int most = random.coin() ? 8 : 100;
   const auto random_vector = [&](bool of_the_living) {
     Coefficients v(count, field.from_int(0));
     const int last = static_cast<int>(count) - 1, first = random.coin() ? 0 : last / 2;
@@ -127,7 +129,8 @@ void check_dead_generators(const K& field, Generator& random) {
     for (const auto& t : terms) v[t.cell] = t.coefficient();
     return v;
   };
-  std::vector<std::pair<Vector, Coefficients>> vectors;  // current, expected
+  // The current vector, and its expected coefficients.
+  std::vector<std::pair<Vector, Coefficients>> vectors;
   for (int k = 0; k < 20; ++k) {
     const Coefficients v = random_vector(false);
     vectors.emplace_back(terms_of(v), v);

@@ -13,7 +13,7 @@
 namespace ph::test {
 namespace {
 
-/// Points in one of many shapes, with ties on request.
+/// Points in one of many shapes, and with ties if requested.
 Points shaped_points(Generator& random, Index n, Index d, bool ties) {
   Points p(n, d);
   const int shape = random.integer(0, 6), side = random.integer(1, 6);
@@ -45,14 +45,14 @@ Points shaped_points(Generator& random, Index n, Index d, bool ties) {
         row[0] = std::cos(angle) + (i % 2 == 0 ? 2.5 : 0);
         row[1] = std::sin(angle);
         break;
-      default:  // far from the origin: differences have few digits
+      default:  // far from the origin, where differences have few digits
         for (double& x : row) x = 1e6 + x * 1e-8;
     }
   }
   return p;
 }
 
-/// The same task by the edges and by the points alone.
+/// Compares the result computed from edges with the result computed from the points alone.
 void expect_same(const Points& points, RipsOptions rips, const Options& task, int threads) {
   Options by_edges = task;
   by_edges.engine = points.rows() <= 16 ? Engine::standard : Engine::edge_links;
@@ -104,7 +104,7 @@ TEST(BetaSkeleton, HundredsOfPoints) {
   });
 }
 
-// Against edge links where the tree has many levels.
+// Compares with edge links, for enough points that the tree has many levels.
 TEST(BetaSkeleton, ThousandsOfPoints) {
   for_each_seed(10, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = 5'000, d = random.integer(2, 3);
@@ -122,7 +122,7 @@ TEST(BetaSkeleton, ThousandsOfPoints) {
   });
 }
 
-// A hole that lives long, and many that are born after others have died.
+// One hole that lives long, and many that are born after others have died.
 TEST(BetaSkeleton, HolesOfManySizes) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
     const Index d = random.integer(2, 3), n = random.integer(150, 400);
@@ -137,7 +137,7 @@ TEST(BetaSkeleton, HolesOfManySizes) {
   });
 }
 
-// Many edges of nearly equal length: bins are split into narrower ones.
+// Many edges have nearly the same length: their bins are split into narrower ones.
 TEST(BetaSkeleton, RegularPolygons) {
   for (const Index n : {3, 6, 30, 300, 1'500}) {
     SCOPED_TRACE(n);

@@ -13,7 +13,7 @@ namespace {
 
 using Key = RipsGraph::Key;
 
-// By checking every vertex and every edge.
+// The cofacets of a simplex, found by checking every vertex and every edge.
 std::map<std::vector<Index>, Key> cofacets_of(const std::vector<Index>& simplex, Index size,
                                               const std::map<std::set<Index>, Key>& key_of) {
   std::map<std::vector<Index>, Key> cofacets;
@@ -80,7 +80,7 @@ TEST(RipsCofacets, AreThoseOfTheRange) {
   }
 }
 
-// Both find the same cells; `twist` uses boundaries.
+// Both engines find the same cells; `twist` uses boundaries instead of coboundaries.
 TEST(RipsCofacets, ColumnsWhoseLimitRisesOftenAreReduced) {
   for (const std::int64_t field : {2, 3}) {
     for (const bool ties : {false, true}) {

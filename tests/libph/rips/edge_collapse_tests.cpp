@@ -19,8 +19,8 @@
 namespace ph::test {
 namespace {
 
-/// Points, any matrix with missing edges, or sparse distances; half of them full of ties, with
-/// copies of points, distances of zero and thresholds that are one of the distances.
+/// Random input: points, any matrix with missing edges, or sparse distances. Half of the inputs
+/// have many ties: copies of points, distances of zero, and thresholds equal to a distance.
 Rips random_rips(Generator& random, Index most_points, bool ties) {
   const Index n = random.integer(0, static_cast<int>(most_points));
   RipsOptions options;
@@ -41,7 +41,7 @@ Rips random_rips(Generator& random, Index most_points, bool ties) {
   }
 }
 
-/// The edges that would be collapsed.
+/// The graph that would be collapsed.
 const RipsGraph& graph_of(const Rips& rips) {
   return planned_graph(rips, {.max_dim = 1, .engine = Engine::cohomology});
 }
@@ -58,7 +58,7 @@ TEST(EdgeCollapse, LeavesTheBarsAsTheyAre) {
   });
 }
 
-// Enough vertices for several words of bits, and for vertices that come late.
+// Enough vertices for several words of bits, with some vertices that are born late.
 TEST(EdgeCollapse, LeavesTheBarsOfManyPointsAsTheyAre) {
   for_each_seed(40, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips = random.coin() ? Rips(random.points(70, random.integer(2, 3), false))
@@ -120,7 +120,7 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
   EXPECT_TRUE(is_enough(moved, std::size_t{1000})) << moved;
 }
 
-// Each pass leaves dominated edges among those that it has already checked.
+// One pass is not enough: it leaves dominated edges among those that it has already checked.
 TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   for_each_seed(6, [](Generator& random, bool, std::int64_t) {
     const Rips rips(random.points(120, 3, false));
@@ -129,7 +129,7 @@ TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   });
 }
 
-/// The diameter of a simplex of the input.
+/// The diameter of a simplex, in terms of the input.
 double diameter(const Rips& rips, const InputCell& cell) {
   const RipsGraph& graph = all_edges(rips);
   double largest = 0;
@@ -155,8 +155,8 @@ TEST(EdgeCollapse, CellsHaveTheValuesOfTheirBar) {
   });
 }
 
-/// A cycle of the collapsed complex is also valid in the full one: closed, born at the birth, and a
-/// boundary from the death on but not before.
+/// A cycle of the collapsed complex must be valid in the full complex: it has no boundary, is born
+/// at the birth, and is a boundary from the death on but not before.
 template <Filtration F>
 void check_cycle_by_value(const F& f, const OrderedCells<F>& cells, const Barcode& bars,
                           std::size_t i) {
@@ -198,12 +198,13 @@ TEST(EdgeCollapse, CyclesAreThoseOfTheWholeComplex) {
 
 TEST(EdgeCollapse, KeepsWhatItMust) {
   const auto kept = [](const Rips& rips) { return collapse_edges(all_edges(rips)).edge_count(); };
-  // A simplex collapses to a tree, whatever its edges' lengths.
+  // A full simplex collapses to a tree, whatever the lengths of its edges.
   EXPECT_EQ(kept(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0)))), 8U);
   EXPECT_EQ(kept(Rips(DistanceMatrix(3, {1, 2, 3}))), 2U);
-  // A square with its diagonals: the first diagonal fills the hole, the second has no effect.
+  // In a square with its diagonals, the first diagonal fills the hole, and the second has no
+  // effect.
   EXPECT_EQ(kept(Rips(circle(4), {.threshold = 2.5})), 5U);
-  // Nothing collapses in a graph without triangles, nor in the cross-polytopes' flag complexes,
+  // Graphs without triangles do not collapse. Neither do the flag complexes of the cross-polytopes,
   // which are spheres.
   EXPECT_EQ(kept(Rips(circle(9), {.threshold = chord(9, 1) * 1.01})), 9U);
   std::vector<WeightedEdge> octahedron;
@@ -211,12 +212,13 @@ TEST(EdgeCollapse, KeepsWhatItMust) {
     for (Index v = 0; v < u; ++v)
       if (u / 2 != v / 2) octahedron.push_back({u, v, 1});
   EXPECT_EQ(kept(Rips(SparseDistances(6, octahedron))), 12U);
-  // The edge that closes a triangle need not wait if the third vertex is joined to both ends.
+  // The edge that closes a triangle is dominated at once if the third vertex is joined to both of
+  // its ends.
   EXPECT_EQ(kept(Rips(SparseDistances(4, {{0, 1, 1}, {0, 2, 1}, {1, 2, 2}, {2, 3, 5}}))), 3U);
   for (const Index n : {0, 1, 2}) EXPECT_LE(kept(Rips(to_points(PointMatrix::Random(n, 2)))), 1U);
 }
 
-/// The points of a file; nothing where it is missing.
+/// The points in a file; nothing if the file is missing.
 std::optional<Points> points_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<std::vector<double>> rows;

@@ -27,7 +27,7 @@ std::vector<EdgeTuple> tuples_of(std::span<const FlagEdge> edges) {
   return result;
 }
 
-// Values from denormal to huge, every tenth one of a few.
+// Edges with values from denormal to huge. Every tenth value is one of a few.
 std::vector<FlagEdge> random_edges(std::size_t count) {
   std::mt19937_64 random(count);
   std::vector<FlagEdge> edges;
@@ -98,7 +98,8 @@ TEST(EdgeLists, NeighboursAscendWhileTheGraphGrows) {
   }
 }
 
-// More vertices than numbers of 16 bits: a ring, with two chords that cut it into three.
+// More vertices than 16-bit numbers can count: a ring with two chords, which cut it into three
+// parts.
 TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   constexpr Index n = 66'000, far = n / 3;
   std::vector<WeightedEdge> edges;
@@ -108,7 +109,7 @@ TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   }
   edges.push_back({0, far, 3.0});
   edges.push_back({far, 2 * far, 3.5});
-  edges.push_back({1, far, 4.0});  // a link with the first chord
+  edges.push_back({1, far, 4.0});  // forms a link with the first chord
   const Rips rips(SparseDistances(n, edges));
   const auto loops = [&](Engine engine) {
     std::vector<Bar> found = bars_of(persistence(rips, {.max_dim = 1, .engine = engine}));
@@ -120,13 +121,14 @@ TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   EXPECT_EQ(loops(Engine::cohomology), expected);
 }
 
-// A few vertices that are joined to nearly all others: their long lists are searched, not read.
+// A few vertices are joined to nearly all others: their long lists are searched, not scanned.
 TEST(EdgeLists, OfHubsHaveTheBarsOfAnotherEngine) {
   constexpr std::uint32_t vertices = 1000, hubs = 2;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
-    const double most = seed % 2 == 0 ? 5 : 1e9;  // ties, or none
+    // Small integers with many ties, or nearly no ties.
+    const double most = seed % 2 == 0 ? 5 : 1e9;
     const auto value = [&] {
       return std::ceil(most * static_cast<double>(random() % 1000) / 1000);
     };

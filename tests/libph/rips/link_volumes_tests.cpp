@@ -12,13 +12,13 @@
 namespace ph::test {
 namespace {
 
-/// Distances of random groups of points; all distances between groups are short. Cycles of
-/// different groups have joins, which are cycles of H2, H3 and above.
+/// Distances between points in random groups; all distances between different groups are short. The
+/// joins of cycles of different groups are cycles of H2, H3 and above.
 DistanceMatrix joined_groups(Generator& random, std::vector<Index> sizes, bool ties) {
   std::vector<std::size_t> group;
   for (std::size_t i = 0; i < sizes.size(); ++i)
     group.insert(group.end(), static_cast<std::size_t>(sizes[i]), i);
-  // Vertices of the groups in any order.
+  // Shuffles the vertices of the groups.
   for (std::size_t i = group.size(); i > 1; --i)
     std::swap(group[i - 1],
               group[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
@@ -36,7 +36,7 @@ std::size_t count_of_h3(const std::vector<Pair>& pairs) {
       std::ranges::count_if(pairs, [](const Pair& p) { return p.bar.dim == 3; }));
 }
 
-/// @return how many classes of H3 there are.
+/// @return the number of classes of H3.
 std::size_t check_volumes(const Rips& rips, std::int64_t field, Engine expected_by) {
   std::size_t count = 0;
   with_all_edges(rips, 3, [&](const auto& f) {
@@ -55,10 +55,10 @@ TEST(LinkVolumes, OfJoins) {
     switch (random.integer(0, 2)) {
       case 0:
         sizes = {random.integer(4, 6), random.integer(4, 6)};
-        break;  // two circles
+        break;  // for two circles
       case 1:
         sizes = {random.integer(2, 4), random.integer(6, 8)};
-        break;  // points and a sphere
+        break;  // for points and a sphere
       default:
         sizes = {2, 2, random.integer(2, 3), random.integer(2, 3)};
     }
@@ -67,7 +67,7 @@ TEST(LinkVolumes, OfJoins) {
     const Rips rips(joined_groups(random, sizes, ties), options);
     count += check_volumes(rips, field, Engine::standard);
   });
-  EXPECT_TRUE(is_enough(count, std::size_t{2000})) << count;  // the test is about something
+  EXPECT_TRUE(is_enough(count, std::size_t{2000})) << count;  // the test covers enough cases
 }
 
 TEST(LinkVolumes, OfAnyMatrix) {
@@ -81,7 +81,8 @@ TEST(LinkVolumes, OfAnyMatrix) {
   EXPECT_TRUE(is_enough(count, std::size_t{150})) << count;
 }
 
-// Many classes at a time, links without a hub that sees nearly all, rows of more than one word.
+// Many classes are alive at once, links have no vertex that is joined to nearly all others, and
+// rows have more than one word.
 TEST(LinkVolumes, OfManyClasses) {
   std::size_t count = 0;
   for_each_seed(24, [&](Generator& random, bool ties, std::int64_t field) {
@@ -94,7 +95,7 @@ TEST(LinkVolumes, OfManyClasses) {
   EXPECT_TRUE(is_enough(count, std::size_t{1000})) << count;
 }
 
-// A sphere of dimension 3, whose only long class lives until there are many tetrahedra.
+// A sphere of dimension 3. Its only long class lives until there are many tetrahedra.
 TEST(LinkVolumes, OfASphere) {
   Generator random(3);
   Points points(60, 4);

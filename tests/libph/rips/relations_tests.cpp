@@ -17,7 +17,7 @@
 namespace ph::test {
 namespace {
 
-using Sum = std::set<std::uint32_t>;  // generators
+using Sum = std::set<std::uint32_t>;  // a set of generators
 
 Sum operator+(const Sum& a, const Sum& b) {
   Sum sum;

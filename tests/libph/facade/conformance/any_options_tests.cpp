@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSeeds = 1500;
 
-/// The oracle's bars that the options request.
+/// The bars of the oracle that the options select.
 template <class Complex>
 std::vector<Pair> expected_bars(const Complex& complex, const Options& options) {
   const Options all{.max_dim = options.max_dim, .field = options.field, .engine = Engine::standard};
@@ -34,8 +34,9 @@ void forget_cells(std::vector<Pair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
 }
 
-/// @param engines that can compute a complex of this kind, though perhaps not with all options.
-/// @return how many bars were compared.
+/// @param engines engines that can compute complexes of this kind, though perhaps not with all
+/// options.
+/// @return the number of bars that were compared.
 template <class Complex>
 std::size_t agree(Generator& random, const Complex& complex, const std::vector<Engine>& engines,
                   int top_dim) {
@@ -60,11 +61,11 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
   try {
     found = pairs_of(persistence(complex, options, context));
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();  // they do not go together
+    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();  // these options cannot be combined
     return 0;
   }
   std::vector<Pair> expected = expected_bars(complex, options);
-  // If edges were collapsed, other edges of the same value may be named.
+  // If edges were collapsed, the bars may name other edges of the same value.
   if (!options.cells || options.collapse != Collapse::off) {
     forget_cells(found);
     forget_cells(expected);
@@ -74,7 +75,8 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
   return expected.size();
 }
 
-/// @param compare compares a random complex with random options, returns the number of bars.
+/// @param compare a function that compares a random complex with random options and returns the
+/// number of bars.
 template <class Compare>
 void for_each_choice(Compare&& compare) {
   std::size_t bars = 0;

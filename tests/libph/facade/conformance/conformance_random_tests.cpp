@@ -43,7 +43,7 @@ TEST(RandomConformance, WideRipsCells) {
   });
 }
 
-/// With many threads, each of which takes one column at a time.
+/// The pairs that many threads compute, each of which takes one column at a time.
 template <class F>
 std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, int threads,
                                    bool oldest_first = false) {
@@ -65,7 +65,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
     const auto check_threads = [&](const auto& f, int max_dim) {
       const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, threads), oracle);
-      // Every column that can be displaced is displaced.
+      // In this order, every column that can lose its pivot to another does.
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, 1, true), oracle);
     };
     if (random.integer(0, 9) == 0) {
@@ -80,8 +80,8 @@ TEST(RandomConformance, AnyNumberOfThreads) {
   });
 }
 
-// Long columns that displace each other; the bars are those of one thread, which runs the
-// sequential algorithm.
+// Long columns that take pivots from each other. The bars must equal those of one thread, which
+// runs the sequential algorithm.
 TEST(RandomConformance, ThreadsOnManyColumns) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(26, ties));
@@ -93,7 +93,7 @@ TEST(RandomConformance, ThreadsOnManyColumns) {
   });
 }
 
-// Distances of many magnitudes lie in many bins even if they are few: some are never sorted.
+// Distances of many magnitudes are in many bins even if they are few. Some bins are never sorted.
 TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   std::size_t late = 0;
   for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
@@ -113,7 +113,7 @@ TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   EXPECT_TRUE(is_enough(late, std::size_t{1000})) << late;
 }
 
-// Many classes with long vectors: generators disappear and return, and vectors become equal.
+// With many classes and long vectors, generators disappear and return, and vectors become equal.
 TEST(RandomConformance, LinkOfWideClasses) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(24, 34), ties));
@@ -125,7 +125,8 @@ TEST(RandomConformance, LinkOfWideClasses) {
   });
 }
 
-// More vertices than fit a word: rows have several, and not all vertices are landmarks.
+// There are more vertices than bits in a word: rows have several words, and not all vertices are
+// landmarks.
 TEST(RandomConformance, LinkOfManyVertices) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(65, 200);
@@ -143,8 +144,8 @@ TEST(RandomConformance, LinkOfManyVertices) {
   });
 }
 
-// Many classes of H1, where a few already count as many: formal from the first on, and solved at
-// once or later.
+// Many classes of H1, with a low limit for "many": cocycles are kept as formal sums from the start,
+// and are solved at once or later.
 TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
   for_each_seed(8000, [&](Generator& random, bool ties, std::int64_t) {
@@ -164,10 +165,10 @@ TEST(RandomConformance, LinkFormally) {
         finite += p.bar.dim == 1 && p.bar.persistence() > 0 && !p.death_cell.empty() ? 1 : 0;
     });
   });
-  EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test is about something
+  EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test covers enough cases
 }
 
-// The same with many classes of edges: lists become rows, more than once.
+// The same test with many classes of edges: lists turn into rows of bits more than once.
 TEST(RandomConformance, LinkFormallyOfManyPoints) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
     const Rips rips(random.distances(random.integer(60, 150), ties));
@@ -184,7 +185,8 @@ TEST(RandomConformance, LinkFormallyOfManyPoints) {
   });
 }
 
-// Enough points for many classes of H2 to live at once; cocycles are rows at once, later or never.
+// There are enough points for many classes of H2 to be alive at once. Cocycles turn into rows of
+// bits at once, later or never.
 TEST(RandomConformance, LinkSurfaces) {
   std::size_t finite = 0;
   for_each_seed(10000, [&](Generator& random, bool ties, std::int64_t field) {
@@ -213,7 +215,7 @@ TEST(RandomConformance, LinkSurfaces) {
       }
     });
   });
-  EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test is about something
+  EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test covers enough cases
 }
 
 Points random_sphere(Generator& random, Index n) {
@@ -226,7 +228,7 @@ Points random_sphere(Generator& random, Index n) {
   return sphere;
 }
 
-// One cocycle with many triangles.
+// A single cocycle with many triangles.
 TEST(RandomConformance, LinkSurfacesOfSpheres) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random_sphere(random, 100));
@@ -265,7 +267,7 @@ TEST(RandomConformance, SimplicialComplexes) {
   });
 }
 
-// Loops and parallel edges are legal here.
+// Loops and parallel edges are allowed here.
 TEST(RandomConformance, FilteredGraphs) {
   for_each_seed(2000, [](Generator& random, bool ties, std::int64_t field) {
     std::vector<double> births(static_cast<std::size_t>(random.integer(1, 9)));
@@ -284,7 +286,7 @@ TEST(RandomConformance, FilteredGraphs) {
     EXPECT_EQ(pairs_of(graph, 1, field, Engine::twist), oracle);
     EXPECT_EQ(pairs_of(graph, 0, field, Engine::union_find),
               pairs_of(graph, 0, field, Engine::standard));
-    // The suite tells cells apart by their vertices: no parallel edges for it.
+    // The suite identifies cells by their vertices, and therefore gets no parallel edges.
     std::set<std::pair<Index, Index>> seen;
     std::erase_if(
         edges, [&](const WeightedEdge& e) { return !seen.insert(std::minmax(e.u, e.v)).second; });
@@ -293,7 +295,7 @@ TEST(RandomConformance, FilteredGraphs) {
   });
 }
 
-// Large enough for the methods that only pay off for many cells.
+// Complexes that are large enough for methods that only pay off for many cells.
 TEST(RandomConformance, MoreCells) {
   Generator random(7);
   for (const bool ties : {true, false}) {
@@ -304,7 +306,7 @@ TEST(RandomConformance, MoreCells) {
   }
 }
 
-// A chain complex over Z/2 that is not a simplicial complex: columns of any length.
+// A chain complex over Z/2 that is not a simplicial complex, with columns of any length.
 TEST(RandomConformance, BoundaryMatrices) {
   for_each_seed(1000, [](Generator& random, bool ties, std::int64_t) {
     BoundaryMatrix m;

@@ -55,7 +55,8 @@ TEST(Invariance, PowersOfTwoScaleExactly) {
   });
 }
 
-// A bar that dies after the threshold never dies; a bar that is born after it does not exist.
+// A bar that dies after the threshold never dies, and a bar that is born after the threshold does
+// not exist.
 TEST(Invariance, AThresholdCutsTheBarcode) {
   for_each_cloud([](Generator& random, const Points& points) {
     const std::vector<Bar> full = rips_bars(points);
@@ -109,7 +110,7 @@ TEST(Invariance, TheOrderOfTheSimplicesDoesNotMatter) {
   });
 }
 
-// The persistent Künneth formula at work: a Rips complex is the flag complex of its edges.
+// A Rips complex has the same bars as the list of its simplices.
 TEST(Invariance, ARipsComplexIsTheListOfItsSimplices) {
   for_each_cloud([](Generator&, const Points& points) {
     const Rips rips(points);
@@ -168,7 +169,7 @@ TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
     EXPECT_NEAR(bars[4].death / scale, std::sqrt(2.0), 1e-12);
     EXPECT_EQ(rips_bars(points, {.threshold = 2 * scale}), bars) << "near pairs find them too";
   }
-  // A tiny square and a far pair.
+  // A tiny square and two points far away.
   const Points both{{0, 0}, {0, 1e-300}, {1e-300, 1e-300}, {1e-300, 0}, {1e300, 0}, {1e300, 1e299}};
   const std::vector<Bar> bars = rips_bars(both);
   ASSERT_EQ(bars.size(), 7U);
@@ -177,8 +178,8 @@ TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
   EXPECT_EQ(bars[6].birth, 1e-300);
 }
 
-// A million copies of one point have 5 * 10^11 edges: within a budget, the result is an immediate
-// error, not an overloaded machine.
+// A million copies of one point have 5 * 10^11 edges. Within a budget, the result is an immediate
+// error; the machine is not overloaded.
 TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
   const Points same = to_points(PointMatrix::Constant(1000000, 3, 2.0));
   RunContext context;
@@ -192,7 +193,7 @@ TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
   EXPECT_LE(context.memory.peak(), context.memory.limit());
 }
 
-// Pairs of equal points, far from all others.
+// Pairs of equal points that are far from all others.
 TEST(DegenerateClouds, ManyPairsOfDuplicatesTakeNearLinearTime) {
   Points pairs(200000, 2);
   for (Index i = 0; i < pairs.rows(); ++i) pairs.set_row(i, {static_cast<double>(i / 2), 0.0});

@@ -12,7 +12,7 @@ using Construction = CubicalOptions::Construction;
 constexpr double kInf = kInfinity;
 constexpr Construction kBoth[] = {Construction::vertices, Construction::cells};
 
-/// An image of side `n` along `dim` axes; `value(coordinates)` for each voxel.
+/// An image of side `n` along `dim` axes, with `value(coordinates)` at each voxel.
 template <class Value>
 Image make_image(int dim, Index n, Value&& value) {
   std::vector<double> values;
@@ -29,7 +29,8 @@ bool is_on_border(const std::vector<Index>& at, Index n) {
   return std::ranges::any_of(at, [n](Index x) { return x == 0 || x == n - 1; });
 }
 
-// The border of a cube of voxels at 0, the inside at 1: a sphere that lives from 0 to 1.
+// The surface of a cube of voxels has value 0, and the inside has value 1: a sphere is alive from 0
+// to 1.
 TEST(KnownImages, ShellsAreSpheres) {
   for (int dim = 2; dim <= 4; ++dim) {
     for (const Construction construction : kBoth) {
@@ -43,7 +44,7 @@ TEST(KnownImages, ShellsAreSpheres) {
   }
 }
 
-// Voxels that never enter remain a hole.
+// Voxels that never enter leave a hole.
 TEST(KnownImages, InfiniteVoxelsAreHoles) {
   for (int dim = 2; dim <= 3; ++dim) {
     for (const Construction construction : kBoth) {
@@ -74,7 +75,7 @@ TEST(KnownImages, BirthsAtMinusInfinity) {
   }
 }
 
-// A ring of voxels, four thick: a solid torus is a circle up to homotopy.
+// A ring of voxels four voxels thick, which is a solid torus and has the homology of a circle.
 TEST(KnownImages, SolidTorus) {
   std::vector<double> values;
   for (Index x = 0; x < 5; ++x)
@@ -93,7 +94,7 @@ TEST(KnownImages, SolidTorus) {
   }
 }
 
-// Voxels that touch at a corner are neighbours as cells but not as vertices.
+// Voxels that touch at a corner are neighbours in the T-construction but not in the V-construction.
 TEST(KnownImages, DiagonalNeighboursTellTheConstructionsApart) {
   const Image diagonal{{2, 2}, {0, 1, 1, 0}};
   const Cubical as_vertices(diagonal), as_cells(diagonal, {.construction = Construction::cells});
@@ -111,7 +112,7 @@ TEST(KnownImages, DiagonalNeighboursTellTheConstructionsApart) {
 
 int binomial(int n, int k) { return k == 0 ? 1 : binomial(n, k - 1) * (n - k + 1) / k; }
 
-// All axes periodic: a torus, down to axes of one voxel, whatever the values.
+// If all axes are periodic, the box is a torus, for any values and even for axes of one voxel.
 TEST(KnownImages, PeriodicBoxesAreTori) {
   Generator random(1);
   const auto expect_torus = [&](const std::vector<Index>& extents) {
@@ -145,7 +146,7 @@ TEST(KnownImages, PeriodicBoxesAreTori) {
   }
 }
 
-// One periodic axis makes a cylinder, of which a circle is left.
+// One periodic axis makes the box a cylinder, which has the homology of a circle.
 TEST(KnownImages, OnePeriodicAxisIsACylinder) {
   for (const Construction construction : kBoth) {
     for (Index around = 1; around <= 4; ++around) {

@@ -11,7 +11,7 @@ using Betti = std::vector<int>;
 using Intervals = std::vector<std::pair<double, double>>;
 constexpr double kInf = kInfinity;
 
-// Whatever the order in which a space is built, the classes left at the end are its homology.
+// In whatever order a space is built, the classes that never die are its homology.
 void expect_homology(const Simplices& space, int top, std::int64_t field, const Betti& expected) {
   for (const auto& complex : {all_at_once(space), vertex_by_vertex(space)}) {
     EXPECT_EQ(complex.top_dim(), top);
@@ -68,8 +68,8 @@ TEST(KnownSpaces, SpheresUpToDimensionFour) {
 
 // ---- Vietoris-Rips
 
-// Adamaszek & Adams, The Vietoris-Rips complexes of a circle: a circle until a third of the way
-// round is one step.
+// Adamaszek & Adams, The Vietoris-Rips complexes of a circle: the complex is a circle as long as
+// edges are shorter than a third of the circle.
 TEST(KnownSpaces, RipsOfACircle) {
   for (const Index n : {4, 5, 6, 7, 9, 12}) {
     const Rips rips(circle(n));
@@ -84,7 +84,8 @@ TEST(KnownSpaces, RipsOfACircle) {
   }
 }
 
-// The complex of the product with the maximum distance is the product of the complexes.
+// With the maximum distance, the complex of a product is the product of the complexes, up to
+// homotopy.
 TEST(KnownSpaces, RipsOfAFlatTorus) {
   const Rips small(FlatSurface{5, 5});
   check(small, 1, {2, 3});
@@ -106,7 +107,7 @@ TEST(KnownSpaces, RipsOfAFlatKleinBottle) {
   EXPECT_EQ(betti_at(persistence(rips, {.max_dim = 2, .field = 11}), 1, 2), (Betti{1, 1, 0}));
 }
 
-// The vertices +-e_k of R^(d+1): opposite ones are 2 apart, others sqrt(2).
+// The vertices +-e_k of R^(d+1): opposite vertices are 2 apart, others sqrt(2).
 TEST(KnownSpaces, RipsOfCrossPolytopes) {
   for (int dim = 1; dim <= 4; ++dim) {
     Points points(2 * (dim + 1), dim + 1);
@@ -139,7 +140,7 @@ TEST(KnownSpaces, RipsOfARegularSimplexIsContractible) {
 
 // ---- lower stars
 
-// The height of the octahedron: a minimum, a maximum, nothing between.
+// The height on the octahedron has a minimum and a maximum, and no other critical point.
 TEST(KnownSpaces, HeightOfASphere) {
   const std::vector<double> height{0, 0, 0, 0, 1, -1};
   const ExplicitComplex mesh = filtered(cross_polytope(2), height);

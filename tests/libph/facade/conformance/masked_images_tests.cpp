@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-/// A small image of which some voxels are absent, others infinite.
+/// A small image in which some voxels are absent and others infinite.
 Image masked_image(Generator& random, const std::vector<Index>& extents, bool ties) {
   Image image = random.image(extents, ties);
   const int share = random.integer(1, 6);
@@ -43,13 +43,13 @@ std::vector<Index> random_extents(Generator& random, int most_axes) {
   return extents;
 }
 
-/// The same numbers as another type, or in memory that counts as a file.
+/// An image with the same numbers in another type, or in memory that counts as a file.
 Image stored_otherwise(Generator& random, const Image& image) {
   Image other = image;
   const std::vector<double> numbers = image.values.doubles();
   if (random.coin()) other.values = std::vector<float>(numbers.begin(), numbers.end());
   if (random.integer(0, 7) == 0) {
-    // Whole pages, which are released during the computation.
+    // Copies the values to whole pages of a file, which are released during the computation.
     const std::size_t bytes = other.values.size() * bytes_of(other.values.type());
     auto file = std::make_shared<ScratchFile>(bytes);
     std::memcpy(file->data(), other.values.data(), bytes);
@@ -67,7 +67,7 @@ TEST(MaskedImages, AreWhatTheDefinitionSays) {
     if (random.integer(0, 3) == 0) options.threshold = random.integer(-1, 2);
     const Image stored = stored_otherwise(random, image);
     Image listed = image;
-    listed.values = stored.values.doubles();  // as floats have them
+    listed.values = stored.values.doubles();  // the values after rounding to floats
     const int max_dim = static_cast<int>(extents.size());
     const Barcode oracle =
         persistence(listed_cubes(listed, options),

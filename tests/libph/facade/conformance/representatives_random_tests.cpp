@@ -25,7 +25,8 @@ TEST(RandomRepresentatives, RipsSurfaces) {
   });
 }
 
-// A class of edges may lose a generator and get it back: its edges must still occur once.
+// A class of edges may lose a generator and get it back. Each of its edges must still occur only
+// once.
 TEST(RandomRepresentatives, RipsOfWideClasses) {
   for_each_seed(16, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random.distances(34, false));

@@ -53,7 +53,7 @@ TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
                              R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
   EXPECT_TRUE(
       contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
-  // Only the cells of these are read back.
+  // Of representatives, only the cells of the bars are read back.
   const Barcode read = back(text);
   EXPECT_EQ(read.representatives(), Representatives::none);
   EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));
@@ -116,7 +116,7 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
       bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
       "expected true or false"));
   EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
-  // Unstated facts are unknown, and are not written.
+  // Facts that a file does not state are unknown, and are not written.
   const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
   EXPECT_EQ(bare.info.complex, "");
   EXPECT_EQ(bare.info.threshold, std::nullopt);
@@ -175,7 +175,7 @@ TEST(ReadBarcode, JsonRefusesDamage) {
 }
 
 TEST(ReadBarcode, CellsThatAreNotKnownStayUnknown) {
-  Barcode rows(CellKind::row);  // of a file without cells
+  Barcode rows(CellKind::row);  // bars from a file without cells
   for (int i = 0; i < 40; ++i) rows.add({0, 1, 2}, {}, {});
   const Barcode read = back(text_of(rows, BarcodeFormat::json));
   EXPECT_EQ(read.size(), 40U);

@@ -51,7 +51,7 @@ TEST(ReadBarcode, EmptyOnesToo) {
   bad_data([] { back("\n# nothing\n"); });
 }
 
-// --significance writes them beside bars.
+// --significance writes p-values beside bars.
 TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
     return read_stored_barcode(Input::view(text, "b.csv"));
@@ -66,7 +66,7 @@ TEST(ReadBarcode, ValuesOfPMayFollow) {
                  "b.csv:2:7"));
 }
 
-// Columns as pandas, R and other programs of this field order and name them.
+// Column names and orders of pandas, R and other programs of the field.
 TEST(ReadBarcode, ColumnsByName) {
   for (const char* text :
        {"birth,death,dim\n0,1,0\n0.5,inf,1\n", ",dim,birth,death\n0,0,0,1\n1,1,0.5,inf\n",
@@ -164,7 +164,7 @@ TEST(ReadBarcode, HeadersAreShownPrintable) {
 }
 
 TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
-  // The header of an array of one row, and its three numbers.
+  // The header of an array with one row, followed by the three numbers of the row.
   const std::string header = text_of(example(), BarcodeFormat::npy).substr(0, 10) +
                              "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }";
   const auto row = [&](double dim, double birth, double death) {
@@ -180,7 +180,7 @@ TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
   EXPECT_TRUE(contains(bad_data([&] { back(square, "b.npy"); }), "shape (3, 1)"));
 }
 
-// CubicalRipser: two positions after each bar, and the largest double for infinity.
+// CubicalRipser writes two positions after each bar, and the largest double in place of infinity.
 TEST(ReadBarcode, RowsWithVoxels) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   for (const std::size_t width : {9, 11}) {

@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// Four bars of three dimensions, with infinite and very small and large numbers.
+/// Four bars in three dimensions, with infinite, very small and very large numbers.
 inline Barcode example(CellKind kind = CellKind::vertices) {
   Barcode barcode(kind);
   const std::array<Index, 2> edge{0, 2};
@@ -21,7 +21,7 @@ inline Barcode example(CellKind kind = CellKind::vertices) {
   return barcode;
 }
 
-/// The file that is written of a barcode.
+/// The content of the file that is written for a barcode.
 inline std::string text_of(const Barcode& barcode, BarcodeFormat format) {
   const TempDir dir;
   OutputFile file(dir.file("barcode").string());

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test.
+/// Creates a separate folder for each test.
 class BarcodeIo : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.file(name).string(); }
@@ -119,8 +119,8 @@ TEST_F(BarcodeIo, FormatsByName) {
 TEST_F(BarcodeIo, JsonStringsAreUtf8) {
   EXPECT_EQ(json::string("\x01\x7f"), "\"\\u0001\\u007f\"");
   EXPECT_EQ(json::string("ü ∞ 😀"), "\"ü ∞ 😀\"");
-  EXPECT_EQ(json::string("\xc0\xaf"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // overlong
-  EXPECT_EQ(json::string("\xe2\x88"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // cut off
+  EXPECT_EQ(json::string("\xc0\xaf"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // an overlong encoding
+  EXPECT_EQ(json::string("\xe2\x88"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // a truncated encoding
 }
 
 TEST_F(BarcodeIo, FileAppearsOnCommit) {

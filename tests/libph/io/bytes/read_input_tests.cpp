@@ -19,8 +19,9 @@ TEST(Printable, EscapesWhatATerminalOrALogWouldObey) {
   EXPECT_EQ(printable("plain \xC3\xA9"), "plain \xC3\xA9");
   EXPECT_EQ(printable("a\nb\tc\rd"), "a\\nb\\tc\\rd");
   EXPECT_EQ(printable("\x1B[31m\x7F\xFF\xC3"), "\\x1B[31m\\x7F\\xFF\\xC3");
-  EXPECT_EQ(printable("\xC2\x9B\xE2\x80\xAE"), "\\xC2\\x9B\\xE2\\x80\\xAE");  // CSI; right to left
-  EXPECT_EQ(printable("\xED\xA0\x80"), "\\xED\\xA0\\x80");                    // a surrogate
+  // A control character (CSI), and a right-to-left override.
+  EXPECT_EQ(printable("\xC2\x9B\xE2\x80\xAE"), "\\xC2\\x9B\\xE2\\x80\\xAE");
+  EXPECT_EQ(printable("\xED\xA0\x80"), "\\xED\\xA0\\x80");  // a surrogate
   EXPECT_EQ(printable(std::string(100, 'x'), 5), "xxxxx...");
 }
 

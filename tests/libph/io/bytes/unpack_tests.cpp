@@ -43,7 +43,7 @@ TEST(Gzip, DamageIsRefused) {
   for (std::size_t i = 2; i < whole.size(); ++i) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
-    // Flags and time of the header may change without harm.
+    // A changed flag or time in the header may do no harm.
     fails_with(ErrorKind::bad_data,
                [&] { EXPECT_EQ(Input::open(dir.write("flipped.gz", bytes)).text(), text) << i; });
   }
@@ -71,7 +71,7 @@ TEST(Input, AStreamOfNulsIsRefusedAtOnce) {
   EXPECT_TRUE(contains(bad_data([&] { Input::open("/dev/zero", &context); }), "NUL bytes"));
   EXPECT_LT(context.memory.peak(), std::size_t{4} << 20);
   EXPECT_LT(std::chrono::steady_clock::now() - start, patience(1));
-  const TempDir dir;  // a file of NULs is told from text by its first bytes
+  const TempDir dir;  // the first bytes show that a file of NULs is not text
   const auto path = dir.write("nul.txt", "");
   std::error_code error;
   std::filesystem::resize_file(path, std::uintmax_t{8} << 30, error);

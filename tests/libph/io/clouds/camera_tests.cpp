@@ -10,7 +10,7 @@
 namespace ph::test {
 namespace {
 
-/// A calibration as written by camera_calibration of ROS.
+/// A calibration file as written by ROS's camera_calibration.
 std::string ros_file(const std::string& model, const std::string& coefficients) {
   return "image_width: 640\nimage_height: 480\ncamera_name: narrow_stereo\n"
          "camera_matrix:\n  rows: 3\n  cols: 3\n"
@@ -20,7 +20,7 @@ std::string ros_file(const std::string& model, const std::string& coefficients) 
          "]\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n";
 }
 
-/// A calibration as printed by `ros2 topic echo`.
+/// A calibration message as printed by `ros2 topic echo`.
 const std::string kTopic =
     "header:\n  stamp:\n    sec: 1\n    nanosec: 5\n  frame_id: camera\nheight: 480\nwidth: 640\n"
     "distortion_model: plumb_bob\nd:\n- 0.0\n- 0.0\n- 0.0\n- 0.0\n- 0.0\nk:\n- 520.5\n- 0.0\n"
@@ -57,12 +57,12 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   for (const std::string& text : {kTopic, kTopic + kTopic, replaced(kTopic, "k:\n", "K:\n"),
                                   replaced(kTopic, "header:", "---\nheader:")})
     expect_usual(camera_of(text));
-  // Texts over several lines, mappings in braces, and colons within words are ignored.
+  // Texts that span several lines, mappings in braces, and colons within words are ignored.
   expect_usual(camera_of(replaced(
       kTopic, "height: 480",
       "by:  # whom\n  a:b: c\nnote: |\n  k: 1\n\n  width: 2\nmore: >-\n  d: 3\nroom: {k: 1}\n"
       "height: 480")));
-  // ROS 1, and OpenCV's FileStorage.
+  // The formats of ROS 1 and of OpenCV's FileStorage.
   expect_usual(
       camera_of("height: 480\nwidth: 640\ndistortion_model: \"plumb_bob\"\nD: [0.0, 0.0]\n"
                 "K: [520.5, 0.0, 318.25, 0.0, 521.5, 241.5, 0.0, 0.0, 1.0]\n"));
@@ -85,7 +85,7 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   for (const char* more : {", 0, 0, 0, 1e-4", ", 0, 0, 0, 0, 0.1, 0"})
     EXPECT_TRUE(contains(bad_data([&] { camera_of(rational(more)); }),
                          "coefficients of rational_polynomial"));
-  // OpenCV's program of calibration says by a switch that the lens is a fisheye.
+  // OpenCV's calibration program marks a fisheye lens by a flag.
   const std::string four = ros_file("x", "0.05, -0.01, 0.002, -0.0005");
   const std::string unnamed = replaced(four, "distortion_model: x", "fisheye_model: 1");
   EXPECT_EQ(camera_of(unnamed).lens.model, Lens::Model::equidistant);
@@ -168,7 +168,7 @@ TEST(Camera, FaultsNameTheirPlace) {
   }
 }
 
-/// The models as their papers and OpenCV's documentation have them.
+/// The lens models as given in their papers and in OpenCV's documentation.
 std::array<double, 2> by_the_book(const Lens& lens, double x, double y) {
   const auto& c = lens.coefficients;
   const double r = std::sqrt(x * x + y * y);
@@ -212,13 +212,13 @@ TEST(Lens, IsStraightenedAgain) {
 }
 
 TEST(Lens, ShowsNothingBeyondItsEdge) {
-  // r (1 - 0.3 r^2) is at most 0.7027.
+  // The largest value of r (1 - 0.3 r^2) is 0.7027.
   const Lens barrel{Lens::Model::polynomial, {-0.3}};
   EXPECT_TRUE(barrel.straightened(0.6, 0, barrel.reach()));
   EXPECT_FALSE(barrel.straightened(0.75, 0, barrel.reach()));
   EXPECT_FALSE(barrel.straightened(0.6, 0.6, barrel.reach()));
-  // r (1 - 0.3 r^2 + 0.03 r^4) rises up to r = 1.2135, falls, and rises again: there are no rays
-  // there.
+  // r (1 - 0.3 r^2 + 0.03 r^4) rises up to r = 1.2135, falls, and rises again: beyond 1.2135, there
+  // are no rays.
   const Lens wide{Lens::Model::polynomial, {-0.3, 0.03}};
   const double edge = wide.bent(1.2135, 0)[0];
   EXPECT_NEAR((*wide.straightened(edge - 0.01, 0, wide.reach()))[0], 1.2135, 0.2);
@@ -235,7 +235,7 @@ TEST(Camera, ScalesToImagesOfItsShape) {
   const Camera half = camera.scaled_to(320, 240);
   EXPECT_EQ(half.intrinsics.fx, 300);
   EXPECT_EQ(half.intrinsics.fy, 301);
-  EXPECT_EQ(half.intrinsics.cx, 159.5);  // the middle stays the middle
+  EXPECT_EQ(half.intrinsics.cx, 159.5);  // the centre stays the centre
   EXPECT_EQ(half.intrinsics.cy, 119.75);
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { camera.scaled_to(640, 360); }));
   const Camera any{{1, 2, 3, 4}};
@@ -249,8 +249,8 @@ TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
   for (const auto& [name, camera, images] : camera_presets()) {
     const Intrinsics& k = camera.intrinsics;
     EXPECT_FALSE(images.empty()) << name;
-    // Kinect v1 and Xtion: the focal length of the colour camera, 525 pixels; depth is registered
-    // to it.
+    // For Kinect v1 and Xtion, the focal length is that of the colour camera, 525 pixels, because
+    // depth is registered to it.
     const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
     EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;
     EXPECT_NEAR(degrees(camera.height, k.fy), realsense ? 42.5 : second ? 60 : 49.1, 0.3) << name;

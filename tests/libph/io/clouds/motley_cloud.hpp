@@ -8,7 +8,8 @@
 
 namespace ph::test {
 
-/// Every type, counts above one, organised, with holes and extreme numbers.
+/// A cloud with fields of every type and with counts above one, organised, with holes and extreme
+/// numbers.
 inline Cloud motley(Index width, Index height, bool wide_integers = true) {
   Cloud cloud;
   cloud.width = width;

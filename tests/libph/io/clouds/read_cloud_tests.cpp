@@ -55,7 +55,7 @@ TEST(Pcd, EveryPrefixIsRejected) {
     std::ostringstream out;
     write_pcd(out, cloud, data);
     const std::string bytes = out.str();
-    // the last number of a text file is complete after each of its digits
+    // In a text file, the last number may end after any of its digits.
     check_prefixes(
         bytes, "c.pcd", [](const Input& in) { read_pcd(in); },
         [&](std::size_t length) { return data == PcdData::ascii && length + 21 > bytes.size(); });
@@ -112,7 +112,7 @@ TEST(Pcd, RefusesBadHeadersBeforeAllocating) {
   EXPECT_EQ(pcd(xyz_header("0", "1", "0", "binary"), {.allow_empty = true}).size(), 0);
 }
 
-// PCL's tools leave zeros up to the end of a page.
+// PCL's tools pad binary data with zeros up to the end of a page.
 TEST(Pcd, BinaryDataMayBePadded) {
   std::ostringstream out;
   write_pcd(out, motley(20, 2), PcdData::binary);
@@ -140,10 +140,10 @@ TEST(Pcd, RefusesLyingCompression) {
         with(4, uncompressed + 1), with(4, 4000000000U), whole + "x"}) {
     bad_data([&] { pcd(bytes); });
   }
-  EXPECT_EQ(pcd(whole + std::string(4000, '\0')).size(), 40);  // PCL pads like that
+  EXPECT_EQ(pcd(whole + std::string(4000, '\0')).size(), 40);  // PCL pads files in this way
   bad_data([&] { pcd(whole + std::string(70000, '\0')); });
-  // Every byte of the compressed data is replaced: the result is an answer or an error, never a
-  // read out of bounds.
+  // Replaces every byte of the compressed data: the reader gives an answer or an error, and never
+  // reads out of bounds.
   for (std::size_t i = start + 8; i < whole.size(); ++i) {
     for (const int value : {0, 31, 32, 255}) {
       std::string bytes = whole;
@@ -151,7 +151,7 @@ TEST(Pcd, RefusesLyingCompression) {
       fails_with(ErrorKind::bad_data, [&] { EXPECT_EQ(pcd(bytes).size(), 40); });
     }
   }
-  // 2000 bytes cannot stand for a gigabyte.
+  // 2000 compressed bytes cannot unpack to a gigabyte.
   const std::string bomb = xyz_header("89478485", "1", "89478485", "binary_compressed") +
                            le(std::uint32_t{2000}) + le(std::uint32_t{1073741820}) +
                            std::string(2000, '\xFF');
@@ -204,7 +204,7 @@ TEST(Cloud, NamesThatAreNoWordsAreWrittenAsDifferentOnes) {
   Cloud cloud = motley(2, 1, false);
   cloud.fields[3].name = "a b";
   cloud.fields[4].name = "a,b";
-  cloud.fields[5].name = "b_1";  // as PLY calls the second number of b
+  cloud.fields[5].name = "b_1";  // PLY's name for the second number of b
   std::ostringstream as_pcd, as_ply;
   write_pcd(as_pcd, cloud);
   write_ply(as_ply, cloud);
@@ -237,7 +237,7 @@ TEST(ReadXyz, NamesColumns) {
   const Cloud named = xyz("label,Z,Y,X\n7,3,2,1\n");
   EXPECT_EQ(points_of(named), (Points{{1, 2, 3}}));
   EXPECT_EQ(points_of(xyz("//X Y Z R G B\n1 2 3 0 0 0\n")), (Points{{1, 2, 3}}));
-  // A column with a name but without values does not replace others.
+  // A column that has a name but no values does not take the place of another.
   EXPECT_TRUE(
       contains(bad_data([&] { xyz("i,x,y,z,note\n9,1,2,3,\n8,4,5,6,\n"); }),
                "c.xyz:2:1: ragged row, found 4 cells, expected 5, as the header has names"));
@@ -247,7 +247,7 @@ TEST(ReadXyz, NamesColumns) {
   }
 }
 
-/// A NumPy file of little-endian numbers in C order.
+/// A NumPy file with little-endian numbers in C order.
 template <class T>
 std::string npy(const std::string& descr, const std::string& shape, const std::vector<T>& values) {
   const std::string header =
@@ -353,7 +353,7 @@ TEST(ReadDepth, RefusesMoreThanOneChannel) {
 
 TEST(CloudFromDepth, CountsWhatCannotBe) {
   const Image depth{{1, 3}, {-1.0, 1.0, 1.0}};
-  // Seen at -1, 0 and 1 focal lengths; the lens shows up to 0.7.
+  // The pixels are at -1, 0 and 1 focal lengths from the centre. The lens shows only up to 0.7.
   const Camera camera{{1, 1, 1, 0}, 3, 1, {Lens::Model::polynomial, {-0.3}}};
   DepthCounts counts;
   const std::vector<float> xyz = cloud_from_depth(depth, {}, camera, 1, &counts).xyz();

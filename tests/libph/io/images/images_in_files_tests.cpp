@@ -43,7 +43,7 @@ std::string npy(const std::string& type, const std::vector<T>& values, bool fort
   return bytes.append(raw, values.size() * sizeof(T));
 }
 
-// Reads it with much memory, then with little.
+// Reads the image with much memory, and then with little.
 void expect_same_in_file(const std::string& name, const std::string& bytes,
                          ReadOptions options = {}) {
   SCOPED_TRACE(name);
@@ -89,7 +89,7 @@ TEST(ImagesInFiles, MaskNan) {
   EXPECT_TRUE(contains(bad_data([&] { read_image(path, {.context = &context}); }), "[0, 0, 5]"));
 }
 
-// A raw image that begins at an odd byte cannot be read in place.
+// A raw image that begins at an odd byte cannot be used in place.
 TEST(ImagesInFiles, OfAnyAlignment) {
   const std::vector<float> values = numbers<float>();
   std::string bytes(3, 'x');
@@ -117,7 +117,7 @@ TEST(ImagesInFiles, ChangeInMemory) {
   EXPECT_EQ(image.values[7], before);
 }
 
-/// Files of some megabytes, of which every second one is broken somewhere.
+/// Files of some megabytes; every second file has a random fault.
 class RandomFiles {
  public:
   struct File {
@@ -163,7 +163,7 @@ class RandomFiles {
     result.insert(result.begin() + static_cast<std::ptrdiff_t>(below(result.size() + 1)), left + 1);
     return result;
   }
-  /// Elements of any bits, or of whole numbers that any type can hold.
+  /// Random elements: any bits, or whole numbers that every type can hold.
   std::string elements(std::size_t count, std::size_t size, bool any_bits) {
     std::string bytes(count * size, '\0');
     const std::size_t step = any_bits ? 1 : size;
@@ -208,8 +208,8 @@ class RandomFiles {
   std::mt19937 random_{3};
 };
 
-// Whatever a file contains, little memory gives the same numbers, or the same message, as much
-// memory.
+// Whatever a file contains, reading with little memory gives the same numbers, or the same message,
+// as with much memory.
 TEST(ImagesInFiles, RandomFilesAndFaults) {
   struct Outcome {
     std::optional<Image> image;
@@ -256,7 +256,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
   EXPECT_LT(refused, 10);
 }
 
-// Images that must be in memory as a whole are still refused.
+// Other computations need the whole image in memory, and are still refused.
 TEST(ImagesInFiles, OtherInputsDoNot) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));
@@ -267,7 +267,8 @@ TEST(ImagesInFiles, OtherInputsDoNot) {
   }
 }
 
-// Images that take between a third of the remaining memory and all of it are read and counted.
+// For such computations, images that take between a third of the remaining memory and all of it are
+// read and counted.
 TEST(ImagesInFiles, OtherInputsAreCounted) {
   std::string text;
   while (text.size() < 600'000) text += "0.25 0.5 0.75\n";

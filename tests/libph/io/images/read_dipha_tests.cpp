@@ -35,7 +35,7 @@ void expect_whole_only(const std::string& bytes) {
 }
 
 TEST(ReadDipha, Images) {
-  // x runs fastest: the value at (x, y) is 10 x + y.
+  // x varies fastest. The value at (x, y) is 10 x + y.
   const std::string bytes = dipha(1, {6, 2, 2, 3}, {0, 10, 1, 11, 2, kInf});
   const ReadResult result = any(bytes);
   EXPECT_EQ(result.format, Format::dipha);
@@ -74,7 +74,8 @@ TEST(ReadDipha, DistanceMatrices) {
 }
 
 TEST(ReadDipha, SparseDistanceMatrices) {
-  // Each pair at both of its points, and a point joined to itself at 0, as DIPHA's tool writes it.
+  // As DIPHA's tool writes it: each pair is listed at both of its points, and a point is joined to
+  // itself at distance 0.
   const std::string bytes = dipha(8, {3, 2, 1, 0, 0, 1, 0}, {0, 1.5, 1.5});
   const ReadResult result = any(bytes);
   const auto& sparse = std::get<SparseDistances>(result.data);
@@ -143,7 +144,7 @@ TEST(ReadDipha, ReadsWhatNpyReads) {
     const Image image = read_image(entry.path());
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(image.values.size()), image.dim()};
     numbers.insert(numbers.end(), image.extents.rbegin(), image.extents.rend());
-    // C order with the axes reversed is x fastest.
+    // With the axes reversed, C order has x fastest.
     const Image back = read_image(Input::view(dipha(1, numbers, image.values.doubles()), "a"));
     ASSERT_EQ(back.dim(), image.dim());
     EXPECT_TRUE(std::equal(back.extents.rbegin(), back.extents.rend(), image.extents.begin()));

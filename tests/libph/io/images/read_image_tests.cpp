@@ -30,7 +30,7 @@ TEST(ReadPgm, BinaryAndText) {
       p5, "a.pgm", [](const Input& in) { read_any(in); }, never());
   check_prefixes(
       p2, "a.pgm", [](const Input& in) { read_any(in); },
-      // Text without its last digits may be whole: 2 and 25 are grey values too.
+      // Text without its last digits may be a valid file, because 2 is a grey value as well as 25.
       [&](std::size_t length) { return length + 3 >= p2.size(); });
 }
 
@@ -156,7 +156,8 @@ TEST(ReadNpz, StoredAndDeflated) {
     check_prefixes(
         bytes, "a.npz", [](const Input& in) { read_any(in); }, never());
     bad_data([&] { read_any(Input::view(bytes + "x", "a.npz")); });
-    for (std::size_t i = 0; i < bytes.size(); ++i) {  // wrong values are never taken
+    // Damaged bytes are never read as wrong values.
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
       std::string flipped = bytes;
       flipped[i] = static_cast<char>(flipped[i] ^ 0x10);
       fails_with(ErrorKind::bad_data, [&] {

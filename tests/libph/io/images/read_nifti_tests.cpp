@@ -74,7 +74,7 @@ TEST(ReadNifti, ScalingKeepsToTheBudget) {
       }
     }
   };
-  // The stored numbers and the result; doubles are scaled in place.
+  // Memory for the stored numbers and the result. Doubles are scaled in place.
   check(2, std::uint8_t{}, voxels * (1 + 8));
   check(4, std::int16_t{}, voxels * (2 + 8));
   check(16, float{}, voxels * (4 + 8));
@@ -88,10 +88,11 @@ TEST(ReadNifti, ScalingIsStopped) {
   context.stop = source.get_token();
   const Input input = held(n.with(std::vector<std::int16_t>(90000)), "a.nii", context);
   context.on_progress = [&](const Progress& progress) {
-    if (progress.done == progress.total)  // everything has been read and only needs to be scaled
+    if (progress.done == progress.total)  // everything has been read, and only scaling is left
       source.request_stop();
     else
-      std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
+      // Reports are at least 100 ms apart.
+      std::this_thread::sleep_for(std::chrono::milliseconds(101));
   };
   std::this_thread::sleep_for(std::chrono::milliseconds(101));
   EXPECT_TRUE(fails_with(ErrorKind::cancelled, [&] { read_nifti(input, {.context = &context}); }));

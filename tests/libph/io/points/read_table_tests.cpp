@@ -47,7 +47,8 @@ TEST(ReadTable, ChoosesColumns) {
   const auto points = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(text, {.columns = std::move(columns)}).data);
   };
-  // A line with a number is a header if it has a requested name; 2 may mean either.
+  // A line with a number is a header if it contains a requested name. The name 2 may mean either a
+  // name or a position.
   EXPECT_EQ(points({"x"}), (Points{{1}, {4}}));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x", "2"}); }));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"z"}); }));
@@ -85,7 +86,7 @@ TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
       contains(bad_data([&] { any(text, {.array = ArrayMeaning::points}); }), "1:1: empty cell"));
   const ReadResult kept = any(text, {.nan = NanPolicy::drop, .array = ArrayMeaning::points});
   EXPECT_EQ(std::get<Points>(kept.data), (Points{{0.5, 0.25}, {1, 2}}));
-  // A line that numbers columns, or stands above rows with names, is a header.
+  // A line of column numbers, or a line above rows that begin with names, is a header.
   EXPECT_EQ(std::get<Points>(any(",1,2\n1,1.5,2\n2,3.5,4\n").data), (Points{{1.5, 2}, {3.5, 4}}));
   const ReadResult labelled =
       any("\"\",\"34\",\"7\"\n\"34\",0,2.5\n\"7\",2.5,0\n", {.array = ArrayMeaning::distances});
@@ -116,7 +117,7 @@ TEST(ReadTable, ATabSeparatesTwoCells) {
             (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1\t2\t\t# c\n\t# c\n3\t4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_TRUE(contains(bad_data([&] { any("1\t\t2\n3\t\t4\n"); }), "write one tab between cells"));
-  // If blanks also separate, a tab is one blank.
+  // In a table separated by blanks, a tab is one of the blanks.
   EXPECT_EQ(std::get<Points>(any("x y\t\n1 2\t\n3 4\t\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("x\t\ty\n1 2\n3 4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1 2\t3\n4\t\t5 6\n\t7 8 9\n").data),
@@ -137,7 +138,7 @@ TEST(ReadTable, LeavesAnIndexOfLevelsOut) {
   const ReadResult result = any(",,x,y\n0,1,5.5,6\n0,2,7,8\n");
   EXPECT_EQ(std::get<Points>(result.data), (Points{{5.5, 6}, {7, 8}}));
   EXPECT_TRUE(says(result, "the first 2 columns have no name"));
-  // R writes names of rows between quotes, and none for their column.
+  // R writes the names of rows in quotes, and no name for their column.
   EXPECT_EQ(std::get<Points>(any("\"x\" \"y\"\n\"7\" 2 3\n\"9\" 4 5\n").data),
             (Points{{2, 3}, {4, 5}}));
   EXPECT_EQ(std::get<Points>(any("id,a,b\n1.0,5,6\n2.0,7,9\n").data), (Points{{5, 6}, {7, 9}}));
@@ -223,14 +224,15 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
                        "from_correlation"));
 }
 
-// Differences that are small compared to the largest entry count as rounding, whatever the entry
-// itself is.
+// Differences count as rounding if they are small compared to the largest entry, even if the entry
+// itself is smaller.
 TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
   const char* correlations = "1,1e-17,0.5\n-2e-17,1,0.25\n0.5,0.25,1\n";
   EXPECT_TRUE(contains(bad_data([&] { any(correlations); }), "from_correlation"));
   EXPECT_EQ(std::get<DistanceMatrix>(any(correlations, {.from_correlation = true}).data)(0, 2),
             0.5);
-  // Entries near 1: their distances are small, and differ by more than 1e-6 of themselves.
+  // Correlations near 1: the two corresponding distances are small, and their relative difference
+  // is more than 1e-6.
   const char* near = "1,0.999999,0.5\n0.9999991,1,0.5\n0.5,0.5,1\n";
   EXPECT_NO_THROW(any(near, {.from_correlation = true}));
 
@@ -248,7 +250,7 @@ TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
            {"0,inf,2\n1,0,3\n2,3,0\n", "t.csv:2:1: asymmetric"}}) {
     EXPECT_TRUE(contains(bad_data([&] { any(text); }), words)) << bad_data([&] { any(text); });
   }
-  // An infinity is not near any number.
+  // Infinity is not close to any number.
   EXPECT_FALSE(says(any(npy("(3, 3)", {5, kInf, 2, 1, 5, 3, 2, 3, 5})), "symmetric"));
   const auto lower = [](const char* text) {
     return read_lower_distances(Input::view(text, "l"))(1, 0);
@@ -271,7 +273,7 @@ TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
   is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column counts the rows");
   EXPECT_TRUE(
       contains(bad_data([] { any("0,1,2\n1,.5,.2\n.5,1,.3\n.2,.3,1\n"); }), "from_correlation"));
-  // Images and points: nothing is left out, but there is a note.
+  // For images and points, nothing is left out, but there is a note.
   const ReadResult slope = read_any(Input::view("0 1 2 3\n1 2 3 4\n2 3 4 5\n", "s"), Format::grid);
   EXPECT_EQ(std::get<Image>(slope.data).extents, (std::vector<Index>{3, 4}));
   EXPECT_EQ(std::get<Points>(
@@ -296,7 +298,7 @@ TEST(ReadTable, NamesOfColumnsHaveOneMeaning) {
   EXPECT_EQ(first(numbered, "0"), 5);
   EXPECT_EQ(first(numbered, "3-3"), 6);
   EXPECT_EQ(first(numbered, "4"), 7);
-  EXPECT_EQ(first("1,2,3\n5,6,7\n8,9,7\n", "2"), 2);  // no header
+  EXPECT_EQ(first("1,2,3\n5,6,7\n8,9,7\n", "2"), 2);  // the file has no header
   const std::string twice = "x,y,x\n5,6,7\n1,2,3\n";
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { first(twice, "x"); }));
   EXPECT_EQ(first(twice, "3"), 7);
@@ -312,7 +314,7 @@ TEST(ReadTable, ColumnsOfWhatIsNoTableAreRefused) {
   std::string dipha;
   for (const std::int64_t word :
        {std::int64_t{8067171840}, std::int64_t{7}, std::int64_t{1}, std::int64_t{0}})
-    dipha += le(word);  // 0: the distance
+    dipha += le(word);  // the last word, 0, is the distance
   const ReadOptions options{.columns = {"1"}};
   const Input cloud = Input::view(ply, "c.ply"), matrix = Input::view(dipha, "m.dipha");
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { read_any(cloud, Format::points, options); }));
@@ -377,7 +379,7 @@ TEST(ReadTable, ArraysAreKnownByShapeAndDiagonal) {
   EXPECT_EQ(kind("(7, 2)", std::vector<double>(14, 1.5)), 3U);
   EXPECT_EQ(kind("(68, 17)", std::vector<double>(68 * 17, 1.5)), 3U);
   EXPECT_EQ(kind("(3, 3)", {0, 1, 2, 1, 0, 3, 2, 3, 0}), 1U);
-  // Damaged distances are not silently read as a picture; zeros are not damage.
+  // Damaged distances are not silently read as a picture. Zeros are not a sign of damage.
   for (const std::vector<double>& damaged :
        {std::vector<double>{0, 1, 2, 1, 0, 3, 2, 4, 0}, {0, .5, -.5, .5, 0, .25, -.5, .25, 0}})
     bad_data([&] { kind("(3, 3)", damaged); });
