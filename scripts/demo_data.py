@@ -5,7 +5,7 @@
 kitten.csv      5 210 points on the surface of a cat whose tail makes a loop (libcgal-demo)
 skull.npy       a CT volume of a skull, 64^3 (libcgal-demo)
 depth.png, color.png   the RGB-D frame Motorcycle of the Middlebury stereo set (python3-skimage)
-table.npy       a synthetic depth image in metres, 525 pixels of focal length: a table with a book, two
+table.npy       a synthetic depth image in metres, focal length 525 pixels: a table with a book, two
                 boxes side by side, two cans and a pen, and a wall behind the table
 """
 import pathlib

@@ -28,14 +28,16 @@ class BadInput : public testing::TestWithParam<Method> {
     EXPECT_EQ(cut(again, again.first_cut).labels, s.cut.labels);
     return s;
   }
-  /// As many segments as there are objects; supervoxels are pieces of them, never fewer.
+  /// Checks that there are as many segments as objects. Supervoxels are pieces of objects, and
+  /// there may be more.
   void expect_objects(const Segmentation& s, std::size_t objects) const {
     if (GetParam() == Method::supervoxels && objects > 0)
       EXPECT_GT(s.cut.segments.size(), objects);
     else
       EXPECT_EQ(s.cut.segments.size(), objects);
   }
-  /// A few voxels alone: too small for a segment, but a supervoxel.
+  /// The number of segments for a few separate voxels, which are too few for a segment but form a
+  /// supervoxel.
   std::size_t a_crumb() const { return GetParam() == Method::supervoxels ? 1 : 0; }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, BadInput,
@@ -49,7 +51,7 @@ std::vector<float> scaled(std::vector<float> xyz, double factor) {
   return xyz;
 }
 
-/// Points of the visible part of a sphere, without anything behind its outline.
+/// Points on the visible part of a sphere, without anything behind its outline.
 std::vector<float> ball(double radius, int count) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -92,15 +94,15 @@ TEST_P(BadInput, NoPlane) {
   const Segmentation s = segmented(ball(0.3, 40000));
   EXPECT_FALSE(s.tree.plane);
   EXPECT_NE(s.plane_note, "");
-  expect_objects(s, 1);  // nothing is removed, the ball is whole
+  expect_objects(s, 1);  // nothing is removed, and the ball is in one piece
   Index points = 0;
   for (const Segment& g : s.cut.segments) points += g.points;
   EXPECT_GT(points, 39000);
 }
 
 TEST_P(BadInput, SeveralPlanes) {
-  // A shelf above the table: the plane with most points is removed, and the other is a segment. Its
-  // points are so near each other that their voxels touch.
+  // A shelf above the table: the plane with the most points is removed, and the other plane is a
+  // segment. Its points are so close to each other that their voxels touch.
   const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
                          2);
   const Segmentation s = segmented(scene.xyz());
@@ -157,7 +159,8 @@ TEST_P(BadInput, MetresForMillimetresAreACrumb) {
 
 TEST_P(BadInput, AbsurdFocalLengths) {
   const std::vector<float> xyz = TableScene::two_boxes().xyz();
-  for (const double factor : {1e-9, 1e-3, 50.0, 1e3, 1e9}) {  // on x and y, as 1/fx has it
+  // A factor for x and y, as a wrong focal length causes.
+  for (const double factor : {1e-9, 1e-3, 50.0, 1e3, 1e9}) {
     std::vector<float> stretched = xyz;
     for (std::size_t i = 0; i < stretched.size(); ++i)
       if (i % 3 != 2) stretched[i] = static_cast<float>(stretched[i] * factor);

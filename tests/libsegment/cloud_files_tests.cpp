@@ -25,7 +25,7 @@ std::vector<std::uint32_t> numbers(const Cloud& cloud, std::string_view name) {
   return values;
 }
 
-/// 3 x 2 points with a hole, a colour whose float is NaN and, if wanted, labels.
+/// A cloud of 3 x 2 points with a hole, a colour that as a float is NaN and, if requested, labels.
 Cloud small_cloud(bool labelled) {
   std::vector<float> xyz(18, 1.5F);
   xyz[3] = xyz[4] = xyz[5] = test::kHole;
@@ -33,7 +33,8 @@ Cloud small_cloud(bool labelled) {
   const std::size_t rgb = cloud.add_field("rgb", FieldType::uint32);
   cloud.fields[rgb].type = FieldType::float32;
   for (std::size_t i = 0; i < 6; ++i) {
-    const std::uint32_t bits = 0xFFFFFF00U + static_cast<std::uint32_t>(i);  // a NaN
+    // As a float, this is NaN.
+    const std::uint32_t bits = 0xFFFFFF00U + static_cast<std::uint32_t>(i);
     std::memcpy(&cloud.data[i * cloud.stride + cloud.fields[rgb].offset], &bits, 4);
   }
   if (labelled) cloud.set_uint32(cloud.add_field("label", FieldType::uint32), {9, 8, 7, 6, 5, 4});
@@ -96,7 +97,7 @@ TEST(WriteCloud, ReadsBackFromPcdAndPly) {
   EXPECT_THROW(write_cloud(folder / "a.txt", cloud, labels), Error);
 }
 
-/// A cloud of one point: a name, a type and a value for each field.
+/// A field of a cloud of one point: its name, its type and its value.
 struct Column {
   std::string name;
   FieldType type;
@@ -151,7 +152,8 @@ TEST(CloudTerms, NormalsHaveTheNamesOfTheFormat) {
   EXPECT_EQ(names_in(ply), "x nx ny nz ");
   EXPECT_EQ(ply.data, one_point(pcd).data);
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, ply)), "x normal_x normal_y normal_z ");
-  // Two of the three labels mean something else, and existing names are not reused.
+  // With only one of the three names, the field is not a normal. Names that exist already are not
+  // used a second time.
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point({{"nx", kSingle, 1}}))), "nx ");
   std::vector<Column> both = pcd;
   for (const char* name : {"nx", "ny", "nz"}) both.push_back({name, kSingle, 1});

@@ -16,7 +16,7 @@ namespace {
 
 using test::TableScene;
 
-/// Four boxes, two of them close together, with noise of a millimetre.
+/// A scene with four boxes, two of which are close together, and noise of a millimetre.
 std::vector<float> cluttered() {
   const TableScene scene({{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}},
                           {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}},
@@ -64,7 +64,8 @@ TEST_P(Invariance, OrderOfThePoints) {
   }
 }
 
-// Method surface takes the noise of depth into account, which does not scale.
+// Uses method paper, because method surface takes the noise of depth into account, which does not
+// scale.
 TEST(Scaling, PowersOfTwo) {
   const std::vector<float> xyz = cluttered();
   const SegmentOptions o{.method = Method::paper};
@@ -107,8 +108,8 @@ TEST_P(Invariance, AllPointsEqual) {
   EXPECT_FALSE(s.tree.plane);
 }
 
-// The pipeline runs on one thread, whatever number is requested; this test checks it. Only the
-// homology of segments uses threads.
+// The pipeline runs on one thread, whatever number of threads is requested, and this test confirms
+// it. Only the homology of segments uses several threads.
 TEST_P(Invariance, Threads) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
@@ -122,7 +123,7 @@ TEST_P(Invariance, Threads) {
 }
 
 TEST(Signatures, AreTheSameForAnyNumberOfThreads) {
-  std::vector<float> xyz;  // a bowl: a loop, and voxels enough for several threads
+  std::vector<float> xyz;  // a bowl, which has a loop and enough voxels for several threads
   for (double a = 0.3; a < 1.57; a += 0.01)
     for (double b = 0; b < 6.2832; b += 0.01)
       for (const double c : {0.15 * std::sin(a) * std::cos(b), 0.15 * std::sin(a) * std::sin(b),

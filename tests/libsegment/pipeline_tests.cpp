@@ -30,7 +30,8 @@ TEST(Pipeline, TwoBoxesOnATable) {
   ASSERT_EQ(s.cut.segments.size(), 2U);
   ASSERT_EQ(s.cut.labels.size(), scene.truth().size());
 
-  // Exactly the points of the boxes that rise above the plane by more than its thickness.
+  // Counts the points of each box that rise above the plane by more than its thickness: exactly
+  // these are labelled.
   std::array<Index, 3> points{};
   for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     const float* p = &scene.xyz()[3 * i];
@@ -47,7 +48,7 @@ TEST(Pipeline, TwoBoxesOnATable) {
   EXPECT_GT(s.cut.segments[1].centroid[0], 0.1);
   EXPECT_TRUE(std::isinf(s.cut.segments[0].persistence));
 
-  // The plane is the table: 45 degrees, one metre away.
+  // The plane is the table: tilted by 45 degrees, one metre away.
   EXPECT_NEAR(s.tree.plane->normal[1], -std::sqrt(0.5), 1e-3);
   EXPECT_NEAR(s.tree.plane->offset, std::sqrt(0.5), 1e-3);
 }
@@ -66,7 +67,7 @@ TEST(Pipeline, StagesAndComplex) {
   EXPECT_EQ(static_cast<Index>(s.barcode.size()), s.tree.vertices.rows());
   EXPECT_EQ(s.tree.merge_tree.size(), s.tree.vertices.rows());
   EXPECT_GT(s.tree.edges, s.tree.vertices.rows());
-  // Every death is one of ten levels.
+  // Every death is one of the ten levels.
   for (const Bar& bar : s.barcode) {
     if (bar.is_infinite()) continue;
     const double level = bar.death / 0.025 * 10;
@@ -75,7 +76,7 @@ TEST(Pipeline, StagesAndComplex) {
 }
 
 TEST(Pipeline, BoxesThatNearlyTouchAreOneSegmentBeyondTheirGap) {
-  // 40 mm apart: separate at 25 mm, joined at 60 mm.
+  // The boxes are 40 mm apart: separate at 25 mm, joined at 60 mm.
   const TableScene scene(
       {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, kPaper).cut.segments.size(), 2U);
@@ -169,13 +170,13 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
   const TableScene scene = TableScene::two_boxes();
   Cloud cloud = scene.cloud();
   EXPECT_EQ(segment(cloud, kPaper).cut.segments.size(), 2U);
-  cloud.viewpoint[2] = 2.5;  // below the table
+  cloud.viewpoint[2] = 2.5;  // a viewpoint below the table
   const Segmentation told = segment(cloud, {.method = Method::paper, .max_range = 5});
   EXPECT_EQ(told.cut.segments.size(), 2U) << "the rays of the pixels tell better";
   EXPECT_TRUE(told.rays_meet_at);
   EXPECT_LT(told.plane_sight.behind, 0.1);
   cloud.width = cloud.size();
-  cloud.height = 1;  // no rays
+  cloud.height = 1;  // without rows, there are no rays
   const Segmentation below = segment(cloud, {.method = Method::paper, .max_range = 5});
   EXPECT_EQ(below.cut.segments.size(), 0U);
   EXPECT_FALSE(below.rays_meet_at);
@@ -186,7 +187,7 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
       2U);
 }
 
-// Points with other numbers beside the coordinates are read in place.
+// Coordinates between other numbers are read in place.
 TEST(Pipeline, AnyStride) {
   const TableScene scene = TableScene::two_boxes();
   const std::vector<float>& xyz = scene.xyz();
@@ -198,7 +199,7 @@ TEST(Pipeline, AnyStride) {
     CloudView cloud{std::span(wide).first(last), {}, TableScene::kWidth, TableScene::kHeight};
     cloud.stride = stride;
     EXPECT_EQ(segment(cloud).cut.labels, expected.cut.labels) << stride;
-    cloud.xyz = wide;  // numbers after the last z do not belong to it
+    cloud.xyz = wide;  // numbers after the last z are not part of the cloud
     ph::test::expect_error(ErrorKind::bad_data, "floats, expected", [&] { segment(cloud); });
   }
   CloudView cloud{xyz, {}};

@@ -7,17 +7,17 @@
 
 #include "ph/segment.hpp"
 
-/// Small scenes with known answers.
+/// Small scenes with known labels.
 namespace ph::segment::test {
 
-/// For the names of tests.
+/// The name of a method, for the names of tests.
 inline const char* name_of(Method method) {
   return method == Method::paper ? "Paper" : method == Method::surface ? "Surface" : "Supervoxels";
 }
 
 inline constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
 
-/// An organised cloud of x, y, z from triples of coordinates.
+/// An organised cloud made of triples of coordinates.
 inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) {
   Cloud cloud;
   cloud.width = width;
@@ -31,20 +31,21 @@ inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) 
   return cloud;
 }
 
-/// An object that a ray may hit: a box aligned with the table.
+/// An object that rays may hit: a box aligned with the table.
 struct Block {
   Vec3 min, max;
 };
 
-/// A camera 1 m from a table, looking down at 45 degrees; the table's coordinates are x right, y
-/// away, z up, its middle at the origin. 320 x 240 pixels, the axes of the cloud are the camera's
-/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) become holes, as do rays
-/// that graze the left and right side of a box, like with real sensors.
+/// A camera 1 m from a table, looking down at 45 degrees. The table's coordinates are x right, y
+/// away and z up, with the origin in its middle. The picture has 320 x 240 pixels, and the axes of
+/// the cloud are those of the camera (x right, y down, z forward). Rays that miss the table (1.2 m
+/// x 1 m) become holes. So do rays that graze the left or right side of a box, as with real
+/// sensors.
 class TableScene {
  public:
   static constexpr Index kWidth = 320, kHeight = 240;
 
-  /// @param finer as many times the pixels along each axis.
+  /// @param finer factor for the number of pixels along each axis.
   explicit TableScene(std::vector<Block> blocks, double finer = 1) : blocks_(std::move(blocks)) {
     width_ = static_cast<Index>(std::lround(kWidth * finer));
     height_ = static_cast<Index>(std::lround(kHeight * finer));
@@ -54,21 +55,22 @@ class TableScene {
              (static_cast<double>(v) + 0.5) / finer - 120);
     }
   }
-  /// A table with two boxes of 10 cm, 20 cm apart, the left one larger.
+  /// A table with two boxes of 10 cm, 20 cm apart; the left box is larger.
   static TableScene two_boxes() {
     return TableScene(
         {{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}, {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}}});
   }
 
   const std::vector<float>& xyz() const { return xyz_; }
-  /// By pixel: -1 nothing, 0 the table, 1… the blocks.
+  /// What each pixel shows: -1 is nothing, 0 the table, and 1… the blocks.
   const std::vector<int>& truth() const { return truth_; }
   Cloud cloud() const { return cloud_of(xyz_, width_, height_); }
 
  private:
-  /// The ray through a pixel, counted from the middle.
+  /// Follows the ray through a pixel; u and v are counted from the middle of the picture.
   void cast(double u, double v) {
-    // Camera at (0, -1/sqrt 2, 1/sqrt 2); forward (0, c, -c), down (0, -c, -c), right (1, 0, 0).
+    // The camera is at (0, -1/sqrt 2, 1/sqrt 2). Forward is (0, c, -c), down is (0, -c, -c), and
+    // right is (1, 0, 0).
     const double c = std::sqrt(0.5);
     const Vec3 eye{0, -c, c};
     const double px = u / 260, py = v / 260;
@@ -111,7 +113,7 @@ class TableScene {
   std::vector<int> truth_;
 };
 
-/// The numbers of all points.
+/// The indices of all points.
 inline std::vector<Index> all_of(const std::vector<float>& xyz) {
   std::vector<Index> points(xyz.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = static_cast<Index>(i);

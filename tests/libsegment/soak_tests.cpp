@@ -13,7 +13,7 @@ namespace {
 
 using test::TableScene;
 
-/// Small frames, each another one.
+/// Small frames that all differ.
 std::vector<std::vector<float>> frames(int count) {
   std::vector<std::vector<float>> result;
   for (int i = 0; i < count; ++i) {
@@ -27,7 +27,7 @@ std::vector<std::vector<float>> frames(int count) {
   return result;
 }
 
-// Bytes that are in use, and bytes that the allocator has from the system.
+// The bytes in use, and the bytes that the allocator holds from the system.
 struct Heap {
   double used, held;
 };

@@ -11,22 +11,22 @@
 
 namespace ph::segment::test {
 
-/// An upright wall on (part of) a circle: a bowl, a cup, a bent sheet. Angles are degrees, 90 is
-/// away from the sensor.
+/// An upright wall on a circle or a part of it: a bowl, a cup, a bent sheet. Angles are in degrees,
+/// and 90 points away from the sensor.
 struct Vessel {
   double x = 0, y = 0, radius = 0.08, height = 0.06;
   double from = 0, to = 360;
-  bool has_lid = false;  ///< or is full
+  bool has_lid = false;  ///< true for a lid, or for a full vessel
 };
 
-/// The objects that a ray may hit.
+/// What a ray may hit.
 enum class Met { nothing, table, outside, inside, bottom, lid };
 
-/// Vessels without a bottom on a table z = 0, seen at 45 degrees from a metre away; the part of the
-/// table visible through an opening looks like a thin bottom.
+/// Vessels without a bottom on a table at z = 0, seen at 45 degrees from a distance of one metre.
+/// The part of the table that is visible through an opening looks like a thin bottom.
 class VesselScene {
  public:
-  /// @param depth of the bottoms below the table, as a shiny one is seen.
+  /// @param depth how far below the table the bottoms appear, as shiny bottoms do.
   explicit VesselScene(std::vector<Vessel> vessels, double depth = 0)
       : vessels_(std::move(vessels)), depth_(depth) {
     for (int v = 0; v < 240; ++v)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The mutants of ph-distance for plant_program_mutants.py, in the form of program_mutants.py."""
+"""The faults that plant_program_mutants.py plants in ph-distance, in the form of
+program_mutants.py."""
 from mutant import found_by
 
 MUTANTS = [

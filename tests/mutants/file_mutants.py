@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Faults in files of other programs, read and written: see program_mutants.py."""
+"""Faults in reading and writing the files of other programs; see program_mutants.py."""
 from mutant import found_by
 
 MUTANTS = [

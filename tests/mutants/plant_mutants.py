@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plants faults (mutants.py) in a copy of libph, one at a time, and demands that the tests find each
-of them.
+"""Plants faults (mutants.py) in a copy of libph, one at a time, and demands that the tests find
+each of them.
 
-    plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
+plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
-A mutant is killed if its test program fails or runs into the time limit. It counts as a
-failure if the tests pass, if it does not compile, or if its anchor (mutant.py) or the text it
-replaces is not found exactly once: then the code has moved on and the mutant must follow. Exit code
-0 if all were killed. --check builds nothing. It only sees whether each mutant can be planted, also
-the mutants of program_mutants.py, and whether each anchor has a mutant.
+A mutant is killed if its test program fails or runs into the time limit. It counts as a failure if
+the tests pass or the mutant does not compile. So it does if its anchor (mutant.py) or the text to
+replace does not occur exactly once, because then the sources have changed and the mutant must be
+adapted. The exit code is 0 if all mutants were killed. --check builds nothing. It only tests that
+each mutant can be planted, including the mutants of program_mutants.py, and that each anchor has a
+mutant.
 """
 import argparse
 import os
@@ -26,9 +27,9 @@ from mutants import MUTANTS
 from program_mutants import MUTANTS as PROGRAM_MUTANTS
 
 ROOT = Path(__file__).resolve().parents[2]
-TIME_LIMIT = 90  # seconds a test program may run
+TIME_LIMIT = 90  # seconds that a test program may run
 
-# Rooms of libph/src.
+# The folders of libph/src.
 SOURCES = ["core", "gpu", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "vectors",
            "significance", "loops"]
 HAS_CGAL = Path("/usr/include/CGAL").is_dir()
@@ -55,7 +56,8 @@ def flags_of(package):
 
 
 def write_build(tree, programs):
-    """A build with relative names only, so that a copy of the folder is also up to date."""
+    """Writes a build file with only relative names, for which a copy of the folder is up to date as
+    well."""
     includes, libraries = [], []
     for package in ("eigen3", "fmt", "gtest_main"):
         found = flags_of(package)
@@ -86,9 +88,10 @@ def build(tree, programs, jobs):
 
 
 def passes(tree, program):
-    """True or False; None if the time limit was reached."""
+    """True if the tests pass, False if they fail, None if they reached the time limit."""
     try:
-        # Tests of speed and of stopping do not concern mutants, and are slow without optimisation.
+        # Tests of speed and of stopping are left out: they do not concern mutants, and are slow
+        # without optimisation.
         command = [f"./{program}", "--gtest_fail_fast", "--gtest_brief=1",
                    "--gtest_filter=-RunContexts.*:*LinearTime*:*Duplicates*:*LongChains*:*WideCells*"]
         return subprocess.run(command, cwd=tree, capture_output=True, text=True,
@@ -98,7 +101,7 @@ def passes(tree, program):
 
 
 def check(anchors):
-    """@return the exit code."""
+    """Checks that all mutants can be planted. @return the exit code."""
     mutants = MUTANTS + PROGRAM_MUTANTS
     lost = []
     for mutant in mutants:
@@ -118,7 +121,8 @@ def try_mutant(base, mutant, anchors):
         return f"NOT PLANTED: {why}"
     tree = Path(tempfile.mkdtemp(prefix="mutant-", dir=base.parent))
     try:
-        shutil.copytree(base, tree, dirs_exist_ok=True)  # keeps times: only the mutant is rebuilt
+        # Keeps the times of files: only the mutant is rebuilt.
+        shutil.copytree(base, tree, dirs_exist_ok=True)
         (tree / file).write_text(text)
         if (result := build(tree, [mutant.test], 1)).returncode != 0:
             return "DOES NOT COMPILE: " + result.stdout[-600:]

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plants faults (program_mutants.py) in a copy of the repository, one at a time, builds the programs, and demands that
-the tests of programs, readers and the segmentation find each of them.
+"""Plants faults (program_mutants.py) in a copy of the repository, one at a time, builds the
+programs, and demands that the tests of programs, readers and the segmentation find each of them.
 
-    plant_program_mutants.py [--jobs N] [NAME...]     (names of mutants; default: all)
+plant_program_mutants.py [--jobs N] [NAME...]     (names of mutants; default: all)
 
-Exit code 0 if all were killed. See plant_mutants.py, which does the same for engines and complexes.
+The exit code is 0 if all mutants were killed. plant_mutants.py does the same for engines and
+complexes.
 """
 import argparse
 import subprocess
@@ -33,13 +34,13 @@ def copy_tracked(tree):
 
 
 def built(tree, targets, jobs):
-    """@return what the compiler said if it failed, else nothing."""
+    """@return the compiler's messages if it failed, otherwise nothing."""
     result = run("cmake", "--build", tree / "build", "-j", str(jobs), "--target", *targets)
     return result.stdout[-600:] if result.returncode else ""
 
 
 def tests_pass(tree, tests):
-    """@param tests a test program that was built, or the name of a test."""
+    """@param tests the path of a test program, or the name of a test."""
     for program in (tree / "build/tests").glob(f"**/{tests}"):
         if program.is_file():
             return run(program, "--gtest_fail_fast", "--gtest_brief=1").returncode == 0

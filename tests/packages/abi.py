@@ -3,13 +3,13 @@
 """Checks that the binary interface of libph_c.so still fits programs that were linked with it:
 abi.py --library FILE.so.
 
-`abidiff` compares the library with ph_c.abi, which `abidw` wrote for an older one. Functions and
-enumerators may be added. ph_options may grow at its end, because ph_options_init tells how much of
-it the caller knows. Any other change needs a new PH_ABI_VERSION and a new ph_c.abi, which `abi.py
---library FILE.so --write` writes; `ctest -R packages.abi -V` shows the name of the file.
+`abidiff` compares the library with ph_c.abi, which `abidw` wrote for an older library. Functions
+and enumerators may be added. ph_options may grow at its end, because ph_options_init tells how much
+of it the caller knows. Any other change needs a new PH_ABI_VERSION and a new ph_c.abi, which
+`abi.py --library FILE.so --write` writes; `ctest -R packages.abi -V` shows the name of the file.
 
---plant changes ph_c.abi, as if the library had been different, and requires that changes which
-break programs are found and other changes pass.
+--plant changes ph_c.abi, as if the older library had been different. It requires that changes that
+break programs are found and that other changes pass.
 """
 import argparse
 import re
@@ -37,7 +37,7 @@ def description_of(library):
 
 
 def with_members(text, count, size):
-    """The same with no more than the first members of ph_options."""
+    """The description with only the first members of ph_options."""
     body = OPTIONS.search(text)
     kept = body[0]
     for member in list(MEMBER.finditer(body[0]))[count:]:
@@ -58,7 +58,7 @@ def without_new_enumerators(now, before):
 
 
 def difference(before, now):
-    """@return the output of abidiff, and True if it found a change that breaks programs."""
+    """@return the output of abidiff, and whether it found a change that breaks programs."""
     old, new = OPTIONS.search(before), OPTIONS.search(now)
     known = len(MEMBER.findall(old[0]))
     if len(MEMBER.findall(new[0])) > known and int(new[1]) > int(old[1]):

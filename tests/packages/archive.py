@@ -3,9 +3,9 @@
 """Checks the files of an archive of the sources: archive.py ROOT [ARCHIVE.tar.xz].
 
 Without an archive, it checks what `git archive` would contain. The archive has all files in git,
-except debian/ and hidden files of the root. It has no built files, except the page of the reports
-and the files of npm packages in it. Names and times do not reveal who made it. Exit code 77: not a
-git clone.
+except debian/ and hidden files in the root. It has no built files, except the report page and the
+files of npm packages in it. Names and times do not reveal who made it. Exit code 77: the root is
+not a git clone.
 """
 import io
 import re

@@ -3,11 +3,11 @@
 """Checks that the contents listed by scripts/sbom.py agree with the symbols that `nm` finds:
 check_sbom.py BUILD.
 
-The bill is made of the linker's maps and of dependencies. Here the symbols are looked at. Each
-symbol that a program defines has to be ours, or of an archive of a package that the bill names, by
-`dpkg -L`. Headers leave symbols in their namespaces; the font and the page leave their names. Then
-each package is removed from the bill, which must be noticed. The bill has the fields that SPDX 2.3
-requires.
+The bill of materials is made from the linker's maps and from dependencies; this check looks at
+symbols instead. Each symbol that a program defines must be ours, or must come from an archive in a
+package that the bill names (found with `dpkg -L`). Code in headers leaves symbols in its namespace;
+the font and the page leave symbols with their names. Then each package in turn is removed from the
+bill, and the check must notice it. The bill has the fields that SPDX 2.3 requires.
 """
 import json
 import re
@@ -17,12 +17,13 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# By the linker, and by the start of a program.
+# Symbols that the linker and the start code define.
 OF_THE_LINKER = re.compile(r"_(end|edata|etext|GLOBAL_OFFSET_TABLE_|DYNAMIC|init|fini|start)|end|edata|etext"
                            r"|__(bss_start|data_start|dso_handle|ehdr_start|TMC_END__|GNU_EH_FRAME_HDR"
                            r"|(preinit|init|fini)_array_(start|end)|rela_iplt_(start|end)"
                            r"|(start|stop)___libc\w*|start_\w+|stop_\w+)|data_start")
-# Namespaces of code that comes in headers; None: of an archive, which symbols are looked up in.
+# Namespaces of code in headers, with their packages. None: the code is in an archive, in which
+# symbols are looked up.
 NAMESPACES = {"CLI": "libcli11-dev", "Eigen": "libeigen3-dev", "fmt": "libfmt-dev", "ph": None,
               "std": None, "__gnu_cxx": None}
 TRACES = {"fonts-dejavu-core": "DejaVu Sans".encode("utf-16-be"), "three": b"three.js authors"}
@@ -34,7 +35,7 @@ def output_of(*command):
 
 
 def symbols_of(*files):
-    """Exported symbols, as the linker names them."""
+    """The exported symbols of some files, as the linker names them."""
     found = set()
     for line in output_of("nm", "--defined-only", "--extern-only", "--quiet", *files).splitlines():
         words = line.split()
@@ -50,7 +51,7 @@ def archives_of(package):
 
 
 class Evidence:
-    """The contents of the programs of a build, from any source."""
+    """Evidence of what the programs of a build contain, from all sources."""
 
     def __init__(self, build):
         programs = [path.with_suffix("") for path in sorted(build.glob("apps/*/*.map"))]
@@ -60,7 +61,7 @@ class Evidence:
         ours = [path for path in build.rglob("*.a")] + list(build.glob("apps/*/CMakeFiles/*.dir/main.cpp.o"))
         own = symbols_of(*ours)
         self.symbols = symbols_of(*programs)
-        # The length before a name tells where the name ends.
+        # In a mangled name, the length of a namespace precedes it.
         self.namespaces = {match[2][:int(match[1])] for name in self.symbols & own
                            if (match := re.match(r"_ZNK?(\d+)(\w+)", name))}
         self.foreign = {name for name in self.symbols - own if not OF_THE_LINKER.fullmatch(name)}

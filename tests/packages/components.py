@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that each component of an installation is complete, and that together they are the whole:
-components.py BUILD FOLDER.
+"""Checks that each component of an installation is complete, and that the components together make
+the whole: components.py BUILD FOLDER.
 
-A file that has no component, or two, would be in no package or in two.
+A file without a component would be in no package, and a file in two components would be in two
+packages.
 """
 import re
 import shutil
@@ -11,8 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-DOC = "share/doc/libph(-doc)?"  # debian/rules has the longer name
-# The least content of each component, and everything that it may contain, as regular expressions.
+DOC = "share/doc/libph(-doc)?"  # the longer name is that of debian/rules
+# The least content of each component, and all that it may contain, as regular expressions.
 HAS = {
     "c": ([r"lib/.*libph_c\.so\.1"], r"lib/([^/]+/)?libph_c\.so\.\d[\d.]*"),
     "dev": ([r"include/ph/ph\.hpp", r"include/ph/ph\.h", r".*/libph_core\.a", r".*/libph_c\.so",

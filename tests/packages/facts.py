@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Checks that facts stated in several places agree: facts.py ROOT, or facts.py --plant ROOT.
 
-* The version is that of project() in CMakeLists.txt, and the version of the C interface is one number.
+* The version is that of project() in CMakeLists.txt, and the version of the C interface is one
+  number.
 * debian/control requires what CMake searches for and what scripts/setup.sh installs.
-* debian/copyright names the copyright of others: of files that state one, and of npm packages that
-  are in the page. Its patterns match something. Its licence is LICENSE.
+* debian/copyright names the copyright holders of files that state others than ours, and of npm
+  packages in the page. Each of its patterns matches a file. Its licence is LICENSE.
 * debian/rules makes each package of debian/control from a component.
 
---plant puts one fault after another into a copy and requires that it is found. Exit code 77: no
-debian/, as in an archive of the sources.
+--plant plants one fault after another in a copy, and requires that each is found. Exit code 77:
+debian/ is missing, as in an archive of the sources.
 """
 import fnmatch
 import json
@@ -19,20 +20,21 @@ import sys
 import tempfile
 from pathlib import Path
 
-# The dependencies in CMakeLists.txt, and the Debian packages that have them.
+# The dependencies in CMakeLists.txt, and the Debian packages that provide them.
 FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "PNG": "libpng-dev",
          "Freetype": "libfreetype-dev", "CLI11": "libcli11-dev", "pybind11": "pybind11-dev",
          "PCL": "libpcl-dev", "GTest": "libgtest-dev", "Python3": "python3-dev", "Threads": None,
          "CGAL": "libcgal-dev",
-         "benchmark": None, "MPI": None, "CUDAToolkit": None}  # off in debian/rules
-# Components that are in no package: each cluster has an MPI of its own.
+         "benchmark": None, "MPI": None, "CUDAToolkit": None}  # turned off in debian/rules
+# Components that are in no package; for example, each cluster has its own MPI.
 OF_NO_PACKAGE = {"licence", "mpi"}
 # Folders whose targets belong to no package.
 NOT_PACKAGED = {"bench", "violations", "build", "install", "node_modules"}
-# Packages in debian/control alone, or in scripts/setup.sh alone: a compiler is always there.
+# Packages listed only in debian/control, and packages listed only in scripts/setup.sh; a compiler
+# is always installed for a Debian build.
 FOR_DEBIAN = {"debhelper-compat", "dh-sequence-python3"}
 FOR_PEOPLE = {"build-essential", "ccache", "pkg-config"}
-# Only an archive has these, see scripts/package.sh.
+# Only an archive of the sources has these files, see scripts/package.sh.
 IN_ARCHIVE = {"viewer/build/report-template.html"}
 HOLDERS = {"The libph authors"}
 COMMENT = r"^[ \t]*(?:#|//|/?\*|<!--)[ \t]*"
@@ -119,7 +121,8 @@ def dependencies(root):
 
 
 def stanzas(root):
-    """@return [(patterns, holders, licence)] of the paragraphs with Files, in their order."""
+    """@return [(patterns, holders, licence)] of the paragraphs with Files, in the order of the
+    file."""
     found = []
     for paragraph in re.split(r"\n\s*\n", read(root, "debian/copyright")):
         fields = dict(re.findall(r"^([A-Z][\w-]*): *((?:.*)(?:\n .*)*)", paragraph, re.M))
@@ -188,7 +191,7 @@ def faults_of(root):
     return [fault for check in CHECKS for fault in check(root)]
 
 
-# A file, what is replaced in it, by what, and what is then said.
+# Planted faults: the file, the text to replace, its replacement, and the expected message.
 PLANTED = [
     ("debian/changelog", "libph (", "libph (9.", "debian/changelog: found version"),
     ("CITATION.cff", "\nversion: ", "\nversion: 9.", "CITATION.cff: found version"),

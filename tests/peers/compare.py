@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Compares libph's barcodes with those of another program: compare.py ripser|gudhi CASES
 
-Exits with 77 if that program is not installed.
+Exits with 77 if the other program is not installed.
 """
 import json
 import math
@@ -18,7 +18,7 @@ SKIPPED = 77
 
 
 def normal(bars):
-    """A barcode as a sorted list of (dim, birth, death): no empty bars."""
+    """A barcode without empty bars, as a sorted list of (dim, birth, death)."""
     return sorted((int(d), b, e) for d, b, e in bars if b < e)
 
 
@@ -29,8 +29,8 @@ def ripser_bars(case, folder):
         for i in range(1, case["points"]):
             file.write(",".join(f"{d:.0f}" for d in case["lower"][at:at + i]) + "\n")
             at += i
-    # Named explicitly, because without the option Debian's 1.2.1 reads a different format than its
-    # help says; it also aborts on --dim 0.
+    # The format is named explicitly: without the option, Debian's Ripser 1.2.1 reads another format
+    # than its help states. It also aborts on --dim 0.
     command = ["ripser", "--format", "lower-distance", "--dim", str(max(1, case["max_dim"]))]
     if case["threshold"] is not None:
         command += ["--threshold", str(case["threshold"])]
@@ -74,14 +74,14 @@ def gudhi_bars(case):
         for vertices, value in case["simplices"]:
             tree.insert([int(v) for v in vertices], value)
         top = tree.dimension()
-    # Its highest dimension may be cut off: compute it, then leave it out.
+    # The highest dimension of GUDHI's complex may be cut off: it is computed, and then left out.
     pairs = tree.persistence(homology_coeff_field=field, min_persistence=0,
                              persistence_dim_max=True)
     return normal((d, b, e) for d, (b, e) in pairs if d <= top)
 
 
 def distance_failures(cases):
-    """Counts the bottleneck distances that differ from GUDHI's, which are exact but for
+    """The number of bottleneck distances that differ from GUDHI's, which are exact up to
     rounding."""
     import gudhi
 

@@ -9,7 +9,7 @@ import math
 import sys
 
 SKIPPED = 77
-NEAR = 1e-12  # relative; squares of coordinates count as well, where weights are taken off
+NEAR = 1e-12  # relative; with weights, relative to the squares of coordinates
 
 
 def gudhi_bars(case):
@@ -24,7 +24,8 @@ def gudhi_bars(case):
 
 
 def groups(first, second, least):
-    """Bars of both whose births are the same but for rounding, as two lists of (birth, death)."""
+    """Groups of bars whose births are equal up to rounding, each as two lists of (birth, death):
+    the bars of the first and of the second barcode."""
     both = sorted([(b, e, 0) for b, e in first] + [(b, e, 1) for b, e in second])
     group = [[], []]
     last = None
@@ -38,7 +39,7 @@ def groups(first, second, least):
 
 
 def difference(case, ours, theirs):
-    """The fault, or None. Bars that rounding may have created do not count."""
+    """What is wrong, or None. Bars that may have been created by rounding do not count."""
     largest = max(abs(x) for row in case["points"] for x in row) ** 2
     least = 1e-15 * largest
     if case["weights"]:

@@ -69,7 +69,7 @@ void write_cloud(std::ostream& out, Kind kind, Index n, bool weighted, std::int6
     const Index of = is_copy ? random.integer(0, static_cast<int>(i) - 1) : i;
     for (Index k = 0; k < dim; ++k) {
       points(i, k) = is_copy ? points(of, k) : x[static_cast<std::size_t>(k)];
-      embedded(i, 2 - k) = points(i, k);  // turned, without rounding
+      embedded(i, 2 - k) = points(i, k);  // rotated without rounding
     }
   }
   AlphaOptions options{.unit = AlphaOptions::Unit::squared};

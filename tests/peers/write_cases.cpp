@@ -43,7 +43,7 @@ std::string bars(const Barcode& barcode) {
   return text + "]";
 }
 
-/// Distances that other programs read, store as single precision and print without loss.
+/// A distance that other programs can read, store in single precision and print without loss.
 double distance(Generator& random, bool ties) {
   return ties ? random.integer(0, 4) : random.integer(1, 99999);
 }
@@ -109,7 +109,7 @@ void write_simplices(std::ostream& out, const SimplexList& simplices, std::int64
   out << '\n';
 }
 
-/// A known space with random values of the vertices.
+/// A known space with random values at its vertices.
 SimplexList random_heights(Generator& random, const Simplices& space) {
   std::set<std::vector<Index>> faces;
   std::vector<double> height(static_cast<std::size_t>(vertex_count(space)));
@@ -142,7 +142,7 @@ void write_distance(std::ostream& out, Generator& random) {
     return bars;
   };
   const std::vector<Bar> first = diagram({}, random.integer(0, 40));
-  // Often most bars are in both.
+  // In about half of the cases, most bars are in both diagrams.
   const std::vector<Bar> second =
       diagram(random.coin() ? first : std::vector<Bar>(), random.integer(0, 12));
   const auto pairs = [](const std::vector<Bar>& bars) {

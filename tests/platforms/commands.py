@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Commands whose outputs must be the same bytes wherever the programs were compiled.
+"""Commands whose output must be the same, byte for byte, wherever the programs were compiled.
 
-They read the files of examples/data, a sample of each format, random inputs of each kind of complex
-(those that tests/random_runs compares with the definition), and inputs whose values are rounded, so
-that a different order of computation would show.
+They read the files of examples/data, a sample of each format, random inputs for each kind of
+complex (those that tests/random_runs compares with the definition), and inputs with rounded values,
+which would reveal a different order of computation.
 """
 import dataclasses
 import math
@@ -25,12 +25,13 @@ VECTORISE, DISTANCE = "apps/vectorise/ph-vectorise", "apps/distance/ph-distance"
 
 @dataclasses.dataclass
 class Command:
-    """Files that are written begin with `out`."""
+    """A command and its inputs. The names of output files begin with `out`."""
     words: list
-    inputs: dict = dataclasses.field(default_factory=dict)  # beside those of examples/data: bytes by name
-    may_refuse: bool = False  # by exit code 64: the complex lacks what is asked for
-    # Values come from exp, log, pow, hypot or sin of the C library, whose last bits depend on the
-    # processor: glibc's differ on a processor without fused multiply-add.
+    # In addition to those of examples/data: bytes by name.
+    inputs: dict = dataclasses.field(default_factory=dict)
+    may_refuse: bool = False  # with exit code 64, if the complex lacks what is requested
+    # Values come from exp, log, pow, hypot or sin of the C library. Their last bits depend on the
+    # processor: glibc's results differ on a processor without fused multiply-add.
     of_library: bool = False
 
 
@@ -80,7 +81,7 @@ PROGRAMS = {"ph-barcode": BARCODE, "ph-segment": SEGMENT}
 
 
 def of_samples():
-    """A file of each format. Barcodes are for programs that read them."""
+    """Commands that read a file of each format. Barcodes go to programs that read them."""
     for sample in samples.SAMPLES:
         inputs = {sample.name: sample.content}
         for name in sample.needs:
@@ -93,7 +94,7 @@ def of_samples():
 
 
 def of_random_inputs(count):
-    """Small inputs of each kind, with cycles or cocycles where there are some."""
+    """Commands with small inputs of each kind, with cycles or cocycles where these are possible."""
     for kind, job_of in jobs.KINDS.items():
         for seed in range(count):
             job = job_of(random.Random(seed))
@@ -103,7 +104,7 @@ def of_random_inputs(count):
 
 
 def rows(numbers):
-    """Each digit of a double."""
+    """Numbers as lines of text, with all digits of each double."""
     return "".join(",".join(map(repr, row)) + "\n" for row in numbers).encode()
 
 
@@ -112,7 +113,7 @@ def grid(numbers, *shape):
 
 
 def of_rounded_values():
-    """Coordinates, distances and voxels that use all bits of a double."""
+    """Commands with coordinates, distances and voxels that use all bits of a double."""
     rng = random.Random(1)
     planar, spatial, many = ({"a.csv": rows([[rng.gauss(0, 1) for _ in range(dim)] for _ in range(count)])}
                              for dim, count in ((2, 200), (3, 120), (8, 60)))

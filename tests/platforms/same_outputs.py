@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Checks that the programs of two builds print and write the same bytes.
 
-same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…]. Compared are exit code, standard output and error,
-and each file that is written, but for times and memory, over the commands of commands.py, or each Nth
-of them. EMULATOR runs the programs of OTHER. Numbers of the C library's functions may differ by 1e-13
-of their size, or by 1e-100; it is said how many outputs do. Where OTHER is built without CGAL, as for other
-platforms, commands with alpha complexes are left out, and counted. So are those that OTHER has not
-done after S seconds. The last line has the counts. Exit code 0 if nothing else differs.
+same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…] runs the commands of commands.py,
+or every Nth of them. It compares exit codes, standard output, standard error and each written file,
+except for times and memory. EMULATOR runs the programs of OTHER. Numbers from functions of the C
+library may differ by 1e-13 of their size, or by 1e-100; the number of such outputs is printed. If
+OTHER is built without CGAL, as for other platforms, commands with alpha complexes are left out and
+counted. So are commands that OTHER has not completed after S seconds. The last line has the counts.
+The exit code is 0 if nothing else differs.
 """
 import argparse
 import itertools
@@ -21,25 +22,25 @@ from pathlib import Path
 
 from commands import DATA, commands
 
-# Properties of a run, not of its result: times, and memory, which a forecast measures on a part of
-# the input.
+# Properties of a run instead of its result: times, and memory, which a forecast measures on a part
+# of the input.
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
 TRIANGULATED = {"alpha", "delaunay-cech", "delaunay-rips"}
-NEAR = 1e-13  # of the size
-NOTHING = 1e-100  # exp(-300) has fewer right digits than exp(-1)
+NEAR = 1e-13  # relative to the size of the number
+NOTHING = 1e-100  # exp(-300) has fewer correct digits than exp(-1)
 NUMBER = re.compile(rb"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 
 def result_of(build, emulator, command, seconds=None):
-    """Exit code, outputs and files as bytes, by name. @throws subprocess.TimeoutExpired"""
+    """The exit code, outputs and files as bytes, by name. @throws subprocess.TimeoutExpired"""
     with tempfile.TemporaryDirectory() as folder:
         for file in DATA.iterdir():
             Path(folder, file.name).symlink_to(file)
         for name, content in command.inputs.items():
             Path(folder, name).write_bytes(content)
         program = build / command.words[0]
-        if not program.exists():  # for Windows
+        if not program.exists():  # on Windows
             program = program.with_name(program.name + ".exe")
         run = subprocess.run([*emulator, str(program), *command.words[1:]], cwd=folder,
                              capture_output=True, check=False, timeout=seconds)
@@ -53,7 +54,7 @@ def without_measurements(content):
 
 
 def doubles_of(array):
-    """The numbers of an NPY file of doubles, and the bytes before them; None for other files."""
+    """The doubles of an NPY file, and the bytes before them; None for other files."""
     start = 10 + int.from_bytes(array[8:10], "little")
     if not array.startswith(b"\x93NUMPY\x01") or b"'<f8'" not in array[:start] or (len(array) - start) % 8:
         return None
@@ -66,7 +67,7 @@ def are_near(ours, theirs):
 
 
 def are_close(ours, theirs):
-    """True if two texts or arrays are equal, up to numbers that are nearly equal."""
+    """True if two texts or arrays are equal, except that numbers may be only nearly equal."""
     arrays = doubles_of(ours), doubles_of(theirs)
     if None not in arrays:
         return arrays[0][0] == arrays[1][0] and are_near(arrays[0][1], arrays[1][1])
@@ -81,8 +82,8 @@ def lacks_alpha(command, theirs):
 
 
 def compare(command, ours, theirs):
-    """@return the differences, one per line, and the number of outputs with permitted differences
-    in last bits."""
+    """@return the differences, one per line, and the number of outputs that differ only in last
+    bits, which is permitted."""
     words = " ".join(command.words)
     faults, close = [], 0
     if ours["exit code"] not in ((b"0", b"64") if command.may_refuse else (b"0",)):
@@ -129,7 +130,7 @@ def main():
         some_faults, some_close = compare(command, ours, theirs)
         faults += some_faults
         close += some_close
-    if refused * 4 > count:  # what is refused compares one line
+    if refused * 4 > count:  # for a refused command, only a single line is compared
         faults.append(f"found {refused} of {count} commands refused, expected fewer than a quarter")
     differ = sum(not line.startswith("  ") for line in faults)
     in_last_bits = f", {close} in the last bits of functions of the C library" if close else ""

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Checks that a chain represents a bar, by the definitions of docs/reference/conventions.md. Uses
-filtrations from oracle.py, and shares nothing with libph."""
+"""Checks that a chain represents a bar, by the definitions of docs/reference/conventions.md. It
+uses filtrations from oracle.py, and shares nothing with libph."""
 import math
 
 import oracle
 
 
 class Unfit(Exception):
-    """A chain that does not represent its bar, and why."""
+    """A chain that does not represent its bar; the message says why."""
 
 
 def add(chain, cell, number, prime):
@@ -19,7 +19,7 @@ def add(chain, cell, number, prime):
 
 
 def boundary(chain, boundary_of, prime):
-    """@param boundary_of(cell) pairs (facet, coefficient)."""
+    """The boundary of a chain. @param boundary_of(cell) pairs (facet, coefficient)."""
     result = {}
     for cell, number in chain.items():
         for facet, coefficient in boundary_of(cell):
@@ -28,9 +28,9 @@ def boundary(chain, boundary_of, prime):
 
 
 def sum_of_loops(loops, period, prime):
-    """The chain of the edges of loops: simplices, or cubes in doubled coordinates. @param loops
-    pairs of vertices and a coefficient. @param period by axis, the length in doubled coordinates
-    after which it closes up; None: simplices."""
+    """The chain of the edges of loops, which are simplices or, for images, cubes in doubled
+    coordinates. @param loops pairs of vertices and a coefficient. @param period for each axis of an
+    image, its length in doubled coordinates if it is periodic; None for simplices."""
     chain = {}
     for vertices, coefficient in loops:
         for a, b in zip(vertices, vertices[1:] + vertices[:1]):
@@ -48,7 +48,7 @@ def sum_of_loops(loops, period, prime):
 
 
 class Representatives:
-    """Checks chains against one filtration."""
+    """Checks chains against a filtration."""
 
     def __init__(self, filtration, prime):
         self.filtration, self.prime = filtration, prime
@@ -60,7 +60,7 @@ class Representatives:
         return self.filtration[cell][0]
 
     def is_boundary(self, chain, until):
-        """True if it bounds a chain of cells for whose values `until` holds."""
+        """True if the chain is the boundary of cells for whose values `until` holds."""
         chain = {self.columns.place[c]: a for c, a in chain.items()}
         while chain:
             low = max(chain)
@@ -73,7 +73,8 @@ class Representatives:
         return True
 
     def chain(self, terms):
-        """@param terms cells and coefficients, as written in the file."""
+        """The chain that the output describes. @param terms cells and coefficients, as in the
+        file."""
         chain = {}
         for cell, coefficient in terms:
             if coefficient == 0 or abs(coefficient) * 2 > self.prime or (self.prime, coefficient) == (2, -1):
@@ -84,7 +85,7 @@ class Representatives:
         return chain
 
     def check_cycle(self, chain, bar, born):
-        """@param chain of the cells of `bar`, by cell. @param born the birth cell."""
+        """@param chain the coefficients of `bar` by cell. @param born the birth cell."""
         dim, birth, death = bar
         if born not in chain or self.value(born) != birth:
             raise Unfit(f"the birth cell {born} is not in it, or of another value")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of random kinds with given contents, and barcodes read back, by the definition of each
+"""Files of random formats with given contents, and readers of barcodes, by the definition of each
 format."""
 import gzip
 import json
@@ -14,7 +14,7 @@ TYPES = {"float64": "f8", "float32": "f4", "int64": "i8", "int32": "i4", "uint32
 
 
 def fits(values, kind):
-    """True if a NumPy type holds the numbers exactly."""
+    """True if a NumPy type can hold the numbers exactly."""
     if kind == "float64":
         return True
     if kind == "float32":
@@ -29,7 +29,7 @@ def fits(values, kind):
 
 
 def descr(kind, big=False):
-    """The description of a type, as in NumPy."""
+    """The description of a type in NumPy's notation."""
     return ("|" if kind.endswith("int8") else ">" if big else "<") + TYPES[kind]
 
 
@@ -42,7 +42,7 @@ def any_kind(rng, values):
 
 
 def npy(rng, shape, values):
-    """@param values in C order."""
+    """An NPY file. @param values in C order."""
     fortran = rng.random() < 0.3 and len(shape) > 1
     if fortran:
         values = [values[place(shape, at)] for at in indices(shape[::-1], reverse=True)]
@@ -55,7 +55,8 @@ def npz(rng, shape, values):
 
 
 def indices(shape, reverse=False):
-    """All coordinates, the last axis fastest; reversed on request."""
+    """The indices of all elements, with the last axis fastest, or the first if `reverse` is
+    true."""
     found = [()]
     for n in shape:
         found = [at + (i,) for at in found for i in range(n)]
@@ -70,7 +71,7 @@ def place(shape, at):
 
 
 def number(rng, value):
-    """One of the ways to write it, exactly."""
+    """A random way to write a number exactly."""
     if math.isnan(value):
         return "nan"
     if math.isinf(value):
@@ -95,11 +96,11 @@ def table(rng, rows, separator=None):
 
 
 def zipped(rng, name, content):
-    """Compressed now and then."""
+    """Compresses a file now and then."""
     return (name + ".gz", gzip.compress(content)) if rng.random() < 0.1 else (name, content)
 
 
-# Points. Each gives (name, content, options).
+# Points. Each function returns (name, content, options).
 
 def points_file(rng, rows, is_table=False):
     flat = [x for row in rows for x in row]
@@ -151,10 +152,10 @@ def ply(rng, rows, faces):
     return head.encode() + body
 
 
-# Distances: `d[i][j]`, infinite where two points never join.
+# Distances `d[i][j]`, which are infinite for points that are never joined.
 
 def square_file(rng, rows):
-    """A full matrix, whatever its numbers mean."""
+    """A file with a full matrix, of distances or of other numbers."""
     n = len(rows)
     if rng.random() < 0.5:
         return (*zipped(rng, "a.txt", table(rng, rows)), ["--format", "distance"])
@@ -202,10 +203,10 @@ def distances_file(rng, d):
     return "a.dipha", content, ["--format", "dipha"]
 
 
-# Images: values in C order; NaN where a voxel is absent.
+# Images, with values in C order. The value of an absent voxel is NaN.
 
 def image_file(rng, shape, values, periodic):
-    """@return name, content, options, including those for periodic axes."""
+    """@return name, content and options, including the options for periodic axes."""
     def around(axes):
         axes = sorted(axes)
         return ["--periodic", "all" if len(axes) == len(shape) and rng.random() < 0.5 else
@@ -268,7 +269,7 @@ def picture(rng, shape, values):
     return files.png(shape[1], shape[0], 8 if kind == "uint8" else 16, files.GREY, rows)
 
 
-# Filtered complexes: cells in an order in which faces come first.
+# Filtered complexes. Cells are ordered such that faces come first.
 
 def simplices_file(rng, values):
     lines = [(s, v) for s, v in values.items()]
@@ -278,7 +279,8 @@ def simplices_file(rng, values):
 
 
 def boundary_file(rng, cells, values):
-    """@param cells each its dimension and its facets, ascending. @param values of the cells."""
+    """@param cells the dimension and the ascending facets of each cell. @param values the value of
+    each cell."""
     way = rng.choice(["phat", "phat-binary", "dipha"])
     if way == "phat":
         return [("a.phat", "".join(" ".join(map(str, (d, *f))) + "\n" for d, f in cells).encode())], \
@@ -311,7 +313,7 @@ def values_file(rng, values):
 # Barcodes.
 
 def read_barcode(content, form):
-    """@return sorted triples (dim, birth, death)."""
+    """@return the bars as sorted triples (dim, birth, death)."""
     if form == "csv":
         lines = content.decode().splitlines()
         assert lines[0] == "dim,birth,death", lines[0]

@@ -20,12 +20,12 @@ class Job:
     filtration: dict
     prime: int
     max_dim: int
-    tolerance: float = 0.0  # 0: every double as it is
+    tolerance: float = 0.0  # 0 if every double must be exact
     engines: tuple = ("standard", "twist")
-    has_parts: bool = False  # True if --part applies
-    name_of: object = tuple  # maps the program's name of a cell to its name in the filtration
-    period: tuple = None  # for images, by axis: period in doubled coordinates; None: none
-    has_cells: bool = True  # True if the filtration has the cells of the program
+    has_parts: bool = False  # true if --part applies
+    name_of: object = tuple  # maps the program's name of a cell to the filtration's name
+    period: tuple = None  # for images: for each axis, its period in doubled coordinates, or None
+    has_cells: bool = True  # true if the filtration has the same cells as the program
     picture: Picture = None  # for images: the data for checking sets of voxels
 
 
@@ -34,20 +34,20 @@ def coordinate(rng, style):
         return float(rng.randint(-2, 2))
     if style == "dyadic":
         return rng.randint(-2 ** 12, 2 ** 12) / 2 ** rng.randint(0, 6)
-    if style == "wide":  # sums of squares are not exact
+    if style == "wide":  # numbers for which sums of squares are not exact
         return rng.choice([-1, 1]) * rng.random() * 10 ** rng.uniform(-3, 3)
     return rng.uniform(-1, 1)
 
 
 def random_points(rng, most, dim, style):
     points = [[coordinate(rng, style) for _ in range(dim)] for _ in range(rng.randint(1, most))]
-    while rng.random() < 0.2:  # some of them twice
+    while rng.random() < 0.2:  # repeats some of the points
         points.insert(rng.randrange(len(points) + 1), list(rng.choice(points)))
     return points[:most]
 
 
 def dimensions(rng, most, default):
-    """@return max_dim, its options."""
+    """@return max_dim, and options that set it."""
     if rng.random() < 0.3:
         return default, []
     max_dim = rng.randint(0, most)
@@ -61,7 +61,7 @@ def field(rng):
 
 
 def some_threshold(rng, values):
-    """None, one of the values, or a number between two."""
+    """A threshold: None, one of the values, or a number between two values."""
     finite = sorted({v for v in values if math.isfinite(v)})
     if rng.random() < 0.6 or not finite:
         return None
@@ -70,7 +70,7 @@ def some_threshold(rng, values):
 
 
 def lost_rows(rng, rows):
-    """Some rows with a NaN among others. @return all rows."""
+    """Inserts some rows with a NaN. @return all rows."""
     rows = list(rows)
     for _ in range(rng.randint(1, 3)):
         row = [float(rng.randint(0, 3)) for _ in rows[0]]
@@ -80,8 +80,8 @@ def lost_rows(rng, rows):
 
 
 def odd_matrix(rng, matrix, finite):
-    """A file that expresses a distance matrix differently: as correlations, with two entries for a
-    pair, or with NaN for pairs that never join. @return name, content, options."""
+    """A file that expresses a distance matrix in another way: as correlations, with two entries per
+    pair, or with NaN for pairs that are never joined. @return name, content, options."""
     n = len(matrix)
     way = rng.choice(["correlation", "twice"] if finite else ["nan"])
     if way == "correlation":
@@ -106,7 +106,7 @@ def odd_matrix(rng, matrix, finite):
 
 
 def rips(rng):
-    """Vietoris-Rips of points or distances."""
+    """A job for a Vietoris-Rips complex of points or distances."""
     style = rng.choice(["grid", "grid", "dyadic", "wide", "unit"])
     tolerance = 0.0 if style in ("grid", "dyadic") else 1e-12
     options, files, read = [], [], None
@@ -210,7 +210,7 @@ def rips(rng):
 
 
 def cubical(rng):
-    """Images of one to four axes."""
+    """A job for an image with one to four axes."""
     axes = rng.choice([1, 2, 2, 2, 3, 3, 3, 4])
     most = {1: 20, 2: 6, 3: 4, 4: 3}[axes]
     shape = tuple(rng.randint(1, most) for _ in range(axes))
@@ -242,7 +242,8 @@ def cubical(rng):
                       cells, periodic, limit)
     options += ["--slab-layers", str(rng.randint(1, 3))] if rng.random() < 0.15 else []
     has_parts = "--slab-layers" not in options and (max_dim == 0 or axes <= 2)
-    turned = slice(None, None, -1 if "dipha" in options else 1)  # such a file has the last axis first
+    # In DIPHA's format, the last axis comes first.
+    turned = slice(None, None, -1 if "dipha" in options else 1)
     return Job(f"image of {axes} axes", [(name, content)], options + more + of_field, filtration, prime,
                max_dim, 0.0, ("standard", "twist", "gradient"), has_parts,
                name_of=lambda cube: tuple(cube[turned]), picture=picture,
@@ -250,7 +251,7 @@ def cubical(rng):
 
 
 def random_complex(rng, most):
-    """Simplices, closed under faces, and values that do not descend."""
+    """Simplices with all their faces, and values such that no face enters after a coface."""
     n = rng.randint(1, most)
     values = {(v,): float(rng.randint(0, 3)) for v in range(n)}
     kept = [(v,) for v in range(n)]
@@ -265,7 +266,7 @@ def random_complex(rng, most):
 
 
 def explicit(rng):
-    """Simplices with values, and boundary matrices."""
+    """A job for simplices with values, or for a boundary matrix."""
     values = random_complex(rng, 6)
     top = max(len(s) for s in values) - 1
     max_dim, more = dimensions(rng, top + 1, top)
@@ -297,7 +298,7 @@ def explicit(rng):
 
 
 def lower_star(rng):
-    """A mesh with values at its vertices."""
+    """A job for a mesh with values at its vertices."""
     n = rng.randint(3, 8)
     faces = [rng.sample(range(n), 3) for _ in range(rng.randint(1, 10))]
     faces = list({tuple(sorted(f)): f for f in faces}.values())
@@ -325,7 +326,8 @@ def lower_star(rng):
 
 
 def alpha(rng):
-    """Alpha and Delaunay-Čech complexes: by the nerve theorem, all balls at once."""
+    """A job for an alpha or Delaunay-Čech complex. The bars are those of the Čech complex of all
+    balls, by the nerve theorem."""
     dim = rng.choice([1, 2, 2, 3])
     style = rng.choice(["grid", "grid", "dyadic", "unit"])
     points = random_points(rng, 7, dim, style)
@@ -353,10 +355,11 @@ def alpha(rng):
 
 
 def periodic_alpha(rng):
-    """Alpha complexes of points of a circle or a torus."""
+    """A job for an alpha complex of points on a circle or a torus."""
     dim = rng.choice([1, 2, 2])
     points = random_points(rng, 4 if dim == 1 else 2, dim, "unit")
-    points += [[rng.random() for _ in range(dim)] for _ in range(dim)]  # images of one lie on a circle
+    # Adds points, because images of a single point are on a common circle.
+    points += [[rng.random() for _ in range(dim)] for _ in range(dim)]
     points = sorted(map(list, {tuple(p) for p in points}), key=lambda _: rng.random())
     period = [rng.choice([1.0, 1.0, rng.uniform(0.5, 1.5)]) for _ in range(dim)]
     name, content, options = formats.points_file(rng, points)

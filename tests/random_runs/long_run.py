@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """long_run.py PH_BARCODE PEAK [--minutes M] [--seed S] [--keep FOLDER]
 
-Runs random jobs for a long time, and disturbs them by signals at random moments, limits on memory,
-heap and file size, and by stopping and continuing them. Whatever happens, the output is the
+Runs random jobs for a long time, and disturbs them: by signals at random moments, by limits on
+memory, heap and file size, and by stopping and continuing them. Whatever happens, the output is the
 complete output of the undisturbed run or the previous file, and the exit code tells which. Nothing
 else is left in the folder, unless SIGKILL ended the run. No run takes more memory than its limit
 plus 32 MiB. If the Python package can be imported, one process runs jobs for the same time, with
-limits, and its memory must not grow. PEAK is the program of tests/faults/peak.c. Exits 1 at the
-first fault, with the command; the files are kept in FOLDER."""
+limits, and its memory must not grow. PEAK is the program of peak.c in tests/faults. Exits with 1 at
+the first fault and prints the command; the files are kept in FOLDER."""
 import argparse
 import collections
 import json
@@ -28,8 +28,8 @@ sys.path[:0] = [HERE, os.path.join(HERE, "../support")]
 import files  # noqa: E402
 
 MIB = 1 << 20
-BESIDE_LIMIT = 32 * MIB  # the memory that the program may take beyond its limit
-REFUSED = {73, 74, 75}  # output, input or output, memory
+BESIDE_LIMIT = 32 * MIB  # the memory that the program may take in addition to its limit
+REFUSED = {73, 74, 75}  # cannot create output, input or output failed, out of memory
 
 
 class Fault(Exception):
@@ -62,8 +62,8 @@ def distances(rng):
 
 
 def lasting(name, content):
-    """The reproducible part of the output: JSON without times and memory. @return None if the file
-    is incomplete."""
+    """The reproducible part of an output: JSON is compared without times and memory. @return None
+    if the file is incomplete."""
     if not name.endswith(".json"):
         return content
     try:
@@ -74,7 +74,7 @@ def lasting(name, content):
 
 
 class Job:
-    """An input in a separate folder, and the output of the undisturbed run."""
+    """An input in a separate folder, with the output of its undisturbed run."""
 
     def __init__(self, program, peak, rng, folder):
         self.folder, self.peak = folder, peak
@@ -96,7 +96,7 @@ class Job:
             self.expected[made] = lasting(made, pathlib.Path(folder, made).read_bytes())
 
     def disturb(self, rng):
-        """@return the disturbance, and the outcome."""
+        """@return the kind of disturbance, and the outcome."""
         old = {name: b"before" for name in self.expected if rng.random() < 0.5}
         for name in self.expected:
             pathlib.Path(self.folder, name).unlink(missing_ok=True)
@@ -117,11 +117,11 @@ class Job:
             time.sleep(rng.uniform(0, 1.2 * self.seconds))
             number = {"kill": signal.SIGKILL, "stop": signal.SIGSTOP}.get(
                 way, rng.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]))
-            os.kill(process.pid, number)  # which does not wait for the process, unlike send_signal
+            os.kill(process.pid, number)  # unlike send_signal, this does not reap the process
             if way == "stop":
                 time.sleep(rng.uniform(0, 0.05))
                 os.kill(process.pid, signal.SIGCONT)
-        said = process.stderr.read()  # it prints little: the pipe can hold it
+        said = process.stderr.read()  # the pipe can hold what it prints, which is little
         process.stderr.close()
         code = process.wait()
         self.check(way, command, code, number, said, old)
@@ -135,7 +135,7 @@ class Job:
 
     def check(self, way, command, code, number, said, old):
         where = f"{shlex.join(command)}\n  {way}, exit {code}: {said.decode(errors='replace')}"
-        # A signal may come before the program handles signals.
+        # A signal may arrive before the program has installed its handlers.
         ends = {"kill": {-signal.SIGKILL}, "signal": {128 + number, -number} if number else set(), "stop": set()}
         if code != 0 and code not in ends.get(way, REFUSED):
             raise Fault(f"{where}\n  found an end that this cannot have")
@@ -156,7 +156,8 @@ class Job:
 
 
 def in_one_process(rng, minutes):
-    """Runs jobs of the package in this process; its memory must not grow after the first ones."""
+    """Runs jobs of the Python package in this process, whose memory must not grow after the first
+    jobs."""
     import numpy
     import libph
     rooms, kept, jobs, refused = [], {}, 0, 0
@@ -179,7 +180,7 @@ def in_one_process(rng, minutes):
         jobs += 1
         with open("/proc/self/statm", encoding="ascii") as statm:
             rooms.append(int(statm.read().split()[1]) * resource.getpagesize())
-    # The first third has seen every input.
+    # Every kind of input occurs in the first third.
     early, late = max(rooms[:len(rooms) // 3]), max(rooms[-len(rooms) // 3:])
     if late > early + 8 * MIB:
         raise Fault(f"in one process: found {late} bytes resident after {jobs} jobs, {early} before")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Many random runs: each has a seed, and a folder whose files are kept if the run finds a
+"""Many random runs. Each has a seed, and a folder whose files are kept if the run finds a
 difference."""
 import collections
 import os
@@ -8,15 +8,15 @@ import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 
-PIECE = 50  # runs of one process, one after the other
+PIECE = 50  # number of runs that one process does in sequence
 
 
 class Difference(Exception):
-    """A result differs from the required one; the message names it and the command."""
+    """A result differs from the required result. The message names the result and the command."""
 
 
 def add_options(parser, runs):
-    """@param runs the default number."""
+    """@param runs the default number of runs."""
     parser.add_argument("--runs", type=int, default=runs)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -25,7 +25,7 @@ def add_options(parser, runs):
 
 
 def some_runs(one_run, first, count, keep):
-    """@return counts of the kinds of runs, and differences."""
+    """@return the number of runs of each kind, and the differences."""
     counts, differences = collections.Counter(), []
     for seed in range(first, first + count):
         with tempfile.TemporaryDirectory() as folder:
@@ -45,8 +45,8 @@ def some_runs(one_run, first, count, keep):
 
 def run_all(one_run, options, name):
     """Prints the counts, and exits with 1 if there were differences. @param one_run(seed, folder)
-    returns the kind of run, for the counts; it can be pickled. @throws Difference @param options
-    from add_options. @param name of the kept folders."""
+    returns the kind of run, for the counts; it must be picklable, and raises Difference. @param
+    options the result of add_options. @param name for the folders that are kept."""
     counts, failures, end = collections.Counter(), [], options.seed + options.runs
     keep = os.path.join(options.keep, name)
     with ProcessPoolExecutor(options.jobs) as pool:

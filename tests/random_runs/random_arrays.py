@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """random_arrays.py [--runs N] [--seed S]
 
-Gives arrays of random types, shapes and layouts to libph and compares the bars with those by the
-definition (oracle.py), which reads the numbers one by one. NaN and other invalid entries must be
-refused in one line, and no array may be modified. Each run has its own seed: --seed S --runs 1
-repeats the run of seed S. Exits 1 at the first difference."""
+Passes arrays of random types, shapes and layouts to libph, and compares the bars with bars by the
+definition (oracle.py), for which the numbers are read one by one. NaN and other invalid entries
+must be refused in one line, and no array may be modified. Each run has its own seed: --seed S
+--runs 1 repeats the run of seed S. Exits with 1 at the first difference."""
 import argparse
 import collections
 import os
@@ -27,7 +27,7 @@ NO_NUMBERS = ["c8", "c16", "U4", "S4", "M8[s]", "m8[s]", "V4"]
 
 
 class HasArray:
-    """Arrays in the form of other libraries."""
+    """An array in the form that other libraries use."""
 
     def __init__(self, array):
         self.array = array
@@ -41,7 +41,8 @@ class Own(np.ndarray):
 
 
 def with_gaps(array, draw):
-    """Each axis in steps of its own, backwards or not, in a larger array of other numbers."""
+    """A view into a larger array of other numbers, with a separate step for each axis, some of them
+    negative."""
     steps = [draw.choice([1, 2, 3, -1, -2]) for _ in array.shape]
     room = np.full([abs(s) * n for s, n in zip(steps, array.shape)], 1, array.dtype)
     view = room[tuple(slice(None, None, s) for s in steps)]
@@ -82,17 +83,18 @@ LAYOUTS = [with_gaps, unaligned, of_a_record, turned, read_only,
            lambda a, draw: np.asfortranarray(a),
            lambda a, draw: a.astype(a.dtype.newbyteorder()),
            lambda a, draw: a.view(Own)]
-# Steps that make something other than a NumPy array come last.
+# Wrappers are applied last, because they return something other than a NumPy array.
 WRAPPED = [lambda a: a] * 6 + [HasArray, lambda a: a.tolist(), np.ma.asarray]
 
 
 def plain_numbers(array):
-    """The numbers by position, as Python numbers, each read individually."""
+    """The numbers by index, as Python numbers that are read one by one."""
     return {at: float(array[at]) for at in np.ndindex(*array.shape)}
 
 
 def random_numbers(draw, shape, kind):
-    """Whole numbers that each type holds, with ties; for floats quarters, rarely NaN or infinity."""
+    """Whole numbers that the type can hold, with ties. Floats may also be quarters and, rarely, NaN
+    or infinity."""
     if kind == "?":
         pick = [0, 1]
     elif kind[0] == "u":
@@ -157,12 +159,12 @@ def options_of(draw, task, array):
 
 
 def same(before, after):
-    """True if two arrays hold the same numbers, including NaN."""
+    """True if two arrays hold the same numbers, where NaN equals NaN."""
     return before.dtype == after.dtype and before.tobytes() == after.tobytes()
 
 
 def run(seed):
-    """@return the outcome: bars, or the reason for the refusal."""
+    """@return the outcome: the number of bars, or the reason for a refusal."""
     draw = random.Random(seed)
     task = draw.choice(["points", "distances", "image"])
     compute = ph.cubical if task == "image" else ph.rips
@@ -176,7 +178,7 @@ def run(seed):
     before = np.array(array, copy=True, order="C", subok=False)
     given = draw.choice(WRAPPED)(array)
     if isinstance(given, list) and array.size == 0:
-        is_number = True  # an empty list does not tell its element type
+        is_number = True  # an empty list does not show the type of its elements
     what = f"seed {seed}: {task}, {array.dtype!r} {array.shape} {array.strides}, {type(given).__name__}, {options}"
     finite = is_number and all(np.isfinite(x) for x in plain_numbers(plain).values())
     try:

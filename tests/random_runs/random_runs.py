@@ -2,9 +2,10 @@
 """random_runs.py PH_BARCODE [--runs N] [--seed S] [--jobs J] [--keep FOLDER] [--only KIND]
 
 Runs the whole program with random options on random inputs of each kind and format, and compares
-its output with barcodes by the definition (oracle.py), which shares no code with it. Each run has
-its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first differences, with
-the commands; the files are kept in FOLDER (default: where the script is run)."""
+its output with barcodes by the definition (oracle.py), which shares no code with the program. Each
+run has its own seed: --seed S --runs 1 repeats the run of seed S. If there are differences, it
+exits with 1 and prints the commands; the files are kept in FOLDER (default: where the script is
+run)."""
 import argparse
 import dataclasses
 import functools
@@ -31,7 +32,7 @@ EXTENSIONS = {"csv": "csv", "json": "json", "pers": "pers", "ripser": "txt", "di
 
 
 def match(found, expected, tolerance, scale, short):
-    """True if two multisets of bars are equal, each end within the tolerance. A bar may lack a
+    """True if two multisets of bars are equal up to the tolerance for each end. A bar may lack a
     partner if rounding decides whether it is longer than `short`."""
     if tolerance == 0:
         return found == expected
@@ -52,18 +53,18 @@ def match(found, expected, tolerance, scale, short):
 
 @dataclasses.dataclass
 class Output:
-    """The destination of the barcode, and the bars to write: those of dimension `low` and above
-    that are longer than `short`."""
+    """The format of the output, and the bars to write: bars of dimension `low` and above that are
+    longer than `short`."""
     form: str
     name: str = None
     low: int = 0
     short: float = 0.0
-    chains: str = None  # cycles, cocycles or voxels, if it has them
+    chains: str = None  # cycles, cocycles or voxels, if they are requested
 
 
 def side_options(rng, job):
-    """Options that do not change the barcode, or leave out bars. @return options, each with its
-    value; the output; True if the program may refuse them."""
+    """Options that do not change the barcode, or that leave out bars. @return the options, each
+    with its value; the output; and True if the program may refuse the options."""
     options, output = [], Output(rng.choice(list(EXTENSIONS)))
     if rng.random() < 0.4:
         options.append(["--engine", rng.choice(job.engines)])
@@ -96,7 +97,7 @@ def side_options(rng, job):
 
 
 def with_values(words):
-    """Options of a job, each with its value."""
+    """The options of a job, each with its value."""
     options = []
     for word in words:
         if word.startswith("--"):
@@ -112,7 +113,7 @@ class Program:
         self.command, self.run, self.said = None, None, ""
 
     def __call__(self, options, stdin=None):
-        """@return the exit code."""
+        """Runs the program. @return the exit code."""
         self.command = [self.path, *sum(options, [])]
         given = {"input": stdin} if stdin is not None else {"stdin": subprocess.DEVNULL}
         try:
@@ -138,7 +139,7 @@ class Program:
             self.differ(f"cannot read {output.form} back: {error!r}: {content[:200]!r}")
 
     def expect_refusal(self, code, output):
-        """A message, of one line with --quiet, and no output."""
+        """Checks that there is a message, of one line with --quiet, and no output."""
         found = self.run.returncode
         if found != code or self.run.stdout or not self.said.endswith("\n"):
             self.differ(f"found exit {found}, expected {code}, a message and no output")
@@ -155,7 +156,7 @@ def compare(program, job, output):
     tolerance = job.tolerance
     if output.form == "ripser":
         if any(math.isinf(b) for _, b, _ in bars):
-            return f"{job.kind}, not compared"  # the format has no such births
+            return f"{job.kind}, not compared"  # this format has no infinite births
         tolerance = max(tolerance, 1e-5)
     finite = [abs(x) for bar in bars for x in bar[1:] if math.isfinite(x)]
     if not match(found, expected, tolerance, max([*finite, 1e-300]), output.short):
@@ -170,7 +171,8 @@ def compare(program, job, output):
 
 
 def check_chains(job, kind, bars):
-    """@param kind cycles, cocycles or voxels. @param bars as JSON has them. @throws chains.Unfit"""
+    """Checks the representatives in the output. @param kind cycles, cocycles or voxels. @param bars
+    from the JSON. @throws chains.Unfit"""
     representatives = chains.Representatives(job.filtration, job.prime)
     for bar in bars:
         try:
@@ -213,7 +215,7 @@ def check_chain(job, kind, bar, representatives):
     ends = ends_of(bar)
     born, killer = named(bar["birth_cell"]), named(bar["death_cell"])
     chain = representatives.chain([(named(cell), cell["coefficient"]) for cell in bar["representative"]])
-    by_value = job.has_cells and job.tolerance == 0  # otherwise values differ in the last digits
+    by_value = job.has_cells and job.tolerance == 0  # otherwise, values differ in their last digits
     if not by_value:
         if kind == "cycles" and chains.boundary(chain, oracle.simplex_boundary, job.prime):
             raise chains.Unfit("it has a boundary")
@@ -223,8 +225,8 @@ def check_chain(job, kind, bar, representatives):
         representatives.check_cocycle(chain, ends, born, killer)
     loops = [(list(map(tuple, content(loop))) if job.period else content(loop), loop["coefficient"])
              for loop in bar.get("loops", ())]
-    # Only the chain tells the meaning of loops with one or two vertices around a periodic space, or
-    # which edge joins the two voxels of a periodic axis.
+    # Vertices do not determine loops with one or two vertices around a periodic space, or which
+    # edge joins the two voxels of a periodic axis. In these cases, only the chain is checked.
     if not loops or any(len(vertices) < 3 for vertices, _ in loops) or job.period and 4 in job.period:
         return
     run_through = {job.name_of(edge): number
@@ -236,12 +238,12 @@ def check_chain(job, kind, bar, representatives):
 
 
 def in_parts(rng, program, job):
-    """Part files in any order, joined at once or in steps."""
+    """Joins part files in any order, at once or in steps."""
     count = rng.randint(1, 4)
     names = [f"part{i + 1}.ph" for i in range(count)]
     order = list(range(count))
     rng.shuffle(order)
-    # For components and for pictures, these options have no effect and are refused.
+    # For components and for images, these options have no effect and are refused.
     options = [option for option in with_values(job.options)
                if option[0] not in ("--field", "--modulus", "--metric", "--collapse", "--complex")]
     options.append(["--complex", "rips" if job.kind.startswith("rips") else "cubical"])
@@ -264,7 +266,7 @@ def in_parts(rng, program, job):
 
 
 def damaged(rng, content):
-    """Some bytes changed, left out or doubled."""
+    """The content with some bytes changed, left out or doubled."""
     content = bytearray(content)
     for _ in range(rng.choice([1, 1, 1, 3, 10])):
         at = rng.randrange(len(content) + 1)
@@ -281,7 +283,7 @@ def damaged(rng, content):
 
 
 def one_run(path, only, seed, folder):
-    """@return the kind of run, for the counts. @throws Difference"""
+    """Runs the program once. @return the kind of run, for the counts. @throws Difference"""
     rng = random.Random(seed)
     job = jobs.KINDS[only or rng.choice(list(jobs.KINDS))](rng)
     is_damaged = rng.random() < 0.1
@@ -295,7 +297,7 @@ def one_run(path, only, seed, folder):
     rng.shuffle(words)
     code = program(words)
     if is_damaged:
-        # Whatever the bytes mean now, the result is a barcode or one refusal.
+        # Whatever the damaged bytes mean, the result is a barcode or a refusal.
         if code == 0:
             program.read(output)
         else:

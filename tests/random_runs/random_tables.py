@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """random_tables.py [--runs N] [--seed S] [--jobs J] [--keep FOLDER]
 
-Writes tables of numbers as pandas, R, spreadsheets and programs do, reads them from Python, and
-compares the numbers with the written ones. A missing value must be refused, or its row left out.
-Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the first
-difference."""
+Writes tables of numbers as pandas, R, spreadsheets and other programs do, reads them from Python,
+and compares the numbers with the original ones. A missing value must be refused, or its row left
+out. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits with 1 at the
+first difference."""
 import argparse
 import os
 import random
@@ -28,7 +28,8 @@ COMMENTS = ["# a comment", "", "   ", "# 1, 2; 3", "#"]
 
 
 def quoted(text, separator, draw):
-    """Quotes as writers do: where they must, and sometimes where they need not."""
+    """Quotes a text as writers of tables do: where it is necessary, and sometimes where it is
+    not."""
     needs = any(c in text for c in f",;\t#{separator}\"") or (separator == " " and not text)
     return f'"{text}"' if needs or draw.random() < 0.2 else text
 
@@ -39,7 +40,7 @@ def number_as_text(value, draw):
 
 
 class Table:
-    """Numbers, and the lines of a file that holds them."""
+    """Numbers, and the lines of a file that contains them."""
 
     def __init__(self, draw):
         self.draw = draw
@@ -53,11 +54,12 @@ class Table:
         self.years = self.index in ("names", "levels") and draw.random() < 0.3
         if self.header and self.words is not None and self.index in ("none", "id"):
             self.years = draw.random() < 0.3
-        self.full = None  # a row whose last cell is not empty
+        self.full = None  # the index of a row whose last cell is not empty
         self.missing = self.some_missing(0.15 if draw.random() < 0.4 else 0)
 
     def some_missing(self, share):
-        """Places of missing values; never a whole last column without a name in the header."""
+        """The places of missing values. Without a name in the header, a last column is never
+        missing as a whole."""
         places = {(i, k) for i in range(len(self.values)) for k in range(len(self.values[0]))
                   if self.draw.random() < share}
         if not self.header or self.index == "of R":
@@ -73,7 +75,7 @@ class Table:
         return self.draw.choice(spellings)
 
     def lead(self, i):
-        """Cells before the numbers."""
+        """The cells of a row before its numbers."""
         draw = self.draw
         name = f"{draw.choice(['r', 'a b', 'p#', 'x,'])}{i}"
         return {"none": lambda: [], "counts": lambda: [str(i)], "id": lambda: [str(i + 1)],
@@ -81,7 +83,7 @@ class Table:
                 "levels": lambda: [quoted(name, self.separator, draw), str(i)]}[self.index]()
 
     def names(self):
-        """Names of the columns of numbers, and of the column of words among them."""
+        """The names of the columns of numbers, and of a column of words among them."""
         columns = len(self.values[0]) + (self.words is not None)
         if self.years:
             return [str(2019 + k) if k != self.words else "town" for k in range(columns)]
@@ -94,7 +96,8 @@ class Table:
                  "levels": ["", ""]}[self.index]
         rows = []
         if self.header:
-            is_alone = len(first) + len(self.header_names) == 1  # its blanks would separate names
+            # Otherwise, blanks in the name would separate names.
+            is_alone = len(first) + len(self.header_names) == 1
             names = [f'"{name}"' if is_alone or self.index == "of R" else
                      quoted(name, separator, draw) for name in self.header_names]
             rows.append([f'"{name}"' if separator == " " else name for name in first] + names)
@@ -120,8 +123,8 @@ class Table:
         return (b"\xef\xbb\xbf" if draw.random() < 0.1 else b"") + text.encode()
 
     def columns(self):
-        """The value of the option columns, by name or by number; None: all columns except the
-        index."""
+        """The value of the option `columns`, by name or by number; None if all columns except the
+        index are read."""
         draw = self.draw
         if self.words is None and not (self.years and self.index == "none") and draw.random() < 0.7:
             return None

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: MIT
-"""Checks that sets of voxels belong to their bars, by docs/reference/conventions.md: components and
-hollows, found by walking from voxel to voxel. Shares nothing with libph."""
+"""Checks that sets of voxels belong to their bars, by docs/reference/conventions.md: finds
+components and voids by walking from voxel to voxel. Shares nothing with libph."""
 import itertools
 import math
 from dataclasses import dataclass
 
 
 class Unfit(Exception):
-    """A set that does not belong to its bar, and the reason."""
+    """A set of voxels that does not belong to its bar; the message says why."""
 
 
 @dataclass
 class Picture:
-    """An image, as it is filtered: the value at which a voxel enters, math.inf: never."""
+    """An image as it is filtered. `entry` is the value at which each voxel enters; math.inf if it
+    never does."""
     shape: tuple
     entry: dict
-    cells: bool  # True if voxels are top-dimensional cubes
+    cells: bool  # true if voxels are top-dimensional cubes
     periodic: set
     threshold: float
 
@@ -51,8 +52,9 @@ class Picture:
         return self.reached(filter(is_open, starts), is_open, across_corners=not self.cells)
 
     def open_hollows(self, voxels, birth):
-        """Possible hollows that are never filled: those with a voxel that never enters, or
-        everything towards one end of the only axis that is not periodic."""
+        """The sets of voxels that a void which is never filled may have: those that contain a
+        voxel that never enters, or, if only one axis is not periodic, everything towards one of
+        its ends."""
         inside = self.hollow([min(voxels)], birth)
         if not all(map(self.enters, inside)):
             yield inside
@@ -62,7 +64,7 @@ class Picture:
                 yield self.hollow([v for v in self.entry if v[ends[0]] == end], birth)
 
     def check(self, bar, birth_voxel, death_voxel, voxels):
-        """@param bar (dim, birth, death). @param death_voxel None: it never dies."""
+        """@param bar (dim, birth, death). @param death_voxel None if the bar never dies."""
         dim, birth, death = bar
         if self.entry[birth_voxel] != birth or death_voxel and self.entry[death_voxel] != death:
             raise Unfit(f"{birth_voxel} and {death_voxel} have other values than the bar")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Binary numbers: NumPy, NIfTI, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
+"""Samples of binary formats: NumPy, NIfTI, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
 import struct
 import zipfile
 import zlib
@@ -84,7 +84,7 @@ BINARY = [
 
 
 def depth_scene():
-    """8 x 6 pixels in millimetres: a box in front of a wall, and a hole."""
+    """A depth image of 8 x 6 pixels in millimetres: a box in front of a wall, and a hole."""
     rows = [[2000] * 8 for _ in range(6)]
     for y in range(2, 5):
         rows[y][2:5] = [1000, 1000, 1000]
@@ -102,7 +102,8 @@ def colour(name, *arguments, **options):
 
 
 def interlaced_grey():
-    """2 x 2 pixels by Adam7: passes 1, 6 and 7 hold the pixels (0,0), (1,0) and the second row."""
+    """A PNG of 2 x 2 pixels, interlaced by Adam7: passes 1, 6 and 7 hold the pixels (0,0) and (1,0)
+    and the second row."""
     header = struct.pack(">IIBBBBB", 2, 2, 8, GREY, 0, 0, 1)
     return (b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header)
             + png_chunk(b"IDAT", zlib.compress(b"\0\1" b"\0\2" b"\0\3\4")) + png_chunk(b"IEND", b""))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes as ph-barcode and other programs write them."""
+"""Samples of barcodes as ph-barcode and other programs write them."""
 from sample import Sample
 from files import dipha, npy, packed
 

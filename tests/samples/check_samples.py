@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""check_samples.py PH_BARCODE PH_SEGMENT: checks that the programs read every sample meant for
-them."""
+"""check_samples.py PH_BARCODE PH_SEGMENT: checks that the programs read every sample that is meant
+for them."""
 import os
 import subprocess
 import sys
@@ -14,7 +14,7 @@ def arguments_of(sample):
 
 
 def run(sample, programs, folder):
-    """@return the fault, or nothing."""
+    """@return what is wrong, or nothing."""
     for name in sample.needs:
         needed = next(s for s in samples.SAMPLES if s.name == name)
         with open(os.path.join(folder, name), "wb") as file:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Point clouds and meshes: PCD, PLY, XYZ, PTS."""
+"""Samples of point clouds and meshes: PCD, PLY, XYZ, PTS."""
 import struct
 
 from sample import Sample
@@ -18,7 +18,7 @@ def floats(points):
 
 
 def compressed(fields):
-    """@param fields the bytes of each field of all points."""
+    """A body of binary_compressed data. @param fields for each field, the bytes of all points."""
     content = b"".join(fields)
     packed = lzf(content)
     return struct.pack("<II", len(packed), len(content)) + packed

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """A small valid file of every input format and variant that the readers know.
 
-samples.py FOLDER writes each as FOLDER/<reader>/<name>, and FOLDER/manifest.txt: a line `reader
-name sized|open` for each. A `sized` file declares its end, so that each of its prefixes is faulty,
-except without the last line end; text formats of this kind end in a token of one character.
+samples.py FOLDER writes each sample as FOLDER/<reader>/<name>, and FOLDER/manifest.txt with a line
+`reader name sized|open` for each. A `sized` file declares its end: each of its prefixes is faulty,
+except the file without its last line break. Text formats of this kind end in a token of one
+character.
 """
 import os
 import sys
@@ -18,7 +19,7 @@ SAMPLES = [*text.SAMPLES, *arrays.SAMPLES, *clouds.SAMPLES, *barcodes.SAMPLES, *
 
 
 def named(reader, name):
-    """The sample that a reader knows by this name."""
+    """The sample of a reader with this name."""
     return next(s for s in SAMPLES if (s.reader, s.name) == (reader, name))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Formats of numbers as text: points, distances, complexes, images."""
+"""Samples of text formats for numbers: points, distances, complexes, images."""
 from sample import Sample
 from files import gzipped
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Merge trees of scenes as ph-segment stores them."""
+"""Samples of merge trees of scenes, as ph-segment stores them."""
 import binascii
 import struct
 
@@ -12,8 +12,8 @@ NO_VERTEX = 0xFFFFFFFF
 
 
 def header(method, size, counts, distance, plane, cut):
-    """@param counts vertices, merges, points with a vertex, edges. @param cut value, min_part, …
-    The plane, if there is one, is the only surface."""
+    """The header of a stored tree. @param counts vertices, merges, points with a vertex, edges.
+    @param cut value, min_part, … The plane, if there is one, is the only surface."""
     surface = words("<", SUPPORT, *plane[1:]) if plane[0] else b""
     return b"ph-tree\n" + words("<", 2, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
                                 *plane, *cut, 2.0, plane[0], plane[0], 0) + surface
@@ -29,7 +29,7 @@ def merge(value, u, v):
     return struct.pack("<dII", value, u, v)
 
 
-# Three voxels of an edge of one metre in a row; four points and a hole.
+# Three voxels in a row, each with an edge of one metre; four points and a hole.
 CELLS = words("<", 0., 0., 1., 1., 0., 1., 2., 0., 1.)
 CENTROIDS = words("<", .5, .5, 1.5, 1.25, .5, 1.5, 2.5, .5, 1.5)
 POINTS = struct.pack("<5I", 0, 1, NO_VERTEX, 1, 2) + struct.pack(

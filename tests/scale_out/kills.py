@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""kills.py PH_BARCODE [KILLS [SEED]]: kills jobs of parts, and joins, at random times.
+"""kills.py PH_BARCODE [KILLS [SEED]]: kills jobs that compute or join parts at random times.
 
-Whatever was killed, an output is either absent or complete. The same commands, repeated with
---resume, make the same bytes as an undisturbed run. No process is left."""
+Whatever was killed, each output is either absent or complete. The same commands, repeated with
+--resume, make the same bytes as an undisturbed run. No process is left over."""
 import os
 import pathlib
 import random

@@ -2,9 +2,9 @@
 """mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: tests an image, or points, on 1 to 8
 ranks of an MPI.
 
-The bytes equal those of one process. If a rank is killed at a random time, all others end within
-seconds, with a code other than 0 and without output; the same command with --resume then makes the
-same bytes. A job that cannot be computed is reported and ends all ranks."""
+The bytes equal those of one process. If a rank is killed at a random time, all other ranks end
+within seconds, with an exit code other than 0 and without an output; the same command with --resume
+then makes the same bytes. A job that cannot be computed is reported and ends all ranks."""
 import json
 import os
 import pathlib
@@ -20,11 +20,11 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from volume import volume  # noqa: E402
 
-# Only our own messages on standard error, not that /sys is not mounted.
+# Keeps standard error free of MPI's own messages, for example that /sys is not mounted.
 ENV = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
        "HWLOC_HIDE_ERRORS": "2"}
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
-MOST_SECONDS = 5  # from the death of a rank to the end of all
+MOST_SECONDS = 5  # from the death of a rank to the end of all ranks
 
 
 class Mpi:
@@ -48,12 +48,12 @@ class Mpi:
         return process.returncode, out, err
 
     def help(self, topic):
-        """The output without mpirun."""
+        """The help that the program prints without mpirun."""
         return subprocess.run([self.program, "--help", topic], check=True, capture_output=True, text=True,
                               timeout=60).stdout
 
     def ranks(self, output):
-        """The processes of the program with the output among their arguments."""
+        """The processes of the program that have the output among their arguments."""
         found = []
         for entry in pathlib.Path("/proc").iterdir():
             if not entry.name.isdigit():
@@ -90,7 +90,7 @@ def check_bytes(mpi, one_process):
 
 
 def points(path, count, axes, seed=1):
-    """Clusters of points, some of them duplicated, one per line."""
+    """Writes clusters of points, some of them duplicated, one point per line."""
     rng = random.Random(seed)
     rows = [[rng.choice((0, 0, 5)) + rng.gauss(0, 1) for _ in range(axes)] for _ in range(count)]
     rows += rows[:count // 10]
@@ -121,7 +121,7 @@ def check_clouds(mpi, one_process):
             assert (code, err) == (0, ""), (code, err)
             assert out == expected, f"{ranks} ranks, {count} points: other bytes than one process"
             tried += 1
-    # JSON has cells, and states the number of ranks.
+    # The JSON has cells, and states the number of ranks.
     code, out, err = mpi.run(3, "points.csv", *H0, "--output-format", "json", "--quiet")
     assert (code, err) == (0, ""), (code, err)
     ours, theirs = json.loads(out), json.loads(one_process("points.csv", *H0, "--output-format", "json"))
@@ -132,7 +132,8 @@ def check_clouds(mpi, one_process):
 
 
 def check_resumed_clouds(mpi, one_process):
-    """A kept part is used; a part that is damaged or belongs to other points is computed anew."""
+    """A part that was kept is used again. A part that is damaged or belongs to other points is
+    computed again."""
     points(mpi.folder / "points.csv", 300, 3)
     command = ["points.csv", *H0, "-o", "resumed.csv"]
     for part in (1, 2, 3):
@@ -148,7 +149,7 @@ def check_resumed_clouds(mpi, one_process):
 
 
 def unequal(path):
-    """Noise in the last quarter of the layers, in all others one value."""
+    """Writes an image with noise in the last quarter of the layers and a single value elsewhere."""
     volume(path, (64, 24, 24))
     data = bytearray(path.read_bytes())
     voxels = 64 * 24 * 24
@@ -157,8 +158,8 @@ def unequal(path):
 
 
 def check_sharing(mpi, one_process):
-    """Ranks distribute layers by their content, and report it. @return the runs with other
-    layers."""
+    """Ranks divide the layers according to their content, and report how. @return the runs that
+    divided them unequally."""
     unequal(mpi.folder / "unequal.npy")
     tried = 0
     for options in ([], ["--construction", "cells", "--superlevel"], ["--periodic", "0"],
@@ -178,7 +179,7 @@ def check_sharing(mpi, one_process):
             assert sorted(set(first)) == first and float(said[2]) >= 2, said[0]
             assert err.count("sent ") == ranks, err
             tried += 1
-    # A uniform image is cut into equal parts, without a message.
+    # A uniform image is divided equally, without a message.
     volume(mpi.folder / "image.npy", (24, 20, 16))
     code, _, err = mpi.run(3, "image.npy", "--verbose")
     assert code == 0 and "begin with" not in err, err
@@ -186,7 +187,7 @@ def check_sharing(mpi, one_process):
 
 
 def check_forecasts(mpi):
-    """--dry-run computes nothing, whatever the ranks; lines of progress name their rank."""
+    """--dry-run computes nothing, for any number of ranks. Lines of progress name their rank."""
     volume(mpi.folder / "image.npy", (24, 20, 16))
     unequal(mpi.folder / "unequal.npy")
     for path, ranks, options, longest in (("image.npy", 3, [], "1.0"), ("image.npy", 30, [], ""),
@@ -202,7 +203,8 @@ def check_forecasts(mpi):
         assert ("share layers by what is in them" in out) == (path == "unequal.npy"), out
         for line in lines[2:]:
             assert re.search(r" [0-9.]+ ([KMG]i)?B to [0-9.]+ ([KMG]i)?B \(", line), out
-    # Long enough that each rank is heard: there are ten lines in a second at most.
+    # The run is long enough for each rank to report, because there are at most ten lines per
+    # second.
     volume(mpi.folder / "large.npy", (96, 96, 96))
     code, _, err = mpi.run(3, "large.npy", "-o", "progress.csv", "--progress", "json")
     assert code == 0, err
@@ -216,7 +218,7 @@ def check_forecasts(mpi):
 
 def check_help(mpi):
     """The help works without mpirun, its options are those that ranks accept, and its examples
-    run."""
+    work."""
     for topic in ("usual", "all", "man", "markdown"):
         text = mpi.help(topic)
         assert not re.search(r"--(representatives|report|join|keep-cells)\b", text), text
@@ -280,14 +282,14 @@ def check_kills(mpi, one_process, kills, seed):
         try:
             process.communicate(timeout=2 * MOST_SECONDS)
         except subprocess.TimeoutExpired:
-            # Open MPI 4.1.4: if a rank dies as it starts, mpirun waits, one time in a hundred, for
-            # its own lock (PMIx) after all ranks have ended.
+            # Open MPI 4.1.4: if a rank dies during its start, mpirun waits forever in one of a
+            # hundred runs, for its own lock (PMIx) and after all ranks have ended.
             assert "openmpi" in mpi.mpirun and not mpi.ranks("killed.csv"), "ranks hang"
             process.kill()
             process.communicate()
             stuck += 1
             start = time.monotonic()
-        if process.returncode == 0:  # it was done, or had not begun
+        if process.returncode == 0:  # the run was complete, or had not begun
             assert output.read_text() == expected
             continue
         killed += 1

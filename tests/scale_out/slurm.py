@@ -2,8 +2,8 @@
 """slurm.py PH_BARCODE: tests the SLURM commands of docs/how-to/scale-out.md unchanged, on a SLURM
 of one machine that this test starts and ends. Exit code 77, with the reason, if there is no SLURM.
 
-The scripts of the page run as they are: an array of jobs, and one that waits for them. A job of the
-array is then run again, and a second array with one job that dies reuses the existing parts.
+The scripts of the page run as they are: an array of jobs, and a job that waits for the array. Then
+one job of the array is run again. A second array, in which one job dies, reuses the existing parts.
 """
 import os
 import pathlib
@@ -66,7 +66,7 @@ def free_ports(count):
 
 
 class Slurm:
-    """A controller and one node, in a separate folder."""
+    """A SLURM with a controller and one node, in a separate folder."""
 
     def __init__(self, folder):
         self.folder, self.daemons = folder, []
@@ -103,7 +103,8 @@ class Slurm:
 
 
 def scripts_of_page():
-    """The blocks ```sh of the section on SLURM: two scripts, and how they are submitted."""
+    """The blocks ```sh in the page's section on SLURM: two scripts, and the commands that submit
+    them."""
     section = re.search(r"^## SLURM\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.M | re.S).group(1)
     blocks = re.findall(r"^```sh\n(.*?)^```", section, re.M | re.S)
     assert len(blocks) == 3, f"{PAGE}: found {len(blocks)} blocks on SLURM, expected 3"
@@ -141,14 +142,15 @@ def main():
         assert len(bars.read_text().splitlines()) > 100
         written = {part.name: part.stat() for part in work.glob("part*.ph")}
         assert len(written) == 8, written
-        # A job that died half-way leaves nothing, or an invalid part: run the same command again.
+        # A job that died half-way leaves no part or an invalid part. The same command is then run
+        # again.
         (work / "part3.ph").unlink()
         (work / "part5.ph").write_bytes((work / "part5.ph").read_bytes()[:100])
         bars.unlink()
         run(submit)
         assert bars.read_bytes() == (work / "one.csv").read_bytes(), logs()
         again = {part.name: part.stat() for part in work.glob("part*.ph")}
-        # A file system may reuse the number of a removed file.
+        # A file system may give the inode number of a removed file to a new one.
         kept = sorted(name for name in again if os.path.samestat(again[name], written[name])
                       and again[name].st_mtime_ns == written[name].st_mtime_ns)
         assert kept == [f"part{i}.ph" for i in (1, 2, 4, 6, 7, 8)], kept

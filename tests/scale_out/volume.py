@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""An image to compute, without NumPy."""
+"""Makes an image to compute, without NumPy."""
 import math
 
 
 def volume(path, extents=(24, 20, 16)):
-    """A NumPy file of pseudo-random bytes."""
+    """Writes a NumPy file of pseudo-random bytes."""
     state, values = 1, bytearray()
     for _ in range(math.prod(extents)):
         state = (state * 1103515245 + 12345) % (1 << 31)

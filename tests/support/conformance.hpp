@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The one suite that every filtration and every engine passes.
+// The conformance suite, which every filtration and every engine must pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace ph::test {
 
-/// A pair with its cells, including zero-length pairs: two engines must agree on all of them.
+/// A pair with its cells. Pairs of length 0 are included: two engines must agree on all of them.
 struct Pair {
   Bar bar;
   std::vector<Index> birth_cell, death_cell;
@@ -49,7 +49,7 @@ inline std::vector<Pair> pairs_of(const Barcode& barcode) {
   return pairs;
 }
 
-/// All pairs of an engine, zero-length ones too.
+/// All pairs that an engine finds, including pairs of length 0.
 template <class Complex>
 std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t field, Engine engine) {
   return pairs_of(persistence(
@@ -57,7 +57,7 @@ std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t fie
       Options{.max_dim = max_dim, .field = field, .engine = engine, .min_persistence = -1}));
 }
 
-/// The pairs without those of equal value; a class that never dies stays, whatever its birth.
+/// The pairs without those of length 0. A class that never dies is kept, whatever its birth.
 inline std::vector<Pair> of_positive_length(std::vector<Pair> pairs) {
   std::erase_if(pairs,
                 [](const Pair& p) { return !p.death_cell.empty() && p.bar.death == p.bar.birth; });
@@ -74,8 +74,9 @@ std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
   return cells;
 }
 
-/// The cofacets of a cell by range: horizon after horizon, and the keys of cofacets one by one.
-/// They must equal the result of checking all cofacets, in the same order.
+/// Checks the range functions of a filtration for a cell: the cofacets up to one horizon after
+/// another, and the keys of cofacets one by one. They must equal the result of checking all
+/// cofacets, in the same order.
 template <RangeFiltration F>
 void check_ranges(const F& f, int dim, const typename F::Cell& cell) {
   using Key = decltype(f.key(cell));
@@ -106,7 +107,7 @@ void check_ranges(const F& f, int dim, const typename F::Cell& cell) {
   for (const Entry& entry : all) expect_range(std::get<0>(entry), std::get<0>(entry));
 }
 
-/// The contract of ph/filtration.hpp, cell by cell up to dimension `top`.
+/// Checks the contract of ph/filtration.hpp, cell by cell up to dimension `top`.
 template <Filtration F>
 void check_contract(const F& f, int top, std::int64_t field) {
   using Cell = typename F::Cell;
@@ -176,8 +177,8 @@ void check_contract(const F& f, int top, std::int64_t field) {
   }
 }
 
-/// Compares the apparent pairs that the filtration knows with a search of all facets and cofacets,
-/// over a view of the filtration that does not know them.
+/// Compares the filtration's own apparent pairs with those found by a search of all facets and
+/// cofacets. The search uses a view of the filtration that hides its apparent pairs.
 template <Filtration F>
 struct WithoutApparent {
   using Cell = typename F::Cell;
@@ -215,7 +216,7 @@ void check_apparent_pairs(const F& f, int top) {
     }
     if (dim == 0) continue;
     std::reverse(unmatched.begin(), unmatched.end());
-    // In several calls, like engines do it.
+    // The cells are requested in several calls, as engines do.
     auto cells = f.unmatched_cells(dim);
     for (std::size_t last = f.group_count(); last > 0; last -= std::min<std::size_t>(last, 3))
       cells.for_each(
@@ -225,7 +226,8 @@ void check_apparent_pairs(const F& f, int top) {
   }
 }
 
-/// At every value, the alternating count of cells equals that of living bars (all dimensions).
+/// At every value, the alternating sum of the numbers of cells equals that of the numbers of living
+/// bars, over all dimensions.
 template <Filtration F>
 void check_euler(const F& f, const std::vector<Pair>& pairs) {
   std::map<double, long> change;
@@ -241,7 +243,7 @@ void check_euler(const F& f, const std::vector<Pair>& pairs) {
     ASSERT_EQ(difference, 0) << "Euler characteristic at " << value;
 }
 
-/// Every registered engine against the oracle, pair by pair, zero-length pairs included.
+/// Compares every registered engine with the oracle, pair by pair, including pairs of length 0.
 template <Filtration F>
 void check_engines(const F& f, int max_dim, std::int64_t field) {
   const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
@@ -254,7 +256,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
     if (engine.can_run(f, Task{.max_dim = max_dim, .zero_length = true})) {
       EXPECT_EQ(pairs_of(f, max_dim, field, engine.id), oracle);
     }
-    // An engine may use another method if only some pairs are requested.
+    // An engine may use another method if only some of the pairs are requested.
     if (engine.can_run(f, Task{.max_dim = max_dim})) {
       Options options{.max_dim = max_dim, .field = field, .engine = engine.id};
       const Barcode barcode = persistence(f, options);
@@ -270,7 +272,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
   }
 }
 
-/// THE SUITE for one filtration: its contract, and every engine over each field.
+/// THE SUITE for one filtration: checks its contract, and every engine over each field.
 template <Filtration F>
 void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));
@@ -284,7 +286,7 @@ void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields =
   }
 }
 
-/// The bars of positive length stay the same with fewer edges.
+/// Checks that the collapse, which removes edges, keeps the bars of positive length.
 inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   const auto bars = [&](const Rips& of, Engine engine, Collapse collapse) {
     return persistence(
@@ -298,7 +300,7 @@ inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   }
 }
 
-/// Whatever form is planned, the pairs are those of all edges, cell by cell.
+/// Checks that, whatever form is planned, the pairs are those of all edges, cell by cell.
 inline void check_forms(const Rips& rips, int max_dim, std::int64_t field) {
   const auto oracle = [&](int dim) {
     return with_all_edges(rips, dim,
@@ -326,7 +328,7 @@ inline void check(const Rips& rips, int max_dim,
   }
 }
 
-/// Every engine that takes the points alone against the oracle, which takes all cells.
+/// Compares every engine that uses only the points with the oracle, which uses all cells.
 inline void check_points_alone(PointsView points, std::int64_t field) {
   const Rips rips(points);
   const auto oracle = with_all_edges(rips, 1, [&](const auto& f) {

@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// Expects that `act` throws an Error of that kind whose message holds `part`, on one line.
+/// Checks that `act` throws an Error of this kind with a message of one line that contains `part`.
 template <class Act>
 void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
   try {
@@ -23,7 +23,7 @@ void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
   ADD_FAILURE() << "expected an error with '" << part << "', found none";
 }
 
-/// Whether `act` throws an Error. One of another kind fails the test.
+/// True if `act` throws an Error. An error of another kind fails the test.
 template <class Act>
 bool fails_with(ErrorKind kind, Act&& act) {
   try {

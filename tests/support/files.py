@@ -12,19 +12,20 @@ DIPHA_MAGIC = 8067171840
 
 
 def words(order, *numbers):
-    """Integers as int64, floats as float64. @param order '<' or '>'."""
+    """The bytes of integers as int64 and of floats as float64. @param order '<' or '>'."""
     return b"".join(struct.pack(order + ("q" if isinstance(n, int) else "d"), n) for n in numbers)
 
 
 def packed(descr, values):
-    """@param descr as in NumPy: "<f8", "|u1"."""
+    """The bytes of numbers. @param descr the type in NumPy's notation: "<f8", "|u1"."""
     order = ">" if descr[0] == ">" else "<"
     convert = {"b": bool, "f": float}.get(descr[1], int)
     return struct.pack(f"{order}{len(values)}{KINDS[descr[1:]]}", *map(convert, values))
 
 
 def npy_header(header, version=1):
-    """Magic number, version and header, padded so that the data start at a multiple of 64."""
+    """The magic number, version and header of an NPY file, padded such that the data start at a
+    multiple of 64."""
     length = 10 if version == 1 else 12
     encoded = header.encode("latin1" if version < 3 else "utf-8")
     encoded += b" " * (-(length + len(encoded) + 1) % 64) + b"\n"
@@ -39,12 +40,12 @@ def npy(descr, shape, data, fortran=False, version=1):
 
 
 def array(shape, values, descr="<f8", fortran=False):
-    """An NPY file of these values, in the order in which they are stored."""
+    """An NPY file with these values, in the order in which they are stored."""
     return npy(descr, shape, packed(descr, values), fortran)
 
 
 def npz(members, method=zipfile.ZIP_STORED):
-    """@param members name to content."""
+    """An NPZ file. @param members maps names to contents."""
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", method) as file:
         for name, content in members.items():
@@ -53,7 +54,7 @@ def npz(members, method=zipfile.ZIP_STORED):
 
 
 def gzipped(content):
-    """Without a time in its header, so that the bytes are always the same."""
+    """A gzip file without a time in its header: the bytes are always the same."""
     packer = zlib.compressobj(9, zlib.DEFLATED, 31)
     return packer.compress(content) + packer.flush()
 
@@ -68,7 +69,7 @@ GREY, RGB, PALETTE, GREY_ALPHA, RGBA = 0, 2, 3, 4, 6
 
 
 def png(width, height, bits, colour, rows, extra=b""):
-    """@param rows the bytes of each row. @param extra chunks before the pixels."""
+    """A PNG file. @param rows the bytes of each row. @param extra chunks before the pixels."""
     header = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)
     return (PNG_SIGNATURE + png_chunk(b"IHDR", header) + extra
             + png_chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), 9))
@@ -80,7 +81,7 @@ NIFTI_TYPES = {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 5
 
 
 def nifti(descr, extents, values, slope=0.0, intercept=0.0):
-    """@param values as they are stored, the first axis fastest."""
+    """A NIfTI-1 file. @param values the stored values, with the first axis fastest."""
     header = bytearray(352)
     order, kind = descr[0].replace("|", "<"), descr[1:]
     struct.pack_into(order + "i", header, 0, 348)
@@ -97,7 +98,7 @@ def dipha(*numbers):
 
 
 def dipha_image(extents, values):
-    """@param values the first axis fastest."""
+    """An image in DIPHA's format. @param values with the first axis fastest."""
     return dipha(1, len(values), len(extents), *extents, *map(float, values))
 
 
@@ -110,7 +111,7 @@ def pcd_header(fields="x y z", sizes="4 4 4", types="F F F", counts="1 1 1", wid
 
 
 def lzf(content):
-    """LZF with literals, and matches where a byte repeats."""
+    """Compresses with LZF, with literals and with matches for repeated bytes."""
     out, literals, i = bytearray(), bytearray(), 0
 
     def flush():
@@ -127,7 +128,7 @@ def lzf(content):
         literals.append(content[i])
         if run > 9:
             flush()
-            out.extend((0xE0, run - 1 - 9, 0))  # the byte before, run - 1 times more
+            out.extend((0xE0, run - 1 - 9, 0))  # the previous byte, run - 1 times
             i += run
         else:
             i += 1

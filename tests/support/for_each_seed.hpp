@@ -11,22 +11,23 @@
 
 namespace ph::test {
 
-/// How many seeds of `count` to try: the environment variable PH_TEST_SEEDS multiplies them, as in
+/// The number of seeds to try: `count` times the environment variable PH_TEST_SEEDS, for example
 /// 0.02 for a quick look or 250 for a long search.
 inline int seeds(int count) {
   const char* times = std::getenv("PH_TEST_SEEDS");
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
 }
 
-/// True if a random test has met its subject more than `least` times. Few seeds guarantee nothing.
+/// True if a random test has met the cases that it is about more than `least` times. With reduced
+/// numbers of seeds, it is always true.
 template <class Count>
 bool is_enough(Count count, Count least) {
   return count > least || seeds(100) < 100;
 }
 
-/// Runs `check(generator)` or `check(generator, ties, field)` for `seeds(count)` seeds: every other
-/// one with heavy ties, each with one of four fields. Stops at the first failure, which names the
-/// seed.
+/// Runs `check(generator)` or `check(generator, ties, field)` for `seeds(count)` seeds. Every
+/// second seed has many ties, and each seed has one of four fields. Stops at the first failure,
+/// which names the seed.
 template <class Check>
 void for_each_seed(int count, Check&& check) {
   static constexpr std::int64_t fields[] = {2, 3, 5, 11};

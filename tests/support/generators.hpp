@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Small, difficult inputs from a sequence of choices: ties, duplicates, zeros, missing edges.
+// Small, difficult inputs made from a sequence of choices: ties, duplicates, zeros, missing edges.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -14,7 +14,7 @@
 
 namespace ph::test {
 
-/// The source of the choices: a pseudorandom sequence.
+/// Makes the choices from a pseudo-random sequence.
 class RandomChoices {
  public:
   explicit RandomChoices(std::uint64_t seed) : engine_(seed) {}
@@ -25,7 +25,8 @@ class RandomChoices {
   std::mt19937_64 engine_;
 };
 
-/// @tparam Choices `integer(low, high)`, both inclusive, and `real()` in [0, 1].
+/// Makes inputs from choices. @tparam Choices has `integer(low, high)`, both inclusive, and
+/// `real()` in [0, 1].
 template <class Choices>
 class InputGenerator {
  public:
@@ -34,7 +35,7 @@ class InputGenerator {
   int integer(int low, int high) { return choices_.integer(low, high); }
   bool coin() { return integer(0, 1) == 1; }
   double real() { return choices_.real(); }
-  /// A value from a small set if `ties` is true.
+  /// A random value; from a small set if `ties` is true.
   double value(bool ties) { return ties ? integer(0, 3) : real(); }
 
   Points points(Index n, Index d, bool ties) {
@@ -43,7 +44,7 @@ class InputGenerator {
       for (Index k = 0; k < d; ++k) p(i, k) = value(ties);
     return p;
   }
-  /// Any symmetric matrix: the triangle inequality does not hold.
+  /// A symmetric matrix that need not satisfy the triangle inequality.
   DistanceMatrix distances(Index n, bool ties) {
     std::vector<double> lower(static_cast<std::size_t>(n * (n - 1) / 2));
     for (double& d : lower) d = value(ties);
@@ -74,7 +75,7 @@ class InputGenerator {
     for (int k = 0; k < dim; ++k) options.periodic.push_back(integer(0, 2) == 0);
     return options;
   }
-  /// The faces of some random simplices, each at the value of its youngest face or later.
+  /// The faces of some random simplices. The value of each is that of its youngest facet, or later.
   SimplexList simplices(Index vertices, int top_dim, int count, bool ties) {
     std::set<std::vector<Index>> all;
     for (int i = 0; i < count; ++i) {

@@ -12,19 +12,20 @@
 
 namespace ph::test {
 
-/// An image with the requested results in parts.
+/// An image, and the results that are requested from its parts.
 struct ImageCase {
   Image image;
   ImagePartOptions options;
-  int layers;  ///< largest number of parts
+  int layers;  ///< the largest number of parts
 };
 
-/// The axes of an image that parts use: an axis of one voxel counts in the T-construction, if it
-/// has ends.
+/// The axes of an image that count for its parts. An axis of one voxel counts in the
+/// T-construction, if it is not periodic.
 struct KeptAxes {
   int count = 0, layers = 0;
-  int copies = 0;       ///< periodic axes of one voxel: each adds a copy of every bar
-  bool closes = false;  ///< True if one of the kept axes is periodic
+  /// Number of periodic axes of one voxel, each of which adds a copy of every bar.
+  int copies = 0;
+  bool closes = false;  ///< true if one of the kept axes is periodic
 };
 inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOptions& options) {
   KeptAxes kept;
@@ -41,7 +42,8 @@ inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOption
   return kept;
 }
 
-/// Ties, holes, infinities, axes of one voxel or that close up, thresholds; both constructions.
+/// A random image of two or three axes, with ties, holes, infinities, axes of one voxel, periodic
+/// axes, and thresholds, for both constructions.
 inline ImageCase random_image_case(Generator& random) {
   const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
   ImageCase result{{}, {}, 0};
@@ -65,8 +67,9 @@ inline ImageCase random_image_case(Generator& random) {
   return result;
 }
 
-/// The same of four axes or five, also with voxels that are absent. Bars are the pieces, or those
-/// of the highest dimension but one: high voxels among low ones have these.
+/// A random image of four or five axes, in which voxels may also be absent. The bars are the
+/// components, or those of the highest dimension but one, which exist where high voxels are among
+/// low ones.
 inline ImageCase random_case_of_many_axes(Generator& random) {
   const int axes = random.integer(0, 3) == 0 ? 5 : 4, most = axes == 4 ? 4 : 3;
   const bool has_hollows = random.coin();
@@ -119,8 +122,8 @@ inline std::vector<ImagePart> parts_of(const Image& image, int count,
   return parts;
 }
 
-/// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
-/// comes back.
+/// Joins neighbouring parts in a random order until one is left. Now and then, a part is written to
+/// bytes and read back.
 inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   while (parts.size() > 1) {
     const auto i = static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 2));
@@ -135,7 +138,7 @@ inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   return std::move(parts[0]);
 }
 
-/// The first layers of this many parts, of any sizes.
+/// The first layer of each of this many parts, whose sizes are random.
 inline std::vector<Index> random_first_layers(Generator& random, int layers, int parts) {
   std::vector<Index> first{0};
   for (int left = parts - 1; left > 0; --left) {
@@ -145,7 +148,8 @@ inline std::vector<Index> random_first_layers(Generator& random, int layers, int
   return first;
 }
 
-/// True if the requested results of a volume include bars of dimension 1 or need them.
+/// True if parts refuse the requested results: for volumes, results that include bars of dimension
+/// 1 or need them.
 inline bool is_refused(const ImageCase& c) {
   try {
     ImagePart(c.image, 0, 1, c.options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Spaces whose homology is in every textbook: triangulations by their largest simplices, finite
-// metric spaces, images.
+// Spaces whose homology is in every textbook: triangulations given by their largest simplices,
+// finite metric spaces, images.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,11 +16,12 @@
 
 namespace ph::test {
 
-using Simplices = std::vector<std::vector<Index>>;  // the largest simplices; faces are implied
+// The largest simplices; their faces are implied.
+using Simplices = std::vector<std::vector<Index>>;
 
 // ---- triangulations
 
-/// Moebius' torus on seven vertices: every two are joined.
+/// Moebius' torus on seven vertices, every two of which are joined.
 inline Simplices torus_of_seven_vertices() {
   Simplices s;
   for (Index i = 0; i < 7; ++i) {
@@ -36,8 +37,8 @@ inline Simplices projective_plane() {
           {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
 }
 
-/// A grid of n x n squares, each cut in two, with opposite sides glued: straight to a torus, one
-/// pair reversed to a Klein bottle. A simplicial complex from n = 4 on.
+/// A grid of n x n squares, each cut in two, whose opposite sides are glued: directly for a torus,
+/// or with one pair reversed for a Klein bottle. It is a simplicial complex if n is at least 4.
 inline Simplices glued_grid(Index n, bool reversed) {
   const auto vertex = [&](Index i, Index j) {
     if (i >= n) {
@@ -57,7 +58,7 @@ inline Simplices glued_grid(Index n, bool reversed) {
 }
 inline Simplices klein_bottle() { return glued_grid(4, true); }
 
-/// All faces of a simplex on dim + 2 vertices but itself: a sphere of dimension `dim`.
+/// All proper faces of a simplex on dim + 2 vertices: a sphere of dimension `dim`.
 inline Simplices simplex_boundary(int dim) {
   Simplices s;
   for (Index gone = 0; gone < dim + 2; ++gone) {
@@ -69,8 +70,8 @@ inline Simplices simplex_boundary(int dim) {
   return s;
 }
 
-/// The boundary of the cross-polytope, a sphere of dimension `dim`: one vertex of each of dim + 1
-/// opposite pairs 2k, 2k + 1. dim = 2 is the octahedron.
+/// The boundary of the cross-polytope, a sphere of dimension `dim`: each largest simplex has one
+/// vertex of each of the dim + 1 opposite pairs 2k, 2k + 1. dim = 2 is the octahedron.
 inline Simplices cross_polytope(int dim) {
   Simplices s;
   for (unsigned choice = 0; choice < (1U << (dim + 1)); ++choice) {
@@ -88,7 +89,7 @@ inline Index vertex_count(const Simplices& simplices) {
   return count;
 }
 
-/// Two cones over one base. Shifts homology up by one dimension.
+/// The suspension: two cones over the same base. It shifts homology up by one dimension.
 inline Simplices suspension(const Simplices& base) {
   const Index north = vertex_count(base), south = north + 1;
   Simplices s;
@@ -101,7 +102,7 @@ inline Simplices suspension(const Simplices& base) {
   return s;
 }
 
-/// Two spaces that share vertex 0 and nothing else. Adds up homology above dimension 0.
+/// Two spaces that share only vertex 0. The homology above dimension 0 is the sum of both.
 inline Simplices wedge(const Simplices& a, const Simplices& b) {
   Simplices s = a;
   const Index shift = vertex_count(a) - 1;
@@ -113,18 +114,18 @@ inline Simplices wedge(const Simplices& a, const Simplices& b) {
   return s;
 }
 
-/// The lower-star filtration of a space, values by vertex.
+/// The lower-star filtration of a space. @param values of the vertices.
 inline ExplicitComplex filtered(const Simplices& simplices, std::span<const double> values) {
   SimplexList list;
   for (const auto& simplex : simplices) list.add(simplex, 0);
   return lower_star(list, values);
 }
-/// The space all at once, at value 0.
+/// The whole space, entering at value 0.
 inline ExplicitComplex all_at_once(const Simplices& simplices) {
   const std::vector<double> zeros(static_cast<std::size_t>(vertex_count(simplices)), 0.0);
   return filtered(simplices, zeros);
 }
-/// The space vertex by vertex: vertex i enters at i.
+/// The space built vertex by vertex: vertex i enters at i.
 inline ExplicitComplex vertex_by_vertex(const Simplices& simplices) {
   std::vector<double> values(static_cast<std::size_t>(vertex_count(simplices)));
   std::iota(values.begin(), values.end(), 0.0);
@@ -133,7 +134,7 @@ inline ExplicitComplex vertex_by_vertex(const Simplices& simplices) {
 
 // ---- metric spaces
 
-/// n points at equal steps around the unit circle.
+/// n evenly spaced points on the unit circle.
 inline Points circle(Index n) {
   Points p(n, 2);
   for (Index i = 0; i < n; ++i) {
@@ -143,16 +144,16 @@ inline Points circle(Index n) {
   }
   return p;
 }
-/// The distance of two circle points `steps` apart.
+/// The distance of two points of the circle that are `steps` apart.
 inline double chord(Index n, Index steps) {
   return 2 * std::sin(std::numbers::pi * static_cast<double>(steps) / static_cast<double>(n));
 }
 
-/// The points of a grid with integer coordinates, columns x rows, on a flat torus or Klein bottle,
-/// with the largest difference of coordinates as distance, taken the shortest way round.
+/// The points of a grid with integer coordinates, columns x rows, on a flat torus or Klein bottle.
+/// The distance is the largest difference of coordinates, measured the shortest way round.
 struct FlatSurface {
   Index columns, rows;
-  bool reversed = false;  ///< once around the columns flips the rows: a Klein bottle
+  bool reversed = false;  ///< going once around the columns flips the rows: a Klein bottle
 
   Index size() const { return columns * rows; }
   double operator()(Index a, Index b) const {
@@ -170,7 +171,7 @@ struct FlatSurface {
 
 // ---- barcodes in words
 
-/// The number of bars of each dimension 0 … top that contain `value`.
+/// For each dimension 0 … top, the number of bars that contain `value`.
 inline std::vector<int> betti_at(const Barcode& barcode, double value, int top) {
   std::vector<int> betti(static_cast<std::size_t>(top) + 1, 0);
   for (const Bar& bar : barcode)
@@ -178,7 +179,7 @@ inline std::vector<int> betti_at(const Barcode& barcode, double value, int top) 
       ++betti[static_cast<std::size_t>(bar.dim)];
   return betti;
 }
-/// The number of bars of each dimension 0 … top that never end.
+/// For each dimension 0 … top, the number of bars that never die.
 inline std::vector<int> betti_at_the_end(const Barcode& barcode, int top) {
   std::vector<int> betti(static_cast<std::size_t>(top) + 1, 0);
   for (const Bar& bar : barcode)

@@ -9,10 +9,10 @@
 
 namespace ph::test {
 
-/// Checks that two barcodes can be matched such that bars of the second one are born and die at the
-/// same value or later, at most at `latest`, and that only bars that die by latest(birth) are left
-/// out of either. @return the fault; empty if they can.
-/// @param latest never decreases; a small tolerance is added for rounding.
+/// Checks that two barcodes can be matched such that the birth and death of the late bar are at
+/// least those of the early bar x, and at most latest(x). Only bars that die by latest(birth) may
+/// be left out of either barcode. @return what is wrong; empty if they can be matched.
+/// @param latest a function that never decreases; a small tolerance is added for rounding.
 inline std::string late_matching_fault(const Barcode& early, const Barcode& late, int dim,
                                        const std::function<double(double)>& latest) {
   constexpr double hair = 1e-9;
@@ -22,8 +22,8 @@ inline std::string late_matching_fault(const Barcode& early, const Barcode& late
   const auto fits = [&](const Bar& a, const Bar& b) {
     return is_late(a.birth, b.birth) && is_late(a.death, b.death);
   };
-  // A matching that covers the required early bars and one that covers the required late bars
-  // combine into one that covers both (Mendelsohn & Dulmage 1958).
+  // A matching that covers the required early bars, and another that covers the required late bars,
+  // can be combined into one matching that covers both (Mendelsohn & Dulmage 1958).
   const auto uncovered = [&](const auto& bars, const auto& others, auto&& are_matched) {
     std::vector<int> partner(others.size(), -1);
     std::vector<bool> seen;

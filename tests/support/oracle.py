@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes by the definition: filtrations cell by cell, columns reduced from left to right.
+"""Barcodes by the definition: filtrations are listed cell by cell, and columns are reduced from
+left to right.
 
-Does not read files, and shares nothing with libph. A filtration is a dictionary: a cell, with its
-value, its dimension and its boundary, as pairs (cell, coefficient)."""
+Reads no files, and shares nothing with libph. A filtration is a dictionary from cells to (value,
+dimension, boundary), where a boundary is a list of pairs (cell, coefficient)."""
 import itertools
 import math
 
@@ -16,11 +17,11 @@ class Columns:
         self.filtration = filtration
         self.order = sorted(filtration, key=lambda c: (filtration[c][0], filtration[c][1], c))
         self.place = {cell: i for i, cell in enumerate(self.order)}
-        self.by_lowest = {}  # a column by the place of its youngest cell
-        self.killer = {}  # and the place of the column
+        self.by_lowest = {}  # columns by the position of their youngest cell
+        self.killer = {}  # positions of these columns
 
     def value_at(self, low):
-        """The value of the cell whose column has that youngest cell."""
+        """The value of the cell whose column has `low` as its youngest cell."""
         return self.filtration[self.order[self.killer[low]]][0]
 
 
@@ -75,14 +76,14 @@ def simplex_boundary(simplex):
 
 
 def simplicial(values):
-    """A filtration of simplices, ascending tuples of vertices, with their values; those at infinity
-    never enter."""
+    """A filtration of simplices, which are ascending tuples of vertices, with their values.
+    Simplices with the value infinity never enter."""
     return {s: (v, len(s) - 1, simplex_boundary(s)) for s, v in values.items() if v < INF}
 
 
 def flag_filtration(births, edge, max_dim, threshold=INF):
-    """Vietoris-Rips: a simplex enters with the last of its edges. @param edge(i, j) when i and j are
-    joined. @param max_dim of homology."""
+    """A Vietoris-Rips filtration: a simplex enters with the last of its edges. @param edge(i, j)
+    the value at which i and j are joined. @param max_dim of homology."""
     n = len(births)
     values = {(i,): births[i] for i in range(n) if births[i] <= threshold}
     last = dict(values)
@@ -101,8 +102,8 @@ def flag_filtration(births, edge, max_dim, threshold=INF):
 
 
 def cubical_filtration(shape, voxels, cells=False, superlevel=False, periodic=(), threshold=INF):
-    """@param voxels by coordinates, None: absent. @param cells whether voxels are top cubes. A cube is
-    its doubled coordinates."""
+    """A filtration of cubes, which are named by their doubled coordinates. @param voxels values by
+    coordinates; None if absent. @param cells true if voxels are top-dimensional cubes."""
     def voxel(at):
         value = voxels[at]
         if value is None:
@@ -133,7 +134,7 @@ def cubical_filtration(shape, voxels, cells=False, superlevel=False, periodic=()
 
 
 def solve(matrix, right):
-    """Gaussian elimination with pivots; None if the matrix has no inverse, nearly."""
+    """Gaussian elimination with pivots. None if the matrix is singular or nearly singular."""
     n = len(right)
     rows = [list(row) + [r] for row, r in zip(matrix, right)]
     scale = max((abs(x) for row in matrix for x in row), default=0)
@@ -150,9 +151,9 @@ def solve(matrix, right):
 
 
 def smallest_ball(points, weights=None):
-    """The squared radius of the smallest ball around some points: the largest among the
-    circumscribed balls of a few of them, each of which is the smallest that contains the rest.
-    Weights are subtracted from squared distances."""
+    """The squared radius of the smallest ball around some points. It is the largest among the
+    circumscribed balls of subsets that are the smallest ball around the subset. Weights are
+    subtracted from squared distances."""
     best = INF
     weight = dict(enumerate(weights or [0.0] * len(points)))
     dim = len(points[0])
@@ -174,9 +175,10 @@ def smallest_ball(points, weights=None):
 
 
 def cech_filtration(points, max_dim, weights=None):
-    """Balls that grow around points: a simplex enters with the radius of the smallest ball around it.
-    By the nerve theorem it has the homology of the union of the balls, as the alpha complex has.
-    @param weights squares of the first radii; then values are squares."""
+    """The Čech filtration: a simplex enters with the radius of the smallest ball around it. By the
+    nerve theorem, the complex has the homology of the union of the balls around the points, as the
+    alpha complex has.
+    @param weights squared radii at the start; with weights, values are squared radii."""
     values = {}
     for count in range(1, max_dim + 3):
         for simplex in itertools.combinations(range(len(points)), count):
@@ -187,7 +189,8 @@ def cech_filtration(points, max_dim, weights=None):
 
 
 def circumscribed(points):
-    """The smallest sphere through points: centre, square of the radius; None if there is none, nearly."""
+    """The smallest sphere through points, as its centre and squared radius. None if there is no
+    such sphere, or nearly none."""
     edges = [[x - y for x, y in zip(p, points[0])] for p in points[1:]]
     at = solve([[2 * sum(a * b for a, b in zip(e, f)) for f in edges] for e in edges],
                [sum(a * a for a in e) for e in edges])
@@ -198,12 +201,13 @@ def circumscribed(points):
 
 
 def periodic_alpha_filtration(points, period):
-    """The alpha complex of points in general position on a torus, cell by cell: a cell is a set of
-    images, pairs (point, periods), on an empty sphere, up to translation. With few points it is not
-    a simplicial complex; cells are ordered by their images, which translations do not change."""
+    """The alpha complex of points in general position on a torus, cell by cell. A cell is a set of
+    images, which are pairs (point, periods), on an empty sphere, up to translation. With few
+    points, it is not a simplicial complex. The images of a cell have an order that translations do
+    not change."""
     dim = len(period)
     points = [[x % length for x, length in zip(point, period)] for point in points]
-    reach = math.sqrt(sum(length * length for length in period))  # no empty ball is wider
+    reach = math.sqrt(sum(length * length for length in period))  # larger than every empty ball
     periods = [range(-math.ceil(reach / length) - 1, math.ceil(reach / length) + 2) for length in period]
     images = {(i, t): [x + k * length for x, k, length in zip(point, t, period)]
               for i, point in enumerate(points) for t in itertools.product(*periods)}
@@ -213,7 +217,7 @@ def periodic_alpha_filtration(points, period):
         return tuple((i, tuple(k - k0 for k, k0 in zip(t, first))) for i, t in cell)
 
     def own_value(cell):
-        """The square of the radius of its smallest sphere; None if something lies inside."""
+        """The squared radius of the cell's smallest sphere; None if a point lies inside."""
         sphere = circumscribed([images[image] for image in cell])
         if sphere is None or any(image not in cell and math.dist(sphere[0], x) ** 2 < sphere[1]
                                  for image, x in images.items()):
@@ -243,8 +247,8 @@ def periodic_alpha_filtration(points, period):
 
 
 def distance(metric):
-    """A metric by its name in the options. Coordinates that are small multiples of a power of two
-    make exact sums, and a root is rounded once."""
+    """A metric, by its name in the options. For coordinates that are small multiples of a power of
+    two, sums are exact, and a root is rounded once."""
     def euclidean(a, b):
         return math.sqrt(sum((x - y) ** 2 for x, y in zip(a, b)))
 
@@ -262,8 +266,8 @@ def distance(metric):
 
 
 def weighted_edge(exponent):
-    """The value at which the balls of two points born at f and g, at distance d, meet (Anai et al.
-    2019, all values doubled)."""
+    """The value at which the balls of two points meet, which are born at f and g and are at
+    distance d (Anai et al. 2019, with all values doubled)."""
     def joined(d, f, g):
         late = max(f, g)
         if exponent == "inf" or d == INF:
@@ -277,8 +281,8 @@ def weighted_edge(exponent):
 
 
 def farthest_points(count, d, n):
-    """Point 0, then always the point farthest from all chosen ones, the first among equals, without
-    duplicates of chosen points."""
+    """Point 0, and then always the point that is farthest from all chosen points, the first one
+    among ties. Duplicates of chosen points are left out."""
     chosen = [0]
     while len(chosen) < count:
         far = max(range(n), key=lambda i: (min(d(i, j) for j in chosen), -i))

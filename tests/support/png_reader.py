@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Reads PNG back, by its definition."""
+"""Reads PNG files according to their definition."""
 import struct
 import zlib
 
-CHANNELS = {0: 1, 2: 3, 6: 4}  # of grey, RGB and RGBA
+CHANNELS = {0: 1, 2: 3, 6: 4}  # number of channels of grey, RGB and RGBA
 
 
 def chunks(data):
-    """@return name and content of each chunk of a PNG, checksums compared."""
+    """@return the name and content of each chunk of a PNG. Checksums are verified."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:8]
     at, found = 8, []
     while at < len(data):
@@ -21,14 +21,14 @@ def chunks(data):
 
 
 def unfiltered(kind, line, above, step):
-    """@return what a row was before a PNG filter made it shorter."""
-    if not any(line) and kind in (2, 4):  # most rows are white: the one above once more
+    """@return the row before a PNG filter was applied."""
+    if not any(line) and kind in (2, 4):  # most rows are white and equal the row above
         return above
     if kind == 0:
         return line
     if kind == 2:
         return bytes([(byte + up) & 255 for byte, up in zip(line, above)])
-    found = bytearray(step) + line  # and no pixel before the first
+    found = bytearray(step) + line  # there is no pixel before the first one
     for i, (byte, up, corner) in enumerate(zip(line, above, bytes(step) + above)):
         left = found[i]
         if kind == 1:
@@ -43,7 +43,7 @@ def unfiltered(kind, line, above, step):
 
 
 def rows_of(data):
-    """@return width, height, bits and kind of colour, and the bytes of each row."""
+    """@return width, height, bits and type of colour, and the bytes of each row."""
     parts = chunks(data)
     width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", dict(parts)[b"IHDR"])
     assert not interlaced

@@ -6,7 +6,7 @@
 
 namespace ph::test {
 
-/// Point j of `from` becomes point i of `to`.
+/// Copies point j of `from` to point i of `to`.
 inline void copy_point(PointsView from, Index j, Points& to, Index i) {
   std::copy_n(from.row(j), from.cols(), to.row(i).begin());
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs a program in a separate folder; shared by the tests that drive programs."""
+"""Runs a program in a separate folder. Shared by the tests that drive programs."""
 import os
 import re
 import subprocess
@@ -16,14 +16,14 @@ SQUARE_CSV = ("dim,birth,death\n0,0,1\n0,0,1\n0,0,1.0307764064044151\n0,0,inf\n"
 
 
 def has_page(program):
-    """True if the page of --report is built in; otherwise the option ends with exit code 69."""
+    """True if the report page is built in; otherwise, --report ends with exit code 69."""
     said = subprocess.run([program, "--version", "--verbose"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
     return re.search("reports +built in", said) is not None
 
 
 class FolderTest(unittest.TestCase):
-    """Each test has a folder of its own."""
+    """A test that has its own folder."""
 
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
@@ -57,7 +57,7 @@ class ProgramTest(FolderTest):
         self.write("square.txt", SQUARE)
 
     def run_program(self, *arguments, **options):
-        """Runs in the test's folder. Output is text unless text=False is given."""
+        """Runs the program in the test's folder. Output is text unless text=False is given."""
         options.setdefault("text", True)
         options.setdefault("timeout", 60)
         options.setdefault("stdin", subprocess.DEVNULL)
@@ -68,7 +68,8 @@ class ProgramTest(FolderTest):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder, **options)
 
     def expect(self, code, *arguments, **options):
-        """Runs, checks the exit code, and that an error is one line. @return the run."""
+        """Runs the program, checks its exit code, and checks that an error is one line. @return the
+        run."""
         run = self.run_program(*arguments, **options)
         self.assertEqual(run.returncode, code, f"{arguments}: {run.stderr!r}")
         if code != 0 and isinstance(run.stderr, str):
@@ -85,6 +86,7 @@ class ProgramTest(FolderTest):
 def main():
     global PROGRAM
     PROGRAM = os.path.abspath(sys.argv.pop(1))
-    # This file is imported under its own name by the tests, so both copies must know.
+    # Tests import this file under its own name, which makes a second module. Both need to know the
+    # program.
     sys.modules["program"].PROGRAM = PROGRAM
     unittest.main(verbosity=2)

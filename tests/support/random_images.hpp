@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Checks the representatives of the bars of one random image.
+// Checks the representatives of the bars of a random image.
 #include <limits>
 
 #include "tests/support/generators.hpp"
@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// A small image of up to three axes with options, some voxels of it never entering.
+/// A small image of up to three axes, in which some voxels never enter, and its options.
 struct RandomImage {
   Image image;
   CubicalOptions options;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Checks from the definitions that a chain represents a bar.
+// Checks by the definitions that a chain represents a bar.
 #include "tests/support/conformance.hpp"
 
 namespace ph::test {
 
-/// A chain of cells of one dimension by their position in the order; coefficients 1 … p-1.
+/// A chain of cells of one dimension, which are named by their positions in the order; coefficients
+/// are 1 … p-1.
 using PositionChain = std::map<std::size_t, std::int64_t>;
 
-/// The cells of a filtration in order, with boundaries as chains of positions, dimension by
+/// The cells of a filtration in order, and their boundaries as chains of positions, for each
 /// dimension.
 template <Filtration F>
 class OrderedCells {
@@ -53,9 +54,10 @@ class OrderedCells {
     }
     return result;
   }
-  /// True if the chain of dimension `dim` bounds a chain of the first `cofaces` cells of dim + 1.
+  /// True if the chain of dimension `dim` is the boundary of a chain of the first `cofaces` cells
+  /// of dimension dim + 1.
   bool is_boundary(PositionChain chain, int dim, std::size_t cofaces) const {
-    std::map<std::size_t, PositionChain> reduced;  // by youngest cell
+    std::map<std::size_t, PositionChain> reduced;  // by their youngest cells
     const auto reduce = [&](PositionChain& c) {
       while (!c.empty() && reduced.contains(c.rbegin()->first)) {
         const PositionChain& r = reduced.at(c.rbegin()->first);
@@ -87,7 +89,7 @@ class OrderedCells {
   std::vector<Level> levels_;
 };
 
-/// The representative of a bar, which must be closed.
+/// The representative of a bar, which must have no boundary (or coboundary).
 template <Filtration F>
 PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -99,7 +101,8 @@ PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, st
   return cycle;
 }
 
-/// A cycle: closed, its youngest cell the birth, a boundary first at the death.
+/// Checks a cycle: it has no boundary, its youngest cell is the birth cell, and it first becomes a
+/// boundary at the death.
 template <Filtration F>
 void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -114,7 +117,8 @@ void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t 
   }
 }
 
-/// A cocycle: zero before the birth, its coboundary first non-zero at the death.
+/// Checks a cocycle: it is zero before the birth, and its coboundary is first non-zero at the
+/// death.
 template <Filtration F>
 void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -124,15 +128,15 @@ void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_
   const auto death = bars.death_cell(i);
   const std::size_t at = death ? cells.position(dim + 1, *death) : cells.count(dim + 1);
   for (std::size_t coface = 0; coface <= at && coface < cells.count(dim + 1); ++coface) {
-    PositionChain value;  // of the coboundary on the coface, as a chain of one entry
+    PositionChain value;  // the coboundary at this coface, as a chain of one entry
     for (const auto& [face, b] : cells.boundary(dim + 1, coface))
       if (cochain.contains(face)) cells.add(value, 0, b * cochain.at(face));
     EXPECT_EQ(value.empty(), coface < at) << "coboundary at coface " << coface << " of " << at;
   }
 }
 
-/// All representatives of all engines that compute them, including zero-length bars; the bars must
-/// be those of the oracle.
+/// Checks all representatives, including those of bars of length 0, of all engines that compute
+/// representatives. The bars must be those of the oracle.
 template <Filtration F>
 void check_representatives(const F& f, int max_dim, std::int64_t field) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The graphs under a Rips filtration, for tests that look at edges.
+// The graphs of a Rips filtration, for tests that look at edges.
 #include <utility>
 
 #include "ph/detail/rips/rips_filtration.hpp"
@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// All edges; each of several equal points is a vertex.
+/// The graph of all edges; each of several equal points is a vertex.
 inline const RipsGraph& all_edges(const Rips& rips) { return rips.graph(RipsForm::edges); }
 
 /// The graph that a computation with these options uses.
@@ -16,13 +16,13 @@ inline const RipsGraph& planned_graph(const Rips& rips, const Options& options) 
   return rips.graph(*plan(rips, options).form);
 }
 
-/// Calls `use` with the dense, sparse or wide filtration of all edges.
+/// Calls `use` with the filtration of all edges: dense, sparse or wide.
 template <class Use>
 decltype(auto) with_all_edges(const Rips& rips, int max_dim, Use&& use) {
   return with_rips_filtration(all_edges(rips), max_dim, std::forward<Use>(use));
 }
 
-/// The same task with each of several equal points as a vertex.
+/// The same filtration, in which each of several equal points is a vertex.
 inline Rips without_merging(const Rips& rips) {
   RipsOptions options = rips.options();
   options.merge_equal_points = false;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A synthetic table with boxes in front of a wall, as a depth camera sees it: an organised PCD."""
+"""A synthetic table with boxes in front of a wall, as a depth camera sees it, as an organised PCD
+file."""
 import math
 import random
 import struct
@@ -21,7 +22,7 @@ def _entry(block, ray):
 
 
 def room(width=240, height=180, seed=1, noise=0.0005):
-    """The bytes of the file. Depth has noise that grows with its square."""
+    """The bytes of the PCD file. The noise of depth grows with the square of the depth."""
     rng, focal, c = random.Random(seed), 0.53 * width, math.sqrt(0.5)
     records = []
     for v in range(height):

@@ -7,17 +7,17 @@
 
 namespace ph::test {
 
-/// A context whose memory has a limit, in bytes.
+/// A context with a memory limit in bytes.
 struct LimitedContext : RunContext {
   explicit LimitedContext(std::size_t limit) { memory.set_limit(limit); }
 };
 
-/// A context of so many threads.
+/// A context with this number of threads.
 struct ThreadsContext : RunContext {
   explicit ThreadsContext(int count) { threads = count; }
 };
 
-/// A context that a test stops when it likes.
+/// A context that a test can stop at any time.
 struct StoppableContext : RunContext {
   StoppableContext() { stop = source_.get_token(); }
   void request_stop() { source_.request_stop(); }
@@ -26,7 +26,7 @@ struct StoppableContext : RunContext {
   std::stop_source source_;
 };
 
-/// A context that was stopped beforehand.
+/// A context that has already been stopped.
 struct StoppedContext : StoppableContext {
   StoppedContext() { request_stop(); }
 };

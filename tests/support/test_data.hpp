@@ -9,15 +9,15 @@
 
 namespace ph::test {
 
-/// A folder of the optional test data (docs/development/test-data.md); an empty path if it does not
-/// exist.
+/// The path of a folder of the optional test data (docs/development/test-data.md); empty if the
+/// folder does not exist.
 inline std::filesystem::path test_data(const std::string& folder) {
   const std::filesystem::path root = PH_TEST_DATA;
   if (root.empty() || !std::filesystem::is_directory(root / folder)) return {};
   return root / folder;
 }
 
-/// The reason for skipping a test that needs the folder.
+/// The reason for skipping a test that needs this folder.
 inline std::string no_test_data(const std::string& folder) {
   return "skipped: PH_TEST_DATA, which is \"" PH_TEST_DATA "\", has no folder " + folder;
 }

@@ -20,28 +20,28 @@
 
 namespace ph::test {
 
-/// The possible fates of a message.
+/// What may happen to a message.
 enum class Mishap { none, lost, doubled, swapped, changed };
 
-/// Ranks that are threads of this process. Messages wait in queues; a schedule decides which rank
-/// is late.
+/// Ranks that are threads of this process. Messages wait in queues, and random delays decide which
+/// rank is late.
 class ThreadRanks {
  public:
   using Bytes = std::vector<std::byte>;
 
-  /// @param delays numbers from it delay ranks; null: none are.
+  /// @param delays random numbers that delay ranks; null for no delays.
   ThreadRanks(int size, std::mt19937* delays) : size_(size) {
     for (int i = 0; i < size && delays != nullptr; ++i) naps_.push_back((*delays)());
   }
-  /// Something happens to the n-th message of all.
+  /// Makes something happen to the message with this number, counted over all ranks.
   void plan(Mishap mishap, int message) {
     mishap_ = mishap;
     unlucky_ = message;
   }
   bool has_happened() const { return has_happened_; }
 
-  /// Runs all ranks to their end. @throws the error of the first failing rank; the others are told
-  /// to stop.
+  /// Runs all ranks to their end. @throws the error of the first rank that fails; the other ranks
+  /// are told to stop.
   void run(const std::function<void(Transport&)>& rank) {
     std::vector<std::thread> threads;
     std::exception_ptr failure;
@@ -81,7 +81,7 @@ class ThreadRanks {
     const int rank_;
   };
 
-  /// Delays a rank by its own random numbers, because threads do not share them.
+  /// Delays a rank. Each rank has its own random numbers, because threads cannot share a generator.
   void nap(int rank) {
     if (naps_.empty()) return;
     std::uint_fast32_t& state = naps_[static_cast<std::size_t>(rank)];
@@ -111,7 +111,8 @@ class ThreadRanks {
   Bytes take(int from, int to) {
     std::unique_lock lock(mutex_);
     std::deque<Bytes>& queue = queues_[{from, to}];
-    constexpr std::chrono::milliseconds patience(100);  // a lost message never arrives
+    // Limits the wait, because a lost message never arrives.
+    constexpr std::chrono::milliseconds patience(100);
     const bool came =
         arrived_.wait_for(lock, mishap_ == Mishap::none ? std::chrono::minutes(1) : patience,
                           [&] { return is_over_ || !queue.empty(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Sets of voxels that represent bars of images, by flood fill from their definition.
+// Checks sets of voxels that represent bars of images, by flood fill from the definition.
 #include <cstdlib>
 #include <set>
 
@@ -11,8 +11,8 @@ namespace ph::test {
 using Place = std::size_t;
 using PlaceSet = std::set<Place>;
 
-/// An image as a graph of voxels, and of the outside: two nodes more if one axis alone has ends,
-/// else one.
+/// An image as a graph of its voxels and of the outside. The outside has two nodes if exactly one
+/// axis is not periodic, and otherwise one.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const std::vector<Index>& extents, std::vector<bool> periodic,
@@ -27,14 +27,14 @@ class VoxelNeighbours {
   }
   Place size() const { return size_; }
   Place outside(bool upper) const { return size_ + (open_axes_ == 1 && upper ? 1 : 0); }
-  /// Axes along which there is more than one cell.
+  /// True if there is more than one cell along axis k.
   bool has_axis(std::size_t k) const { return extents_[k] > 1 || (!is_vertices_ && !periodic_[k]); }
   int axes() const {
     int count = 0;
     for (std::size_t k = 0; k < extents_.size(); ++k) count += has_axis(k) ? 1 : 0;
     return count;
   }
-  /// True if there is a circle of one voxel.
+  /// True if a periodic axis has only one voxel.
   bool has_loop() const {
     for (std::size_t k = 0; k < extents_.size(); ++k)
       if (extents_[k] == 1 && periodic_[k]) return true;
@@ -47,10 +47,10 @@ class VoxelNeighbours {
     return result;
   }
 
-  /// The nodes that can be reached from a node, including itself, by steps to nodes that are
-  /// `open`.
-  /// @param wide true if voxels that share a corner are neighbours; otherwise they must share a
-  ///     facet.
+  /// The nodes that can be reached from a node by steps to nodes for which `open` returns true,
+  /// including the node itself.
+  /// @param wide true if voxels that share a corner are neighbours; otherwise, they must share a
+  /// facet.
   template <class IsOpen>
   PlaceSet flood(Place from, bool wide, IsOpen&& open) const {
     PlaceSet met;
@@ -98,7 +98,7 @@ class VoxelNeighbours {
       if (step[k] == 0) continue;
       to[k] += step[k];
       if (periodic_[k]) to[k] = (to[k] + extents_[k]) % extents_[k];
-      // In the V-construction an axis of one voxel has no room beside it.
+      // In the V-construction, an axis of one voxel has no outside.
       if (!has_axis(k)) return place(at);
       if (to[k] < 0) return outside(false);
       if (to[k] == extents_[k]) return outside(true);
@@ -113,8 +113,8 @@ class VoxelNeighbours {
   int open_axes_ = 0;
 };
 
-/// The representatives of an image's bars when sets are requested: which bars have a set, and its
-/// voxels; the others have a cycle.
+/// Checks representatives when sets of voxels are requested: which bars have a set, and its voxels.
+/// The other bars have a cycle.
 inline void check_voxel_sets(const Image& image, const CubicalOptions& options, const Barcode& bars,
                              std::int64_t field) {
   const VoxelNeighbours grid(image.extents, options.periodic, options.construction);
@@ -146,8 +146,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
       }));
       continue;
     }
-    // Among classes that surround something, only those that are never filled may surround no
-    // voxel.
+    // Only classes that are never filled may have a set without voxels, among classes that surround
+    // something.
     const bool may_be_hollow = !grid.has_loop() && bar.dim == grid.axes() - 1;
     if (!may_be_hollow || (bar.is_infinite() && has_chain)) {
       EXPECT_TRUE(found.empty());
@@ -159,8 +159,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
     const auto is_open = [&](Place p) {
       return p >= grid.size() || !enters(p) || value(p) > bar.birth;
     };
-    // A hollow that is never filled contains voxels that never enter, or the outside beyond one end
-    // of an axis, but not the outside beyond the other end.
+    // A void that is never filled contains voxels that never enter. Otherwise, it contains the
+    // outside beyond one end of an axis, but not the outside beyond the other end.
     const Place beyond = grid.outside(is_vertices), other = grid.outside(!is_vertices);
     const Place inside = bar.is_infinite() ? *found.begin() : grid.place(bars.death_voxel(i));
     PlaceSet filled = grid.flood(inside, is_vertices, is_open);

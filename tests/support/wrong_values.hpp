@@ -7,7 +7,7 @@
 
 namespace ph::test {
 
-/// A wrong value, and the text about it in the message.
+/// A wrong value, and what the message says about it.
 struct Case {
   const char* name;
   ErrorKind kind;

@@ -167,7 +167,7 @@ TEST(PartForecast, NoiseTakesWhatIsForeseen) {
   Generator random(4);
   const Image image = volume_of({64, 64, 64}, [&](Index) { return random.real(); });
   for (const auto construction : {Construction::vertices, Construction::cells})
-    for (const int dims : {0, 2, 3})  // only components; without loops; all dimensions
+    for (const int dims : {0, 2, 3})  // only components; only voids; all dimensions
       for (const int parts : {2, 3}) {
         ImagePartOptions options{.cubical = {.construction = construction}, .cells = dims == 3};
         if (dims == 0) options.max_dim = 0;

@@ -32,7 +32,7 @@ Sum random_sum(Generator& random, std::size_t generators, int most) {
   return sum;
 }
 
-// Relations as columns, each fully reduced by the previous ones.
+// The relations as columns, each fully reduced by the preceding columns.
 class Oracle {
  public:
   std::optional<std::uint32_t> add(const Sum& relation) {
@@ -57,7 +57,8 @@ class Oracle {
   std::map<std::uint32_t, Sum> meanings_;
 };
 
-// The result of `substitute`: living generators are units, and dead ones are sums of living ones.
+// Checks the result of `substitute`: living generators are units, and dead generators are sums of
+// living ones.
 template <class Relations>
 void check_substitution(const Relations& relations, const Oracle& oracle, std::size_t generators,
                         auto&& substitute) {
@@ -97,7 +98,7 @@ TEST(PairLabels, AreAMatrix) {
   });
 }
 
-// Relations of few and of many terms, so that they are lists and rows of bits.
+// The relations have few or many terms: they are stored as lists or as rows of bits.
 TEST(FormalSums, KillWhatColumnsKill) {
   std::size_t follow = 0;
   for_each_seed(50, [&](Generator& random, bool, std::int64_t) {
@@ -134,10 +135,11 @@ TEST(FormalSums, KillWhatColumnsKill) {
       sums.relations().substitute(vectors, generators, words);
     });
   });
-  EXPECT_TRUE(is_enough(follow, std::size_t{500})) << follow;  // the test is about something
+  EXPECT_TRUE(is_enough(follow, std::size_t{500})) << follow;  // the test covers enough cases
 }
 
-// Blocks of relations, with generators born in between, so many that rows grow.
+// Blocks of relations, between which generators are born. There are so many generators that rows
+// grow.
 TEST(SumRows, KillWhatColumnsKill) {
   for_each_seed(30, [](Generator& random, bool, std::int64_t) {
     auto generators = static_cast<std::size_t>(random.integer(1, 200));

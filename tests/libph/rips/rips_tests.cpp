@@ -28,7 +28,7 @@ TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
     }
     const Rips rips(d);
     EXPECT_EQ(all_edges(rips).threshold(), radius);
-    // Beyond the radius nothing changes, whatever the distances.
+    // Beyond the enclosing radius, nothing changes, for any distances.
     EXPECT_EQ(bars_of(persistence(rips, {.max_dim = 3})),
               bars_of(persistence(Rips(d, {.threshold = kInf}), {.max_dim = 3})));
   });
@@ -55,7 +55,7 @@ TEST(RipsGraphs, TheThresholdIsInclusive) {
   }
 }
 
-// Keys 1, 2, … are the edges by (distance, larger end, smaller end).
+// The keys 1, 2, … follow the order of the edges by (distance, larger end, smaller end).
 void expect_keys_ascend(const Rips& rips) {
   std::vector<std::array<double, 3>> edges;
   for (RipsGraph::Key key = 1; key <= all_edges(rips).edge_count(); ++key) {
@@ -87,7 +87,7 @@ struct NegativeZeros {
   double operator()(Index i, Index j) const { return (i + j) % 2 == 0 ? 0.0 : -0.0; }
 };
 
-// Bins of many edges, of few, and of one value; within a threshold and without.
+// Bins with many edges, with few edges and with a single value, with and without a threshold.
 TEST(RipsGraphs, ManyEdgesAreSorted) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Generator random(seed);
@@ -112,10 +112,12 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
   }
 }
 
-// Asking bin by bin gives the same edges as asking for all; edges of other bins stay unsorted.
+// Requesting edges bin by bin gives the same edges as requesting all at once. The edges of other
+// bins stay unsorted.
 TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   Generator random(3);
-  const Points points = random.points(1000, 8, false);  // of nearly one distance: large bins
+  // Nearly equal distances, and thus large bins.
+  const Points points = random.points(1000, 8, false);
   RunContext one, three;
   one.threads = 1;
   three.threads = 3;
@@ -138,7 +140,7 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   }
 }
 
-// Enough edges for threads to share their sorting and their links.
+// There are enough edges for threads to share the sorting and the links.
 TEST(RipsGraphs, ThreadsAgreeOnManyEdges) {
   Generator random(5);
   const Points points = random.points(1400, 8, false);
@@ -178,7 +180,7 @@ TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
                  [&] { all_edges(Rips(far, {.threshold = threshold})); });
 }
 
-// Vertices without edges make the graph sparse but change nothing else.
+// Vertices without edges make the graph sparse, and change nothing else.
 TEST(RipsGraphs, LayoutsAgree) {
   for_each_seed(200, [&](Generator& random) {
     const SparseDistances few = random.sparse(random.integer(4, 9), random.coin(), 0.8);
@@ -203,7 +205,8 @@ TEST(RipsGraphs, CliqueBoundsHold) {
       EXPECT_EQ(f.top_dim(), static_cast<int>(bound) - 1);
       for (int dim = 0; dim <= f.top_dim() + 1; ++dim) f.for_each_cell(dim, [](const auto&) {});
     });
-    // No simplex is missed: the whole complex has the Euler characteristic of its edges' cliques.
+    // No simplex is missing: the complex has the Euler characteristic of the complex of all
+    // cliques.
     check(rips, 12, {2});
   });
 }
@@ -221,7 +224,7 @@ TEST(RipsInputs, NoneOneAndTwoPoints) {
   }
 }
 
-struct Arc {  // points on a circle of circumference 12, a distance of the user's own
+struct Arc {  // points on a circle of circumference 12, with the user's own distance
   Index size() const { return 12; }
   int operator()(Index i, Index j) const {
     const auto steps = static_cast<int>(std::abs(i - j));
@@ -264,7 +267,7 @@ TEST(RipsInputs, NamedDistances) {
   EXPECT_EQ(loop(PointDistance::hamming), (Loops{{1, 2}}));
 }
 
-// With 2^20 points a cell of one word holds three vertices, of four words twelve.
+// With 2^20 points, one word holds a cell of three vertices, and four words hold a cell of twelve.
 TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator random(seed);
@@ -298,7 +301,7 @@ TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
   expect_error(ErrorKind::bad_data, "point 1", [&] { Rips(points, {.merge_equal_points = true}); });
 }
 
-// Each pair of copies would be an edge: 10^12 of them.
+// Each pair of copies would be an edge, 10^12 in total.
 TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   Points points(1000000, 3);
   for (Index i = 0; i < points.rows(); ++i)
@@ -330,7 +333,7 @@ TEST(RipsInputs, SimplicesTooLargeForAnyCellAreRefused) {
   EXPECT_EQ(persistence(rips, {.max_dim = 200}).size(), 300U) << "a tree is left of the edges";
 }
 
-/// The cells in no apparent pair, found with or without rows of bits.
+/// The cells that are in no apparent pair, found with or without rows of bits.
 template <class F>
 auto unmatched_cells(const F& f, int dim, bool has_rows) {
   std::vector<typename F::Cell> cells;
@@ -340,7 +343,7 @@ auto unmatched_cells(const F& f, int dim, bool has_rows) {
   return cells;
 }
 
-// Vertices in several words of bits.
+// The bits of all vertices take several words.
 TEST(RipsFiltrations, CellsInNoApparentPair) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Generator random(seed);

@@ -26,7 +26,7 @@ std::vector<double> random_births(Generator& random, Index n, bool ties) {
   return births;
 }
 
-/// Some of n points, ascending; never none of several.
+/// A random ascending subset of n points; not empty unless there is at most one point.
 std::vector<std::uint32_t> random_vertices(Generator& random, Index n) {
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t v = 0; v < n; ++v)
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> random_vertices(Generator& random, Index n) {
   return chosen;
 }
 
-/// The radius (t^p - b^p)^(1/p) / 2 of a ball at diameter t.
+/// The radius (t^p - b^p)^(1/p) / 2 at diameter t of a ball that is born at b.
 double radius(double t, double b, WeightExponent exponent) {
   switch (exponent) {
     case WeightExponent::one:
@@ -55,7 +55,8 @@ TEST(VertexWeights, EdgesEnterWhenBallsMeet) {
       EXPECT_EQ(VertexWeights(b, exponent).edge_value(1, 0, d), t);
       ASSERT_GE(t, std::max({b[0], b[1], d}));
       const double reach = radius(t, b[0], exponent) + radius(t, b[1], exponent);
-      EXPECT_GE(reach, d * (1 - 1e-7) - 1e-7);  // a root of a difference that is nearly 0
+      // The root of a difference that is nearly 0 is inexact.
+      EXPECT_GE(reach, d * (1 - 1e-7) - 1e-7);
       if (t > std::max(b[0], b[1])) {
         EXPECT_NEAR(reach, d, 1e-7) << "they met before";
       }
@@ -70,7 +71,7 @@ TEST(VertexWeights, EdgesEnterWhenBallsMeet) {
                [&] { VertexWeights(huge, WeightExponent::one).edge_value(0, 1, 1e308); });
 }
 
-/// The same filtration from a list of simplices, numbered as in the input.
+/// The same filtration as a list of simplices, numbered as in the input.
 ExplicitComplex listed(const DistanceMatrix& distances, const RipsOptions& options, int top) {
   const VertexWeights weights(options.births, *options.weight_exponent);
   const double limit = options.threshold.value_or(kInf);
@@ -100,7 +101,7 @@ ExplicitComplex listed(const DistanceMatrix& distances, const RipsOptions& optio
   return ExplicitComplex::from_simplices(list);
 }
 
-// By definition: the same values, simplex by simplex, whatever holds the distances.
+// The values agree with the definition, simplex by simplex, for every way to store the distances.
 TEST(WeightedRips, IsTheFiltrationThatItSays) {
   for_each_seed(20000, [](Generator& random, bool ties, std::int64_t field) {
     const int max_dim = random.integer(0, 2);
@@ -135,7 +136,8 @@ TEST(WeightedRips, IsTheFiltrationThatItSays) {
   });
 }
 
-// Every engine and the collapse against the oracle: births tie with each other and with edges.
+// Compares every engine, and the collapse, with the oracle. Births have ties with each other and
+// with edges.
 TEST(WeightedRips, PassesTheSuite) {
   for_each_seed(6000, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(0, 9);
@@ -169,7 +171,7 @@ TEST(WeightedRips, CollapseLeavesTheBarsAsTheyAre) {
   });
 }
 
-// Beyond the enclosing radius nothing changes; every vertex is born by then.
+// Beyond the enclosing radius, nothing changes. Every vertex is born before.
 TEST(WeightedRips, TheDefaultThresholdIsEnough) {
   for_each_seed(3000, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(1, 8);

@@ -6,7 +6,7 @@
 
 namespace ph::test {
 
-/// Uniform in a cube.
+/// Points distributed uniformly in a cube.
 inline Points random_points(std::mt19937& random, Index count, Index dimension) {
   std::uniform_real_distribution<> number(0, 1);
   Points points(count, dimension);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Vectors of diagrams by definition, value by value, with more digits.
+// Vectors of diagrams by their definitions, value by value and in higher precision.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -14,7 +14,7 @@ inline double tent(const Bar& bar, double t) {
   return std::max(0.0, std::min(t - bar.birth, bar.death - t));
 }
 
-/// The k-th largest tent, k from 0; 0 if there are fewer.
+/// The k-th largest tent at t, counted from 0; 0 if there are fewer tents.
 inline double landscape_at(const Bars& bars, std::size_t k, double t) {
   std::vector<double> tents;
   for (const Bar& bar : bars) tents.push_back(tent(bar, t));
@@ -34,7 +34,7 @@ inline double silhouette_at(const Bars& bars, double power, double t) {
   return weights > 0 ? static_cast<double>(sum / weights) : 0;
 }
 
-/// -Σ p ln p over the bars that `counts` selects.
+/// -Σ p ln p over the bars for which `counts` returns true.
 template <class Counts>
 double entropy_of(const Bars& bars, Counts&& counts) {
   long double total = 0, sum = 0;
@@ -46,7 +46,7 @@ double entropy_of(const Bars& bars, Counts&& counts) {
   return static_cast<double>(sum);
 }
 
-/// The integral over [a, b], by Simpson's rule on many pieces.
+/// The integral of a function over [a, b], by Simpson's rule on many pieces.
 template <class F>
 double integral(double a, double b, F&& f, int pieces = 200) {
   double sum = 0;

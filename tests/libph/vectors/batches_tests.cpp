@@ -54,7 +54,7 @@ TEST(Atol, CentresAreTheMeansOfTheirBars) {
     double bars = 0;
     for (std::size_t k = 0; k < count; ++k) {
       bars += counts[k];
-      if (steps > 0) continue;  // a bar equally near to two centres may belong to either
+      if (steps > 0) continue;  // a bar at the same distance from two centres may belong to either
       ASSERT_NEAR(fitted.centres[k][0], sums[k][0] / counts[k], 1e-12) << round;
       ASSERT_NEAR(fitted.centres[k][1], sums[k][1] / counts[k], 1e-12) << round;
     }
@@ -100,7 +100,7 @@ TEST(Atol, DependsOnNothingButTheBars) {
   const std::span<const Bar> all(bars);
   EXPECT_EQ(fit_atol(Spans{all.first(5000), all.subspan(5000, 1), {}, all.subspan(5001)}, options),
             expected);
-  for (const int exponent : {200, -1000}) {  // nor on the unit
+  for (const int exponent : {200, -1000}) {  // the result does not depend on the unit
     Bars scaled = bars;
     for (Bar& bar : scaled) {
       bar.birth = std::ldexp(bar.birth, exponent);
@@ -150,11 +150,12 @@ TEST(Atol, OfFewBars) {
                [&] { fit_atol(Spans{two}, {.centres = 3}); });
   expect_error(ErrorKind::bad_data, "different bars: found 0",
                [&] { fit_atol({}, {.centres = 1}); });
-  const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};  // squares between are 0
+  // The squares of the distances between these are 0.
+  const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};
   EXPECT_EQ(fit_atol(Spans{close}, {.centres = 2, .most_rounds = 0}).centres.size(), 2U);
 }
 
-// The mean of equal numbers is one of them, however sums are rounded.
+// The mean of equal numbers is exactly this number, however sums are rounded.
 TEST(Atol, OfEqualBars) {
   const Bars three(3, {1, 0.1, 0.3});
   const std::span<const Bar> diagrams[]{three};
@@ -164,7 +165,7 @@ TEST(Atol, OfEqualBars) {
   double vector = 0;
   atol_vector(three, fitted, {&vector, 1});
   EXPECT_EQ(vector, 3);
-  // Half of the mass between them vanishes.
+  // Half of the distance between two of these bars underflows.
   const Bars small{{1, 0, 1e-20}, {1, 1e-310, 1e-20}, {1, -1e-20, 1e-20}};
   const std::span<const Bar> of_small[]{small};
   std::vector<double> out(3);
@@ -236,7 +237,7 @@ TEST(Kernels, AreTheirDefinitions) {
   EXPECT_EQ(scale_space_kernel({}, Bars{{0, 0, 1}}, 1), 0);
 }
 
-// Short bars: both terms are nearly equal.
+// For short bars, the two terms are nearly equal.
 TEST(Kernels, OfShortBars) {
   const Bars a = {{0, 0, 1e-9}}, b = {{0, 1, 1 + 0x1p-30}};
   const double expected = std::exp(-0.25) * 2 * 1e-9 * 0x1p-30 / 8 / (8 * std::numbers::pi);

@@ -23,7 +23,7 @@ TEST(Grids, HaveBothEndsAndEqualSteps) {
   EXPECT_EQ((Grid{0, 1, 5}.values()), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
   EXPECT_EQ((Grid{-3, 3, 2}.values()), (std::vector<double>{-3, 3}));
   EXPECT_EQ((Grid{2, 3, 1}.values()), (std::vector<double>{2}));
-  const std::vector<double> tenths = Grid{0, 0.1, 4}.values();  // as numpy.linspace has them
+  const std::vector<double> tenths = Grid{0, 0.1, 4}.values();  // the values of numpy.linspace
   EXPECT_EQ(tenths[1], 1 * (0.1 / 3));
   EXPECT_EQ(tenths[2], 2 * (0.1 / 3));
   EXPECT_EQ(tenths[3], 0.1);
@@ -44,7 +44,7 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_grid(Spans{a, b}, 7), (Grid{0.5, 3, 7}));
   EXPECT_EQ(fit_grid(Spans{none}, 7), (Grid{0, 1, 7}));
   EXPECT_EQ(fit_grid(Spans{}), (Grid{0, 1, 100}));
-  EXPECT_EQ(fit_grid(Spans{one}), (Grid{0, 1, 100}));  // it counts for no curve
+  EXPECT_EQ(fit_grid(Spans{one}), (Grid{0, 1, 100}));  // such a bar does not count for any curve
   const Bars end = {{0, 4, kInfinity}}, large = {{0, 1e15, kInfinity}};
   EXPECT_EQ(fit_grid(Spans{end, one}), (Grid{3.5, 4.5, 100}));
   EXPECT_LT(fit_grid(Spans{large}).lo, 1e15);
@@ -54,7 +54,7 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_image_frame(Spans{Bars{{0, 5, 7}}}, 3, 4), (ImageFrame{{4, 6, 3}, {0, 2, 4}}));
 }
 
-// Wherever the estimate of a place is wrong, a search finds it.
+// Even where the estimate of a position is wrong, the result equals that of a search.
 TEST(Grids, PlacesAreThoseOfASearch) {
   std::mt19937 random(1);
   const Grid grids[] = {
@@ -137,7 +137,7 @@ TEST(Curves, AreTheirDefinitions) {
         ASSERT_LE(shape[i], 1e-15 * (1 + steps));
       }
       if (betti[i] == 0) {
-        ASSERT_EQ(life[i], 0) << round;  // the added values cancel to the last bit
+        ASSERT_EQ(life[i], 0) << round;  // the added values cancel exactly
         ASSERT_EQ(shape[i], 0) << round;
       }
     }
@@ -160,7 +160,7 @@ TEST(Curves, OfKnownBars) {
   EXPECT_EQ(out, std::vector<double>(4));
 }
 
-// Bars far from 0 with very different lengths: sums keep the contribution of short ones.
+// Bars far from 0 with very different lengths: sums keep the contribution of the short bars.
 TEST(Curves, KeepSmallBarsBesideLargeOnes) {
   const Bars bars = {{0, 1000, 1001}, {0, 1000.25, 1000.25 + 0x1p-20}};
   const Grid grid{1000, 1001, 4097};
@@ -171,7 +171,7 @@ TEST(Curves, KeepSmallBarsBesideLargeOnes) {
     ASSERT_NEAR(shape[i], test::silhouette_at(bars, 0, values[i]), 1e-15);
   const Bars scaled = {{0, -1e100, 1e100}, {0, 0, 1e-100}};
   std::vector<double> out(3);
-  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // lengths to the power of 4 would be infinite
+  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // powers of 4 of the lengths would be infinite
   EXPECT_EQ(out, (std::vector<double>{0, 1e100, 0}));
 }
 

@@ -21,7 +21,7 @@ using test::expect_error;
 using test::Generator;
 using Construction = CubicalOptions::Construction;
 
-/// Σ (-1)^dim over the bars that live, by value.
+/// For each value, the change of Σ (-1)^dim over the bars that are alive.
 std::map<double, std::int64_t> changes_of(const Barcode& bars) {
   std::map<double, std::int64_t> changes;
   for (const Bar& bar : bars) {
@@ -43,7 +43,8 @@ StepFunction curve_of(const std::map<double, std::int64_t>& changes) {
   return curve;
 }
 
-/// Expects the curve of the bars, on grids too, with any number of threads.
+/// Checks that the curve is that of the bars, on its own steps and on grids, for any number of
+/// threads.
 void check(const Image& image, const CubicalOptions& options) {
   const Cubical cubical(image, options);
   const Barcode bars = persistence(
@@ -72,7 +73,7 @@ TEST(EulerCurves, OfImagesAreThoseOfTheirBars) {
   });
 }
 
-/// The image with whole numbers of a type.
+/// The image with its values converted to whole numbers of a type.
 template <class T>
 void check_type(Generator& random, bool ties) {
   const int axes = random.integer(1, 3);
@@ -126,14 +127,14 @@ TEST(EulerCurves, OfManyAxes) {
   }
 }
 
-/// Cells of either construction by a count without directions: the values of all cells of the
-/// doubled grid.
+/// Counts the cells of either construction by a simple method: it computes the values of all cells
+/// of the doubled grid.
 StepFunction by_all_cells(const Image& image, bool vertices) {
   const Index n = image.extents[0], m = image.extents[1];
   std::map<double, std::int64_t> changes;
   const Index low = vertices ? 0 : -1;
   for (Index i = low; i <= 2 * n - 2 - low; ++i)
-    for (Index j = low; j <= 2 * m - 2 - low; ++j) {  // voxels are at even places
+    for (Index j = low; j <= 2 * m - 2 - low; ++j) {  // voxels have even coordinates
       double value = vertices ? -kInfinity : kInfinity;
       for (Index a = std::max<Index>(0, i / 2); a <= std::min(n - 1, (i + 1) / 2); ++a)
         for (Index b = std::max<Index>(0, j / 2); b <= std::min(m - 1, (j + 1) / 2); ++b) {

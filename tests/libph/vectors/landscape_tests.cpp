@@ -65,7 +65,7 @@ TEST(Landscapes, AreExactAtAllValues) {
       }
     }
     if (layers < 1000) continue;
-    // All layers together are all tents: none is lost below.
+    // All layers together cover all tents: no tent is lost.
     for (const Bar& bar : bars) expected_areas += bar.persistence() * bar.persistence() / 4;
     ASSERT_NEAR(areas, expected_areas, 1e-12 * (1 + expected_areas)) << round;
   }

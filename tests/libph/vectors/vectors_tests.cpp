@@ -26,7 +26,7 @@ std::vector<double> statistics_of(const Bars& bars) {
   return out;
 }
 
-/// By the definition of each of the nine numbers.
+/// The nine numbers, each by its definition.
 std::vector<double> nine_numbers(std::vector<long double> x) {
   const auto n = static_cast<long double>(x.size());
   long double mean = 0, square = 0;
@@ -34,7 +34,7 @@ std::vector<double> nine_numbers(std::vector<long double> x) {
   for (const long double v : x) square += (v - mean) * (v - mean) / n;
   std::ranges::sort(x);
   const auto percentile = [&](int percent) {
-    // On the line through (100 i / (n - 1), x_i).
+    // Interpolates linearly between the points (100 i / (n - 1), x_i).
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
       const long double from = 100 * static_cast<long double>(i) / (n - 1),
                         to = 100 * static_cast<long double>(i + 1) / (n - 1);
@@ -81,7 +81,7 @@ TEST(Statistics, AreTheirDefinitions) {
 TEST(Statistics, OfKnownBars) {
   const std::vector<double> four =
       statistics_of({{0, 0, 4}, {0, 1, 2}, {0, 3, 5}, {0, 9, 9}, {0, 0, 1}});
-  // Births 0, 0, 1, 3, as NumPy has them.
+  // The births 0, 0, 1, 3; the expected values are those of NumPy.
   EXPECT_EQ(four[0], 1);
   EXPECT_DOUBLE_EQ(four[1], std::sqrt(1.5));
   EXPECT_EQ(four[2], 0.5);
@@ -102,7 +102,7 @@ TEST(Statistics, OfKnownBars) {
   EXPECT_EQ(statistics_of({}), std::vector<double>(kStatistics));
   EXPECT_EQ(statistics_of({{0, 7, 7}}), std::vector<double>(kStatistics));
   const std::vector<double> far_apart = statistics_of({{0, -1e16, 0}, {0, 1, 2}, {0, 1e16, 2e16}});
-  EXPECT_EQ(far_apart[0], 1.0 / 3);  // what is small is not rounded away
+  EXPECT_EQ(far_apart[0], 1.0 / 3);  // small numbers are not lost by rounding
   const auto& names = statistics_names();
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), kStatistics);
   EXPECT_EQ(names[1], "birth_sd");
@@ -145,7 +145,8 @@ TEST(Entropies, AreTheirDefinition) {
   EXPECT_EQ(entropy({}), 0);
   EXPECT_EQ(entropy(Bars{{0, 1, 2}}), 0);
   EXPECT_EQ(entropy(Bars{{0, 1, 2}, {0, 1, 1}}, true), 0);
-  EXPECT_EQ(entropy(Bars{{0, 0, 1e100}, {0, 0, 1e-300}}), 0);  // a share that is 0 as a double
+  // The share of the short bar is 0 as a double.
+  EXPECT_EQ(entropy(Bars{{0, 0, 1e100}, {0, 0, 1e-300}}), 0);
 }
 
 TEST(Lengths, AreTheLargest) {
@@ -158,7 +159,7 @@ TEST(Lengths, AreTheLargest) {
   EXPECT_EQ(five, (std::vector<double>{4, 2, 1, 0, 0}));
 }
 
-/// The density of all bars of an image at a point.
+/// The density that all bars of a diagram have together at a point.
 double density(const Bars& bars, double sigma, double power, double x, double y) {
   double sum = 0;
   for (const Bar& bar : bars) {
@@ -206,10 +207,11 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   double sum = 0;
   for (const double x : out) sum += x;
   EXPECT_NEAR(sum, 1, 1e-14);
-  // A distribution narrower than a pixel lies in a single one: that of birth 0.005 and length 1.9.
+  // A distribution narrower than a pixel lies in a single pixel: the one with birth 0.005 and
+  // length 1.9.
   persistence_image(Bars{{0, 0.005, 1.905}}, frame, 1e-9, 0, out);
   for (std::size_t i = 0; i < out.size(); ++i) ASSERT_EQ(out[i], i == 47 * 100 ? 1 : 0) << i;
-  // At the ends of the frame, half of it; beyond them nothing.
+  // A bar at the border of the frame has half of its mass inside; a bar beyond the border has none.
   persistence_image(Bars{{0, 0, 1.02}}, frame, 1e-5, 0, out);
   EXPECT_NEAR(out[25 * 100], 0.5, 1e-15);
   persistence_image(Bars{{0, 1, 2.02}}, frame, 1e-5, 0, out);
@@ -218,7 +220,8 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   EXPECT_EQ(out, std::vector<double>(5000));
   persistence_image({}, frame, 0.01, 1, out);
   EXPECT_EQ(out, std::vector<double>(5000));
-  persistence_image(Bars{{0, 0.5, 1.5}}, frame, 1e300, 1, out);  // so wide that none is seen
+  // So wide that no mass is left in any pixel.
+  persistence_image(Bars{{0, 0.5, 1.5}}, frame, 1e300, 1, out);
   for (const double x : out) ASSERT_NEAR(x, 0, 1e-300);
 }
 

@@ -16,7 +16,8 @@ namespace ph::segment {
 namespace {
 
 TEST(Components, LabelsByDecreasingNumberOfPoints) {
-  // Three groups on a line: 1 voxel of 5 points, 3 voxels of 4 points, 2 voxels of 4 points.
+  // Three groups on a line: 1 voxel with 5 points, 3 voxels with 4 points, and 2 voxels with 4
+  // points.
   std::vector<float> xyz;
   const auto put = [&](float x, int times) {
     for (int i = 0; i < times; ++i) xyz.insert(xyz.end(), {x, 0.5F, 0.5F});

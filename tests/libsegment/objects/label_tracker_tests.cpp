@@ -14,9 +14,9 @@ using Labels = std::vector<std::uint32_t>;
 TEST(LabelTracker, AnObjectKeepsItsNumber) {
   LabelTracker tracker;
   EXPECT_EQ(tracker.update(Labels{1, 1, 1, 0, 2, 2}), (Labels{1, 1, 1, 0, 2, 2}));
-  // The order by size changes, but the numbers do not.
+  // The order of the segments by size changes, but their numbers do not.
   EXPECT_EQ(tracker.update(Labels{2, 2, 0, 1, 1, 1}), (Labels{1, 1, 0, 2, 2, 2}));
-  // A new one is 3, although it is the largest.
+  // A new object gets the number 3, although it is the largest.
   EXPECT_EQ(tracker.update(Labels{3, 1, 1, 1, 2, 2}), (Labels{1, 3, 3, 3, 2, 2}));
   EXPECT_EQ(tracker.update(Labels{0, 0, 0, 0, 0, 0}), (Labels{0, 0, 0, 0, 0, 0}));
 }
@@ -24,9 +24,10 @@ TEST(LabelTracker, AnObjectKeepsItsNumber) {
 TEST(LabelTracker, NoObjectIsTakenTwice) {
   LabelTracker tracker;
   tracker.update(Labels{1, 1, 1, 1, 1, 1});
-  // The object splits: the larger part keeps the number.
+  // The object splits: its larger part keeps the number.
   EXPECT_EQ(tracker.update(Labels{2, 2, 1, 1, 1, 1}), (Labels{2, 2, 1, 1, 1, 1}));
-  // They merge again: the object gets the number with which it shares more.
+  // The objects merge again: the merged object gets the number of the object with which it shares
+  // more points.
   EXPECT_EQ(tracker.update(Labels{7, 7, 7, 7, 7, 7}), (Labels{1, 1, 1, 1, 1, 1}));
 }
 
@@ -55,8 +56,8 @@ TEST(LabelTracker, LabelsAreNumbersAsTheyLike) {
   EXPECT_EQ(tracker.update(Labels{1, 1, 0, 2, 2, 2}), (Labels{2, 2, 0, 1, 1, 1}));
 }
 
-/// A frame of two rows: labels of segments, surfaces that were found (from 2; the first was
-/// removed), what each segment stands on.
+/// A frame of two rows: the label and the surface of each point (surfaces are numbered from 2,
+/// because surface 1 was removed), and what each segment stands on.
 struct Frame : Segmentation {
   Frame(const Labels& drawn, std::vector<std::uint8_t> found, std::vector<Standing> standing,
         std::vector<Role> roles = {Role::wall}) {
@@ -136,15 +137,16 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame first(stack, kNoWall, {kOnTable, on_first});
   LabelTracker tracker;
   tracker.update(first.tree, first.cut);
-  // The labels swap. For one frame, the lower object appears to stand on the upper one.
+  // The labels are swapped. In this single frame, the lower object appears to stand on the upper
+  // one.
   const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
   EXPECT_EQ(tracker.update(wrong.tree, wrong.cut), (Labels{2, 1}));
   EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));
-  // Its support is missing: then this frame decides.
+  // The object that it stood on is missing. In this case, the current frame decides.
   const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
   EXPECT_EQ(tracker.update(alone.tree, alone.cut), Labels{2});
   EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));
-  // The same holds if the surface has become something else or disappeared.
+  // The same holds if the surface has another role now, or has disappeared.
   const Frame on_board({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {{Role::object, {2, 0}}},
                        {Role::support});
   const Frame by_wall({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {kOnTable});
@@ -173,7 +175,8 @@ TEST(LabelTracker, AMovingScene) {
   LabelTracker pixels, voxels;
   for (int frame = 0; frame < 6; ++frame) {
     const double x = 0.01 * frame;
-    // The right box grows past the left one: labels by size change places.
+    // The right box grows until it has more points than the left one: the labels, which go by size,
+    // are swapped.
     const double more = 0.02 * frame;
     const test::TableScene scene({{{-0.22 + x, -0.05, 0}, {-0.10 + x, 0.07, 0.12}},
                                   {{0.10, -0.05, 0}, {0.2 + more, 0.05, 0.1}}});
@@ -183,7 +186,7 @@ TEST(LabelTracker, AMovingScene) {
     const bool right_first = s.cut.segments[0].centroid[0] > 0;
     const Labels expected = right_first ? Labels{2, 1} : Labels{1, 2};
     EXPECT_EQ(pixels.update(s.tree, s.cut), expected) << frame;
-    s.tree.width *= s.tree.height, s.tree.height = 1;  // as if it were not organised
+    s.tree.width *= s.tree.height, s.tree.height = 1;  // makes it look like an unorganised cloud
     EXPECT_EQ(voxels.update(s.tree, s.cut), expected) << frame;
     EXPECT_TRUE(frame < 5 || right_first);
   }

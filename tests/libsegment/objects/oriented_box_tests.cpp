@@ -19,14 +19,14 @@ using test::TableScene;
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// A frame that is turned about all axes.
+/// A coordinate frame that is rotated about all axes.
 Eigen::Matrix3d turned() {
   return (Eigen::AngleAxisd(0.7, Vector3d::UnitX()) * Eigen::AngleAxisd(-0.4, Vector3d::UnitY()) *
           Eigen::AngleAxisd(1.1, Vector3d::UnitZ()))
       .toRotationMatrix();
 }
 
-/// Random points of a box and its corners, in a frame.
+/// The corners of a box and random points in it, in a rotated frame.
 std::vector<float> box_points(const Eigen::Matrix3d& frame, const Vector3d& size, int count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-0.5, 0.5);
@@ -44,7 +44,7 @@ Vec3 column(const Eigen::Matrix3d& frame, Index k) {
   return {frame(0, k), frame(1, k), frame(2, k)};
 }
 
-/// x, y, z, x, … as the boxes take them.
+/// The x, y and z coordinates in separate arrays, as the function for boxes takes them.
 struct Apart {
   explicit Apart(const std::vector<float>& xyz) {
     for (std::size_t i = 0; i < xyz.size(); ++i) coordinates[i % 3].push_back(xyz[i]);
@@ -112,7 +112,7 @@ TEST(OrientedBox, FewPoints) {
 }
 
 TEST(OrientedBox, NoPointIsOutside) {
-  // Rings, lines and clusters, where an octagon of some points excludes many, few or no points.
+  // Rings, lines and clusters, for which an octagon of some points excludes many, few or no points.
   std::mt19937 random(8);
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (int round = 0; round < 200; ++round) {
@@ -149,7 +149,7 @@ TEST(OrientedBox, OrderOfThePoints) {
 }
 
 TEST(OrientedBox, OfBoxesOnATable) {
-  const double pixel = 0.006;  // one at this range
+  const double pixel = 0.006;  // the size of a pixel at this range
   const Segmentation s = segment(CloudView{TableScene::two_boxes().xyz(), {}});
   ASSERT_EQ(s.cut.segments.size(), 2U);
   const std::array<Vec3, 2> sizes = {Vec3{0.12, 0.12, 0.12}, Vec3{0.1, 0.1, 0.1}};
@@ -158,7 +158,7 @@ TEST(OrientedBox, OfBoxesOnATable) {
     expect_frame(box);
     EXPECT_EQ(box.axes[2], s.tree.plane->normal);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(box.size[k], sizes[i][k], pixel);
-    // It stands on the table.
+    // The box stands on the table.
     const auto& [x, y, z] = box.centre;
     EXPECT_NEAR(s.tree.plane->signed_distance(x, y, z) - box.size[2] / 2, 0, pixel);
   }
@@ -180,7 +180,7 @@ TEST(OrientedBox, WithoutAPlaneAlongThePrincipalAxes) {
 }
 
 TEST(Neighbours, AllThatTouchByTheValueAtWhichTheyDo) {
-  // One box under two others.
+  // One box with two others on top.
   const TableScene scene({{{-0.2, -0.05, 0}, {0.2, 0.15, 0.06}},
                           {{-0.15, 0.0, 0.06}, {-0.05, 0.1, 0.18}},
                           {{0.04, 0.0, 0.06}, {0.14, 0.1, 0.16}}});
@@ -196,7 +196,7 @@ TEST(Neighbours, AllThatTouchByTheValueAtWhichTheyDo) {
     for (const Neighbour& n : g.neighbours) {
       const auto& back = s.cut.segments[n.label - 1].neighbours;
       EXPECT_NE(std::ranges::find(back, Neighbour{g.label, n.meets_at}), back.end());
-      // They join no later than where they touch.
+      // The segments join no later than at the value at which they touch.
       EXPECT_LE(first_meeting(s, g.label, n.label)->value, n.meets_at);
     }
     EXPECT_EQ(first_meeting(s, g.label, g.neighbour)->value, g.meets_at);

@@ -81,7 +81,7 @@ TEST(Signature, TellsPiecesLoopsAndHollows) {
 
 TEST(Signature, OfAGroupAndOfOneOfIt) {
   Shapes s;
-  s.torus(0.06, 0.004, {0, 0, 1});  // too thin to be hollow
+  s.torus(0.06, 0.004, {0, 0, 1});  // its tube is too thin to be hollow
   s.ball(0.03, {0.3, 0, 1}, true);
   const Segmentation found = s.segmented();
   ASSERT_EQ(found.cut.segments.size(), 2U);

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kRadius = 1;
 
-/// The voxels of a scene: their basins, their births, and the pairs near each other.
+/// The voxels of a scene with their basins and births, and the pairs of voxels that are close to
+/// each other.
 struct Basins {
   std::vector<Index> of;
   std::vector<double> births;
@@ -29,7 +30,8 @@ struct Basins {
   std::vector<Index> joined(double least, const RunContext& context = default_context()) const {
     return join_over_weak_seams(of, births, pairs, kRadius, least, context);
   }
-  /// The same by its definition: all seams are examined again after each removal.
+  /// The joined basins by the definition: after each removal of a seam, all seams are examined
+  /// again.
   std::vector<Index> joined_slowly(double least) const {
     std::vector<Index> basin_of = of;
     while (true) {
@@ -51,14 +53,14 @@ struct Basins {
       std::ranges::replace(basin_of, weakest->second, weakest->first);
     }
   }
-  /// A voxel each.
+  /// Adds basins of one voxel each, with these births.
   void add_basins(const std::vector<double>& its_births) {
     for (const double birth : its_births) {
       of.push_back(std::ssize(of));
       births.push_back(birth);
     }
   }
-  /// A seam between two basins, by voxels of its own with these values.
+  /// Adds a seam between two basins: for each of these values, a pair of new voxels at this value.
   void add_seam(Index a, Index b, const std::vector<double>& values) {
     for (const double value : values) {
       const auto u = static_cast<std::uint32_t>(of.size());
@@ -79,13 +81,13 @@ TEST(WeakSeams, AreJudgedByTheirLowerQuartile) {
   basins.add_seam(0, 1, {9, 1, 9, 3, 5, 9, 9, 9});  // sorted: 1, 3, 5, …
   EXPECT_EQ(basins.left(5), 2U) << "a seam of that strength stays";
   EXPECT_EQ(basins.left(5.01), 1U);
-  basins.pairs.push_back({0, 1, 1.5F});  // not adjacent: no part of the seam
+  basins.pairs.push_back({0, 1, 1.5F});  // not adjacent, and thus not a part of the seam
   EXPECT_EQ(basins.left(5), 2U);
 }
 
 TEST(WeakSeams, GrowTogetherWhenBasinsDo) {
-  // 0 and 1 become one basin. Then 2 has a seam with both, and the weak place beside 1 is a short
-  // piece of it.
+  // Basins 0 and 1 become one basin. Basin 2 then has a seam with the joined basin, and the weak
+  // place next to basin 1 is only a short piece of the seam.
   Basins basins;
   basins.add_basins({0, 0, 0});
   basins.add_seam(0, 1, {1, 1, 1});

@@ -98,7 +98,7 @@ TEST(PclAdapter, NoCloudAndEmptyCloud) {
 TEST(PclAdapter, ACloudWhoseRowsDoNotHoldItIsARow) {
   const TableScene scene = TableScene::two_boxes();
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
-  cloud->points.pop_back();  // past the cloud's width and height
+  cloud->points.pop_back();  // fewer points than width and height state
   const auto s = segment_cloud(*cloud);
   EXPECT_EQ(s.tree.height, 1);
   EXPECT_EQ(s.cut.segments.size(), 2U);
@@ -125,16 +125,16 @@ TEST(PclAdapter, ARunContextStopsAndBoundsIt) {
 TEST(PclAdapter, TheSensorsOriginIsTheViewpoint) {
   const TableScene scene = TableScene::two_boxes();
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
-  cloud->width *= cloud->height;  // the rays of an organised cloud would tell the viewpoint
+  cloud->width *= cloud->height;  // in an organised cloud, the rays would reveal the viewpoint
   cloud->height = 1;
-  cloud->sensor_origin_[2] = 2.5F;  // below the table
+  cloud->sensor_origin_[2] = 2.5F;  // a viewpoint below the table
   EXPECT_TRUE(segment_cloud(*cloud, {.max_range = 5}).cut.segments.empty());
 }
 
 TEST(PclAdapter, EverySetterReachesItsOption) {
   PersistenceSegmentation<::pcl::PointXYZ> s;
   s.setMethod(ph::segment::Method::paper);
-  EXPECT_EQ(s.getVoxelSize(), 0.01);  // the default of the method
+  EXPECT_EQ(s.getVoxelSize(), 0.01);  // the default of this method
   EXPECT_EQ(s.getPlaneDistance(), 0.006);
   s.setMaxRange(3), s.setCropBox({-1, -2, -3}, {1, 2, 3}), s.setPlaneRemoval(false);
   s.setPlaneDistance(0.02), s.setViewPoint(1, 2, 3), s.setVoxelSize(0.004);
@@ -221,7 +221,7 @@ TEST(PclAdapter, WhatIsKnownOfTheSegments) {
   };
   EXPECT_NE(colour_of(0), colour_of(1));
 
-  s.cut(1000.0, clusters);  // nothing is that persistent
+  s.cut(1000.0, clusters);  // no basin is that persistent
   EXPECT_EQ(clusters.size(), 1U);
   EXPECT_EQ(s.getSegments().size(), 1U);
   s.cut(s.getTree().first_cut, clusters);

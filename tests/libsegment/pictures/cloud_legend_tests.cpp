@@ -9,7 +9,7 @@
 namespace ph::segment {
 namespace {
 
-/// Segments of 10, 20, … points, each with a place of its own side by side, and 7 points in none.
+/// A picture with segments of 10, 20, … points side by side, and 7 points without a segment.
 CloudPicture picture_of(std::size_t segments) {
   CloudPicture picture;
   picture.raster = {4, 2, 3, 8, std::vector<std::uint16_t>(24, 255)};

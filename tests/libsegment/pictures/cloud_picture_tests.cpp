@@ -14,7 +14,8 @@
 namespace ph::segment {
 namespace {
 
-/// A small square one metre in front of the sensor and a large one behind it, twice as far away.
+/// A small square one metre in front of the sensor, and a large square behind it at twice the
+/// distance.
 class CloudPictures : public testing::Test {
  protected:
   CloudPictures() {
@@ -39,7 +40,7 @@ class CloudPictures : public testing::Test {
   Raster picture(const ViewTurn& turn = {}) const {
     return cloud_picture(&cloud_, scene_, labels_, kColours, turn, default_context()).raster;
   }
-  /// 1, 2: the segment visible there; 0: none.
+  /// The segment that is visible at a place, 1 or 2; 0 if none is.
   static int seen(const Raster& raster, double x, double y) {
     const auto u = static_cast<Index>(x * static_cast<double>(raster.width)),
                v = static_cast<Index>(y * static_cast<double>(raster.height));
@@ -71,9 +72,9 @@ TEST_F(CloudPictures, FromBehind) {
 
 TEST_F(CloudPictures, TheEyeGoesToTheRightAndUp) {
   scene_.height = 1;
-  scene_.plane = Plane{{0, -1, 0}, 0, 0.5};  // y is down
-  // Seen from the right, the near square moves left in front of the far one; seen from above, it
-  // moves down.
+  scene_.plane = Plane{{0, -1, 0}, 0, 0.5};  // the y axis points down
+  // Seen from the right, the near square moves to the left in front of the far one. Seen from
+  // above, it moves down.
   EXPECT_EQ(seen(picture({.right = 35}), 0.1, 0.5), 1);
   EXPECT_EQ(seen(picture({.up = 35}), 0.5, 0.9), 1);
   EXPECT_EQ(seen(picture({.right = -35}), 0.9, 0.5), 1);

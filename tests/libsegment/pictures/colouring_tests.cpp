@@ -14,7 +14,7 @@ namespace {
 
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
-/// A row of `k` segments, each `width` pixels wide and 2 high, without gaps.
+/// A row of `k` segments without gaps, each `width` pixels wide and 2 pixels high.
 struct Stripes {
   explicit Stripes(std::uint32_t k, Index width) {
     std::vector<float> xyz(static_cast<std::size_t>(6 * width) * k, 1.0F);
@@ -32,13 +32,13 @@ TEST(Colouring, NeighboursInTheImage) {
   const Stripes wide(3, 10);
   EXPECT_EQ(neighbouring_segments(wide.cloud, wide.segmentation.cut),
             (Neighbours{{1}, {0, 2}, {1}}));
-  const Stripes narrow(3, 2);  // less than five pixels apart
+  const Stripes narrow(3, 2);  // segments 0 and 2 are less than five pixels apart
   EXPECT_EQ(neighbouring_segments(narrow.cloud, narrow.segmentation.cut),
             (Neighbours{{1, 2}, {0, 2}, {0, 1}}));
 }
 
 TEST(Colouring, NeighboursInSpaceAreThoseThatTouch) {
-  Cloud cloud;  // not organised
+  Cloud cloud;  // an unorganised cloud
   SceneCut cut;
   cut.segments.resize(3);
   for (std::uint32_t i = 0; i < 3; ++i) cut.segments[i].label = i + 1;

@@ -13,8 +13,8 @@
 namespace ph::segment {
 namespace {
 
-/// A table z = 1 seen from the origin. Its squares are axis-aligned: unitOrthogonal of (0, 0, -1)
-/// is an axis.
+/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because unitOrthogonal of
+/// (0, 0, -1) is an axis.
 constexpr Plane kTable{{0, 0, -1}, 1, 1};
 constexpr double kSide = 0.064;
 using Square = std::pair<int, int>;
@@ -23,11 +23,11 @@ struct Table {
   std::vector<float> xyz;
   std::vector<Index> points, beyond;
 
-  /// A point of the table; x and y in sides of a square.
+  /// Adds a point of the table. x and y are in units of a square's side.
   void add(double x, double y, double height) { points.push_back(put(x, y, height)); }
-  /// A point of something that stands on it.
+  /// Adds a point of an object on the table.
   void over(double x, double y) { beyond.push_back(put(x, y, 0.03)); }
-  /// Squares from (x, y) on, `count` to each side, with n * n points each.
+  /// Adds squares from (x, y) on, `count` along each axis, with n * n points each.
   void add_squares(int x, int y, int count, int n = 8) {
     for (int i = 0; i < n * count; ++i)
       for (int j = 0; j < n * count; ++j) add(x + (i + 0.5) / n, y + (j + 0.5) / n, 0);
@@ -42,7 +42,7 @@ struct Table {
     return {static_cast<int>(std::floor(xyz[k] / kSide)),
             static_cast<int>(std::floor(xyz[k + 1] / kSide))};
   }
-  /// The number of points taken from each square.
+  /// The number of points that were taken from each square.
   std::map<Square, int> squares() const {
     std::map<Square, int> counts;
     for (const Index i : free()) ++counts[square_of(i)];
@@ -51,7 +51,7 @@ struct Table {
 };
 
 TEST(FreePatches, AreNotUnderObjects) {
-  for (const int above : {0, 2, 3, 8}) {  // two may be flying pixels
+  for (const int above : {0, 2, 3, 8}) {  // up to two points may be flying pixels
     Table table;
     table.add_squares(-2, -2, 4);
     for (int k = 0; k < above; ++k) table.over(-1 + (k + 0.5) / 8, 1.5);
@@ -63,7 +63,7 @@ TEST(FreePatches, AreNotUnderObjects) {
 }
 
 TEST(FreePatches, HaveEnoughPoints) {
-  for (const int missing : {32, 33}) {  // half of the square is enough
+  for (const int missing : {32, 33}) {  // half of the points of a full square are enough
     Table table;
     table.add_squares(0, 0, 1);
     table.points.resize(table.points.size() - static_cast<std::size_t>(missing));
@@ -78,7 +78,8 @@ TEST(FreePatches, AreAFewNearOnesAndFarOnes) {
   table.add_squares(10, 0, 8);
   const std::map<Square, int> squares = table.squares();
   EXPECT_EQ(squares.size(), 24U);
-  // By their distance from the foot of the viewpoint: in each quarter of all 464 there are six.
+  // The squares are spread by their distance from the foot of the viewpoint: each quarter of all
+  // 464 squares has six of them.
   const auto farness = [](const Square& s) { return std::hypot(s.first + 0.5, s.second + 0.5); };
   std::vector<double> of_all;
   for (int x = -10; x < 18; ++x)
@@ -112,9 +113,9 @@ TEST(FreePatches, DoNotDependOnTheOrderOfThePoints) {
 TEST(FreePatches, PointsThatAreThereTwiceChangeNothing) {
   Table once;
   once.add_squares(0, 0, 1);
-  once.points.resize(31);  // too few, however often
+  once.points.resize(31);  // too few points, however often they are repeated
   once.add_squares(1, 0, 1);
-  for (int k = 0; k < 2; ++k) once.over(1.1 + 0.2 * k, 0.5);  // no object
+  for (int k = 0; k < 2; ++k) once.over(1.1 + 0.2 * k, 0.5);  // too few points for an object
   Table often = once;
   for (int times = 0; times < 3; ++times) {
     often.points.insert(often.points.end(), once.points.begin(), once.points.end());
@@ -125,7 +126,7 @@ TEST(FreePatches, PointsThatAreThereTwiceChangeNothing) {
 }
 
 TEST(FreePatches, AreThereOnAPlaneWithoutEnd) {
-  for (const double far : {100.0, 1e6, 1e30}) {  // squares away
+  for (const double far : {100.0, 1e6, 1e30}) {  // distance in squares
     Table table;
     table.add_squares(0, 0, 3);
     table.add(far, 0.5, 0);

@@ -16,7 +16,8 @@ namespace {
 
 using test::all_of;
 
-/// Points of z = 1 + 0.5 y with noise, seen from the origin; the first `outliers` lie elsewhere.
+/// Points of the plane z = 1 + 0.5 y with noise, seen from the origin. The first `outliers` points
+/// are elsewhere.
 std::vector<float> tilted_plane(int count, int outliers, double noise) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-0.5, 0.5);
@@ -36,7 +37,7 @@ TEST(Plane, IsFoundAmongNoiseAndOutliers) {
     const std::vector<float> xyz = tilted_plane(20000, outliers, 0.001);
     const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), 0.006);
     ASSERT_TRUE(search.plane) << search.note;
-    const double length = std::sqrt(1.25);  // of (0, 0.5, -1)
+    const double length = std::sqrt(1.25);  // length of (0, 0.5, -1)
     EXPECT_NEAR(search.plane->normal[0], 0, 0.002);
     EXPECT_NEAR(search.plane->normal[1], 0.5 / length, 0.002);
     EXPECT_NEAR(search.plane->normal[2], -1 / length, 0.002);
@@ -51,7 +52,7 @@ TEST(Plane, TellsHowNoisyItsPointsAre) {
   std::normal_distribution<double> gauss;
   for (const double noise : {0.0, 0.001, 0.003, 0.005}) {
     std::vector<float> xyz;
-    for (int i = 0; i < 20000; ++i) {  // z = 1, and objects on it
+    for (int i = 0; i < 20000; ++i) {  // the plane z = 1, and objects on it
       const double x = place(random), y = place(random), square = x * x + y * y + 1;
       const double object = i % 3 == 0 ? -0.1 * std::abs(place(random)) : 0;
       for (const double c : {x, y, 1 + object + noise * square * gauss(random)})
@@ -74,7 +75,8 @@ TEST(Plane, LooksAtTheSensor) {
 
 TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   std::vector<float> xyz = tilted_plane(1000, 0, 0);
-  xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});  // in front, behind, on it
+  // Points in front of the plane, behind it and on it.
+  xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});
   const CloudView cloud{xyz, {}};
   const PlaneSearch search = find_plane(cloud, all_of(xyz), 0.006);
   ASSERT_TRUE(search.plane);

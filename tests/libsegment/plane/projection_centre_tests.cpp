@@ -17,7 +17,7 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
-/// A rotation, and the new position of the sensor.
+/// A rotation of the scene, and the new position of the sensor.
 struct Motion {
   Eigen::Matrix3d rotation;
   Vec3 sensor;
@@ -26,7 +26,7 @@ struct Motion {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> place(-2, 2);
-    double q[4];  // one by one: compilers evaluate arguments in any order
+    double q[4];  // drawn one by one, because compilers evaluate arguments in any order
     for (double& c : q) c = normal(random);
     rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
     do {
@@ -78,7 +78,7 @@ TEST(ProjectionCentre, RoundedCoordinatesDoNotHideIt) {
   EXPECT_FALSE(elsewhere(rounded, motion.sensor));
 }
 
-// One point in twenty is arbitrary: most sensors are found, none in a wrong place.
+// One point in twenty is arbitrary: most sensors are found, and none is found in a wrong place.
 TEST(ProjectionCentre, OutliersHideItSeldom) {
   constexpr unsigned seeds = 60;
   unsigned count = 0;
@@ -114,7 +114,7 @@ TEST(ProjectionCentre, NothingIsSaidWhereItCannotBeTold) {
   EXPECT_FALSE(elsewhere(spot, {0, 0, 0}));
   const std::vector<float> scene = TableScene::two_boxes().xyz();
   EXPECT_FALSE(centre_elsewhere({scene, {3, 3, 3}})) << "it is not organised";
-  // A height map, whose rays are parallel.
+  // A height map, for which the rays are parallel.
   std::vector<float> map;
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
@@ -125,7 +125,7 @@ TEST(ProjectionCentre, NothingIsSaidWhereItCannotBeTold) {
   }
   EXPECT_FALSE(elsewhere(map, {0.5, 0.4, 1}));
   EXPECT_FALSE(elsewhere(map, {0, 0, 0}));
-  // The same points in another order.
+  // The same points in random order.
   std::vector<float> shuffled;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < scene.size(); i += 3) order.push_back(i);
@@ -136,7 +136,7 @@ TEST(ProjectionCentre, NothingIsSaidWhereItCannotBeTold) {
   EXPECT_FALSE(elsewhere(shuffled, {1, 1, 1}));
 }
 
-/// The pixels of a picture whose lens bends the rays, in the sensor's frame.
+/// The pixels of a picture whose lens bends the rays, in the frame of the sensor.
 TEST(ProjectionCentre, ALensIsNoReasonForAlarm) {
   const std::vector<float> straight = TableScene::two_boxes().xyz();
   for (const double k : {-0.3, -0.1, 0.1}) {

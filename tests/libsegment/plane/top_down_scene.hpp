@@ -13,9 +13,9 @@
 
 namespace ph::segment::test {
 
-/// The view of a camera above a table, as over a bin. The camera is at the origin and looks along
-/// z, and the foot of its perpendicular to the table lies in the picture. Boxes with any rotation
-/// stand on the table, in the middle of the picture and around it.
+/// A camera above a table, as over a bin. The camera is at the origin and looks along z, and the
+/// foot of the perpendicular from the camera to the table is in the picture. Boxes with any
+/// rotation stand on the table, in the middle of the picture and around it.
 class TopDownScene {
  public:
   template <class Random>
@@ -35,7 +35,7 @@ class TopDownScene {
       for (int u = 0; u < width; ++u)
         cast(random, (u + 0.5 - width / 2.0) * spacing_ / height,
              (v + 0.5 - rows / 2.0) * spacing_ / height);
-    // Many points where the coordinates of the squares change their signs.
+    // Adds many points around the foot, where the coordinates of the squares change their signs.
     for (int i = 0; i < 100; ++i)
       cast(random, (foot_[0] + 0.01 * (random.real() - 0.5)) / foot_[2],
            (foot_[1] + 0.01 * (random.real() - 0.5)) / foot_[2]);
@@ -43,9 +43,9 @@ class TopDownScene {
 
   const std::vector<float>& xyz() const { return xyz_; }
   std::size_t box_count() const { return boxes_.size(); }
-  /// By point: 0 the table, 1… the boxes.
+  /// What each point belongs to: 0 is the table, 1… are the boxes.
   const std::vector<std::size_t>& truth() const { return truth_; }
-  /// The distance of a point of the table from the foot of the nearest box, along the table.
+  /// The distance, along the table, of a point of the table from the foot of the nearest box.
   double to_nearest_box(std::size_t point) const {
     const auto [x, y, z] = on_table(
         {double{xyz_[3 * point]}, double{xyz_[3 * point + 1]}, double{xyz_[3 * point + 2]}});
@@ -57,7 +57,8 @@ class TopDownScene {
   }
 
  private:
-  /// On the table, in metres along right and away from the foot.
+  /// A box on the table: its position relative to the foot, and its size, in metres along right and
+  /// away.
   struct Block {
     double x, y, width, depth, height;
   };
@@ -69,7 +70,7 @@ class TopDownScene {
     return {q.dot(right_), q.dot(away_), q.dot(up_)};
   }
 
-  /// No two nearer than 6 cm.
+  /// Places random boxes, no two of which are closer than 6 cm to each other.
   template <class Random>
   void place_boxes(Random& random) {
     constexpr double gap = 0.06;
@@ -77,7 +78,7 @@ class TopDownScene {
     for (int tries = 0; tries < 20 && static_cast<int>(boxes_.size()) < wanted; ++tries) {
       Block b{0, 0, 0.06 + 0.06 * random.real(), 0.06 + 0.06 * random.real(),
               0.03 + 0.07 * random.real()};
-      const double reach = random.coin() ? 0.03 : 0.2;  // in the middle, or anywhere
+      const double reach = random.coin() ? 0.03 : 0.2;  // around the middle, or anywhere
       b.x = reach * (2 * random.real() - 1) - b.width / 2;
       b.y = reach * (2 * random.real() - 1) - b.depth / 2;
       if (std::ranges::all_of(boxes_, [&](const Block& o) {
@@ -88,7 +89,7 @@ class TopDownScene {
     }
   }
 
-  /// The point that the ray (px, py, 1) meets first, with noise along the ray.
+  /// Adds the point that the ray (px, py, 1) meets first, with noise along the ray.
   template <class Random>
   void cast(Random& random, double px, double py) {
     const Eigen::Vector3d ray(px, py, 1);
@@ -115,8 +116,8 @@ class TopDownScene {
         hit = k + 1;
       }
     }
-    // The deviation of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip
-    // from which bases are won back.
+    // A sum of uniform numbers with a standard deviation of 0.8 mm: a tenth of the table's points
+    // are so high that bases of objects may take them.
     const double noise = random.real() + random.real() + random.real() - 1.5;
     const double depth = nearest + 0.0016 * noise;
     truth_.push_back(hit);
@@ -142,7 +143,7 @@ inline void expect_right(const TopDownScene& scene, Method method) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method});
   ASSERT_TRUE(s.tree.plane);
   const double beside =
-      2 * s.tree.voxel + 0.005;  // so far a box may win its base back from the table
+      2 * s.tree.voxel + 0.005;  // within this distance, a box may take points from the table
   std::map<std::uint32_t, std::size_t> box_of_label;
   std::vector<std::map<std::uint32_t, Index>> labels_of_box(scene.box_count() + 1);
   for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
@@ -164,8 +165,8 @@ inline void expect_right(const TopDownScene& scene, Method method) {
       points += count;
       if (label == 0) without += count;
     }
-    // Low points of its sides may pass for the plane; the part that the border leaves may be too
-    // small.
+    // Low points on the sides of a box may be taken for the plane, and if the box is cut by the
+    // border, the rest may be too small.
     if (points >= 800) {
       EXPECT_LT(2 * without, points) << "box " << box << " without a label";
     }

@@ -24,7 +24,7 @@ TEST(TopDown, LabelsAreRightAndTreesAreReadBack) {
   });
 }
 
-/// Two slabs of random points at right angles.
+/// Two slabs of random points at a right angle.
 std::vector<float> slabs(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> along(-0.5F, 0.5F), across(-0.02F, 0.02F);

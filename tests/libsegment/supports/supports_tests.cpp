@@ -16,8 +16,8 @@ namespace {
 
 using test::Block;
 
-/// Blocks as a sensor sees them from (0, -0.9, 0.9), looking down at 45 degrees. x is right, y
-/// away, z up; the points are in these coordinates. Depth has noise of half a millimetre at one
+/// Blocks as seen by a sensor at (0, -0.9, 0.9) that looks down at 45 degrees. x is right, y away
+/// and z up, and the points have these coordinates. Depth has noise of half a millimetre at one
 /// metre.
 class Room {
  public:
@@ -52,14 +52,14 @@ class Room {
     options.viewpoint = kEye;
     return segment(view(), options);
   }
-  /// The label that most points of a block have.
+  /// The label of most points of a block.
   std::uint32_t label_of(const Segmentation& s, int block) const {
     std::vector<int> count(s.cut.segments.size() + 1);
     for (std::size_t i = 0; i < met_.size(); ++i)
       if (met_[i] == block) ++count[s.cut.labels[i]];
     return static_cast<std::uint32_t>(std::ranges::max_element(count) - count.begin());
   }
-  /// The share of the points of a block that are on a surface.
+  /// The share of a block's points that are on a surface.
   double share_on(const Segmentation& s, int block, int surface) const {
     double all = 0, on = 0;
     for (std::size_t i = 0; i < met_.size(); ++i) {
@@ -73,7 +73,7 @@ class Room {
  private:
   static constexpr Vec3 kEye{0, -0.9, 0.9};
 
-  /// The place where a ray enters a block.
+  /// The distance along a ray at which it enters a block.
   static double entry(const Block& block, const Vec3& ray) {
     double near = 0, far = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -85,12 +85,12 @@ class Room {
   }
 
   std::vector<float> xyz_;
-  std::vector<int> met_;  // the block of each pixel; -1: none
+  std::vector<int> met_;  // the block that each pixel shows; -1 for none
 };
 
 const Block kTable{{-0.6, -0.5, -0.02}, {0.6, 0.5, 0}};
 const Block kLeft{{-0.09, -0.05, 0}, {0.03, 0.07, 0.12}}, kRight{{0.1, -0.05, 0}, {0.2, 0.05, 0.1}};
-const Block kWall{{-0.4, 0.6, -0.1}, {0.4, 0.62, 1.5}};  // higher than the sensor
+const Block kWall{{-0.4, 0.6, -0.1}, {0.4, 0.62, 1.5}};  // taller than the height of the sensor
 
 void expect_direction(const Vec3& found, const Vec3& expected) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 0.02) << k;
@@ -113,7 +113,7 @@ TEST(Surfaces, AWallIsNoObject) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // A wall in one cut is not a segment in another.
+  // A wall in one cut is not a segment in the other.
   const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(again.surfaces, s.tree.surfaces);
@@ -123,7 +123,7 @@ TEST(Surfaces, AWallIsNoObject) {
 }
 
 TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
-  // A sheet that stands on the table; the table is visible behind it.
+  // A sheet that stands on the table. The table is visible behind the sheet.
   const Block sheet{{-0.4, 0.2, 0}, {0.4, 0.21, 0.25}};
   const Room room({kTable, kLeft, sheet, {{-0.5, 1.2, -0.1}, {0.5, 1.22, 0.6}}});
   const Segmentation s = room.segmented();
@@ -153,7 +153,7 @@ TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
   ASSERT_NE(low, 0U);
   ASSERT_NE(high, 0U);
   EXPECT_NE(low, high);
-  // Whichever of the two has more points is the first.
+  // The first surface is the one with more points, which may be either of the two.
   for (const auto& [block, label] : {std::pair{0, low}, std::pair{1, high}}) {
     const std::uint32_t number = s.cut.segments[label - 1].on.surface;
     ASSERT_GE(number, 1U) << block;
@@ -235,11 +235,11 @@ TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
   const Room room({kTable, kLeft, kRight});
   const Segmentation alone = room.segmented();
   Plane guess = *alone.tree.plane;
-  guess.offset += 0.001;  // as far as noise moves it
+  guess.offset += 0.001;  // the amount by which noise may move the plane
   const Segmentation next = room.segmented({.plane_guess = guess});
   EXPECT_EQ(next.cut.labels, alone.cut.labels);
   EXPECT_NEAR(next.tree.plane->offset, alone.tree.plane->offset, 1e-4) << "it is fitted again";
-  // In another place, the search starts again.
+  // If the guess is elsewhere, the search starts from nothing.
   guess.offset += 0.3;
   EXPECT_EQ(room.segmented({.plane_guess = guess}).tree.plane, alone.tree.plane);
   guess.normal = {1, 1, 0};
@@ -250,13 +250,14 @@ TEST(CameraMotion, IsToldFromThePlane) {
   SceneTree before, after;
   EXPECT_FALSE(camera_motion(before, after));
   before.plane = Plane{{0, 0, 1}, -0.9};
-  before.viewpoint = {0, 0, 1.9};  // one metre above it
+  before.viewpoint = {0, 0, 1.9};  // one metre above the plane
   EXPECT_FALSE(camera_motion(before, after)) << "one has no plane";
   after = before;
   EXPECT_FALSE(camera_motion(before, after));
   const auto turned = [&](double degrees) {
     const double a = degrees * std::acos(-1.0) / 180;
-    SceneTree scene = before;  // about the foot of the viewpoint: the distance stays
+    // A rotation about the foot of the viewpoint, which keeps the distance.
+    SceneTree scene = before;
     scene.plane = Plane{{std::sin(a), 0, std::cos(a)}, 1 - 1.9 * std::cos(a)};
     return camera_motion(before, scene);
   };
@@ -268,9 +269,9 @@ TEST(CameraMotion, IsToldFromThePlane) {
   after.viewpoint[2] -= 0.02;
   ASSERT_TRUE(camera_motion(before, after));
   EXPECT_NEAR(camera_motion(before, after)->shift, -0.02, 1e-12);
-  after.viewpoint[2] += 0.016;  // 4 mm in all
+  after.viewpoint[2] += 0.016;  // 4 mm in total
   EXPECT_FALSE(camera_motion(before, after));
-  before.viewpoint[2] += 2, after = before;  // at three metres noise is nine times as large
+  before.viewpoint[2] += 2, after = before;  // at three metres, the noise is nine times as large
   after.viewpoint[2] += 0.04;
   EXPECT_FALSE(camera_motion(before, after));
 }

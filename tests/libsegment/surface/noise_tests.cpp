@@ -14,7 +14,7 @@
 namespace ph::segment {
 namespace {
 
-/// Values at ranges from `begin` to `end`, evenly, in any order.
+/// Values at evenly spaced ranges from `begin` to `end`, in random order.
 struct Measurement {
   std::vector<double> ranges, values;
 
@@ -28,7 +28,7 @@ struct Measurement {
 };
 
 TEST(ConcavityNoise, OfNothingIsTypical) {
-  for (const int count : {0, 1, 299}) {  // of fewer than 300 a quantile says little
+  for (const int count : {0, 1, 299}) {  // with fewer than 300 values, a quantile says little
     Measurement few;
     few.add(count, 0.5, 1, [](int) { return 0.07; });
     EXPECT_TRUE(few.noise().measured().empty());
@@ -94,7 +94,7 @@ TEST(ConcavityNoise, HasBounds) {
 TEST(ConcavityNoise, DoesNotDependOnTheOrder) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(0, 0.1);
-  Measurement m;  // many at the same range
+  Measurement m;  // many values at the same range
   m.add(5000, 0.5, 2, [&](int) { return any(random); });
   for (double& r : m.ranges) r = std::round(r * 20) / 20;
   std::vector<std::size_t> order(m.ranges.size());
@@ -116,7 +116,7 @@ TEST(ConcavityNoise, DoesNotDependOnTheOrder) {
 
 // ---- in a whole scene
 
-/// Two boxes on a table, seen by a sensor with this noise of depth at one metre.
+/// Two boxes on a table, seen by a sensor that has this noise of depth at one metre.
 std::vector<float> noisy_table(double noise) {
   std::mt19937 random(8);
   std::normal_distribution<double> gauss;
@@ -139,7 +139,8 @@ TEST(NoiseOfScenes, DoublesWithThatOfTheSensor) {
     ASSERT_GE(found.size(), 5U);
     EXPECT_TRUE(std::ranges::is_sorted(found, {}, &NoiseAt::range));
     EXPECT_GT(found.back().concavity, 1.5 * found.front().concavity) << "it is farther away";
-    double mean = 0;  // the position of the grid relative to the plane matters at each range
+    // Averages over ranges, because the position of the grid relative to the plane matters at each.
+    double mean = 0;
     for (const NoiseAt& at : found) mean += at.concavity / static_cast<double>(found.size());
     if (before > 0) {
       EXPECT_NEAR(mean / before, 2, 0.35) << noise;

@@ -94,7 +94,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
     GreedyLimits limits;
     limits.radius = spacing;
     const auto expected = greedy_permutation(points, limits, PointDistance::euclidean, 2);
-    std::vector<WeightedEdge> edges;  // a path: all others are a step from a seed
+    std::vector<WeightedEdge> edges;  // a path, so that each of the others is one step from a seed
     for (Index i = 1; i < points.rows(); ++i) edges.push_back({i, i - 1, 1.0});
     const std::vector<double> f =
         distance_to_seeds(points, edges, std::vector<double>(1500), spacing, default_context());
@@ -104,7 +104,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
 }
 
 TEST(Spacing, DistancesAreThoseAlongTheGraph) {
-  // A path of 21 voxels, 1 cm apart, with a seam in the middle of its right half.
+  // A path of 21 voxels, 1 cm apart, with a concave seam in the middle of its right half.
   const Index size = 21;
   Points points(size, 3);
   std::vector<WeightedEdge> edges;
@@ -113,17 +113,18 @@ TEST(Spacing, DistancesAreThoseAlongTheGraph) {
     if (i > 0) edges.push_back({i, i - 1, 0.01});
   }
   std::vector<double> concavity(static_cast<std::size_t>(size));
-  // The seeds: 0, then 20, the farthest one; all others are at most 10 cm from one of them.
+  // The seeds are 0 and then 20, the farthest voxel. All other voxels are at most 10 cm from a
+  // seed.
   std::vector<double> f = distance_to_seeds(points, edges, concavity, 0.1, default_context());
   for (Index i = 0; i < size; ++i)
     EXPECT_NEAR(f[static_cast<std::size_t>(i)], 0.01 * static_cast<double>(std::min(i, 20 - i)),
                 1e-12);
-  concavity[15] = 0.25;  // two steps lead there, and each costs eleven times its length
+  concavity[15] = 0.25;  // two steps reach this voxel, and each costs eleven times its length
   f = distance_to_seeds(points, edges, concavity, 0.1, default_context());
   EXPECT_NEAR(f[16], 0.04, 1e-12);
-  EXPECT_NEAR(f[15], 0.15, 1e-12);  // from the seed on the right
-  EXPECT_NEAR(f[14], 0.14, 1e-12);  // from the left
-  // A piece without a seed of its own gets one.
+  EXPECT_NEAR(f[15], 0.15, 1e-12);  // from the right seed
+  EXPECT_NEAR(f[14], 0.14, 1e-12);  // from the left seed
+  // A component without a seed gets its own seed.
   edges.erase(edges.begin() + 4);
   edges.erase(edges.begin() + 8);
   f = distance_to_seeds(points, edges, concavity, 0.1, default_context());

@@ -78,7 +78,7 @@ TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
   }
 }
 
-/// The kind of error that results from segmenting one point with these options, if any.
+/// The kind of error from segmenting one point with these options, if there is an error.
 std::optional<ErrorKind> failure(const std::vector<float>& xyz, const Vec3& viewpoint,
                                  const SegmentOptions& options) {
   try {
@@ -113,8 +113,8 @@ TEST(VoxelPairs, HugeVoxelsAreRefusedOrHoldAll) {
   }
 }
 
-/// Two half planes that meet in the line y = z = 0 and rise by an angle on both sides of it, as
-/// seen from high above.
+/// Two half planes that meet in the line y = z = 0 and rise at an angle on both sides of it, seen
+/// from high above.
 Points valley(double angle, double step) {
   std::vector<Vec3> points;
   for (double x = -0.05; x < 0.05; x += step) {
@@ -141,7 +141,8 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
   std::mt19937 random(5);
   std::normal_distribution<double> gauss;
   for (int round = 0; round < 2000; ++round) {
-    // From a ball to a needle of 10 mm by 10 um, in a random position. far from the origin or not.
+    // The shapes range from a ball to a needle of 10 mm by 10 um, at random positions, some of them
+    // far from the origin.
     const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 4)),
                                 std::pow(10, -1.0 * (round % 7)));
     const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
@@ -159,7 +160,7 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
     const Points normals = surface_normals(to_points(points), pairs, 1, {0, 0, 10});
     const Eigen::Vector3d n = as_matrix(normals).row(0).transpose();
     ASSERT_NEAR(n.norm(), 1, 1e-12);
-    // There may be many such directions, but the least spread is unique.
+    // Several directions may have the least spread, but the least spread itself is unique.
     const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
     ASSERT_NEAR(n.dot(scatter * n), least, 1e-9 * scatter.trace()) << sizes.transpose();
   }
@@ -217,7 +218,7 @@ TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {
 }
 
 TEST(MergeTree, BasinsAreWhatTheCutLeaves) {
-  // A path with the values 0 5 1 9 2 3: minima 0, 1, 2; the merges at 5 and 9.
+  // A path with the values 0 5 1 9 2 3: the minima are 0, 1 and 2, and the merges are at 5 and 9.
   const std::vector<double> values = {0, 5, 1, 9, 2, 3};
   std::vector<WeightedEdge> edges;
   for (Index v = 1; v < 6; ++v) edges.push_back({v - 1, v, 0.0});
@@ -233,7 +234,8 @@ TEST(MergeTree, BasinsAreWhatTheCutLeaves) {
   EXPECT_EQ(sizes(1, 1), (std::vector<Index>{2, 2, 2}));
   EXPECT_EQ(sizes(5, 1), (std::vector<Index>{2, 4}));  // the merge at 5 has persistence 4
   EXPECT_EQ(sizes(8, 1), (std::vector<Index>{6}));
-  EXPECT_EQ(sizes(1, 2), (std::vector<Index>{2, 4}));  // and a component of one vertex
+  // The component that merges at 5 has only one vertex, which is too few.
+  EXPECT_EQ(sizes(1, 2), (std::vector<Index>{2, 4}));
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
-/// The share of the points of each block that carry its most frequent label, and that these differ.
+/// Checks that most points of each block (at least `share`) have the same label, and that these
+/// labels differ.
 void expect_blocks_apart(const TableScene& scene, const Segmentation& s, double share) {
   std::map<int, std::map<std::uint32_t, Index>> labels;
   std::map<int, Index> sizes;
@@ -49,15 +50,15 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
   ASSERT_EQ(s.cut.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.95);
-  // They meet in the seam, and each says so.
+  // The two segments meet in the seam, and each states the other as its neighbour.
   EXPECT_EQ(s.cut.segments[0].neighbour, 2U);
   EXPECT_EQ(s.cut.segments[1].neighbour, 1U);
   EXPECT_EQ(s.cut.segments[0].meets_at, s.cut.segments[1].meets_at);
-  EXPECT_GT(s.cut.segments[0].meets_at, 10);  // times the noise
+  EXPECT_GT(s.cut.segments[0].meets_at, 10);  // in units of the noise
   EXPECT_GT(s.cut.segments[1].persistence, 10);
   EXPECT_LE(s.cut.segments[1].persistence, s.cut.segments[1].meets_at);
   EXPECT_EQ(s.difference, "");
-  // By distance alone they are one segment.
+  // By distance alone, the two boxes are one segment.
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).cut.segments.size(), 1U);
 }
 
@@ -76,10 +77,11 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
   const Segmentation s = segment(cloud);
   const double persistence = s.cut.segments[1].persistence;
   EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).cut.segments.size(), 1U);
-  // No place of the seam is lower; therefore it is not weak at half of that value.
+  // No place of the seam is lower than this value, and therefore the seam is not weak at half of
+  // it.
   EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).cut.segments.size(), 2U);
   EXPECT_EQ(segment(cloud, {.min_part = s.cut.segments[1].voxels + 50}).cut.segments.size(), 1U);
-  // The same from the tree that was stored.
+  // The stored tree gives the same result.
   const std::vector<Index> basins = s.tree.merge_tree.basins(1.01 * persistence, 200);
   EXPECT_EQ(std::ranges::count(basins, basins[0]), static_cast<Index>(basins.size()));
   const std::vector<Index> apart = s.tree.merge_tree.basins(0.99 * persistence, 200);
@@ -112,7 +114,7 @@ TEST(Surface, SeparateObjectsMeetNobody) {
 }
 
 TEST(Surface, FeetAreWonBackFromThePlane) {
-  std::vector<test::Block> blocks;  // as rows of pixels meet them at several heights
+  std::vector<test::Block> blocks;  // boxes whose feet the rows of pixels meet at several heights
   for (int i = 0; i < 5; ++i) {
     const double x = 0.11 * i - 0.27, y = 0.0011 * i - 0.05;
     blocks.push_back({{x, y, 0}, {x + 0.08, y + 0.08, 0.1}});
@@ -147,11 +149,12 @@ TEST(Surface, CoarseSamplesGetLargerVoxels) {
   EXPECT_GT(s.tree.voxel, 0.005);
   EXPECT_LE(s.tree.voxel, 0.026);
   EXPECT_EQ(s.cut.segments.size(), 2U);
-  // A requested size is used.
+  // A requested voxel size is used.
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).tree.voxel, 0.005);
 }
 
-/// A strip of 10 x 140 mm, a point a millimetre, seen from 70 cm.
+/// A strip of 10 x 140 mm with one point per millimetre, seen from 70 cm. @param times copies of
+/// each point.
 std::vector<float> strip(int times) {
   std::vector<float> xyz;
   for (int i = 0; i < 140 * times; ++i)
@@ -168,7 +171,8 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
     ASSERT_EQ(s.cut.segments.size(), 1U);
     EXPECT_EQ(s.cut.segments[0].points, 1400 * times);
   }
-  // Points of a plane so far apart that they do not touch are sparse, be they there once or often.
+  // Points of a plane that are too far apart to touch are sparse, whether each occurs once or
+  // several times.
   for (const int times : {1, 5}) {
     std::vector<float> xyz;
     for (int i = 0; i < 40 * 40 * times; ++i)
@@ -177,7 +181,7 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
     const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false});
     EXPECT_GT(s.tree.voxel, 0.005);
     EXPECT_EQ(s.cut.segments.size(), 1U);
-    // Each stage is listed once, although the grid was made several times.
+    // Each stage is listed once, although the grid was built several times.
     EXPECT_EQ(std::ranges::count(s.stages, "voxel grid", &Stage::name), 1);
     EXPECT_EQ(std::ranges::count(s.stages, "neighbours", &Stage::name), 1);
     EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points,
@@ -185,8 +189,8 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
   }
 }
 
-/// Two boxes on a table, scaled, with noise of depth that grows with the square of the range and
-/// has this deviation where the middle of the table lies.
+/// Two boxes on a table, scaled. The noise of depth grows with the square of the range; `deviation`
+/// is its standard deviation in the middle of the table.
 std::vector<float> noisy_boxes(double scale, double deviation) {
   std::vector<float> xyz = TableScene::two_boxes().xyz();
   std::mt19937 random(5);
@@ -199,7 +203,8 @@ std::vector<float> noisy_boxes(double scale, double deviation) {
 }
 
 TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
-  // So much noise that the plane is searched for once more; near and far from the sensor.
+  // With so much noise, the plane is searched for a second time, near the sensor as well as far
+  // from it.
   const TableScene scene = TableScene::two_boxes();
   for (const double range : {0.3, 2.0}) {
     const Segmentation s =
@@ -211,7 +216,8 @@ TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
     for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
       const bool kept = std::ranges::binary_search(s.tree.points, static_cast<Index>(i));
       const float* p = &scene.xyz()[3 * i];
-      const double height = std::sqrt(0.5) * (1 - p[2] - p[1]) * range;  // without the noise
+      // The height above the table without noise.
+      const double height = std::sqrt(0.5) * (1 - p[2] - p[1]) * range;
       table += scene.truth()[i] == 0;
       left_of_table += scene.truth()[i] == 0 && kept;
       if (scene.truth()[i] <= 0 || height < 0.8 * 0.1 * range) continue;
@@ -224,7 +230,7 @@ TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
 }
 
 TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
-  // A sheet of four millimetres on the table, without noise.
+  // A sheet on the table, four millimetres thick, without noise.
   const TableScene scene(std::vector<test::Block>{{{-0.1, -0.1, 0}, {0.1, 0.1, 0.004}}});
   const CloudView cloud{scene.xyz(), {}};
   EXPECT_TRUE(segment(cloud).cut.segments.empty());
@@ -238,7 +244,7 @@ TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
 }
 
 TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
-  // Noise like that of a disparity sensor: a deviation of 1.4 mm at one metre.
+  // Noise as of a disparity sensor, with a standard deviation of 1.4 mm at one metre.
   TableScene scene = TableScene::two_boxes();
   std::vector<float> xyz = scene.xyz();
   std::mt19937 random(5);
@@ -253,7 +259,7 @@ TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
 }
 
 TEST(Surface, HalfABallIsOne) {
-  std::vector<float> xyz;  // half a ball of 8 cm, seen from the origin
+  std::vector<float> xyz;  // the half of a ball of 8 cm that is visible from the origin
   constexpr int steps = 120;
   for (int i = 0; i < steps; ++i) {
     for (int k = 0; k < steps; ++k) {
@@ -266,8 +272,8 @@ TEST(Surface, HalfABallIsOne) {
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).cut.segments.size(), 1U);
 }
 
-/// Specks of nine voxels with gaps between them, partly hiding a wall of specks behind: this gives
-/// very many parts.
+/// Specks of nine voxels with gaps between them, which partly hide a wall of specks behind: a scene
+/// with very many parts.
 std::vector<float> specks(int a_side) {
   std::vector<float> xyz;
   for (const double depth : {0.7, 0.8}) {
@@ -296,7 +302,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
   EXPECT_GT(cut(s.tree, apart).segments.size(), 2000U) << "parts that are compared";
   EXPECT_LT(took.count(), 20);
 
-  // Joins also check for a stop: a request in the middle of them is noticed.
+  // The stage that joins parts checks for a stop as well, in the middle of its work.
   std::stop_source source;
   RunContext context;
   context.stop = source.get_token();
@@ -311,7 +317,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
   EXPECT_TRUE(reached);
 }
 
-/// A wide box and in front of it a post that hides its middle.
+/// A wide box, and in front of it a post that hides its middle.
 TableScene box_behind_post() {
   return TableScene(
       {{{-0.15, 0.1, 0}, {0.15, 0.2, 0.12}}, {{-0.02, -0.12, 0}, {0.03, -0.06, 0.3}}});

@@ -21,7 +21,7 @@ TEST(CrossCheck, FindsADifference) {
   missing.merges.pop_back();
   EXPECT_NE(cross_check(graph, barcode_of(missing)), "");
   MergeTree other = right;
-  other.merges.back().u = 0;  // the same bars, another edge
+  other.merges.back().u = 0;  // the same bars, but another edge
   EXPECT_NE(cross_check(graph, barcode_of(other)), "");
 }
 

@@ -31,7 +31,7 @@ void expect_same(const SceneCut& a, const SceneCut& b) {
   EXPECT_EQ(a.segments, b.segments);
 }
 
-/// A box on a box, and beside them a box that a bar in front of it cuts in two.
+/// A box on a box, and next to them a box that a bar in front of it cuts in two.
 TableScene stack() {
   return TableScene({{{-0.2, -0.05, 0}, {0.0, 0.15, 0.08}},
                      {{-0.14, 0.0, 0.08}, {-0.06, 0.1, 0.2}},
@@ -144,7 +144,7 @@ TEST_P(StoredTree, AsJson) {
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(points, ',')) + 1, s.cut.labels.size());
 }
 
-// ---- what is refused
+// ---- trees that are refused
 
 std::string with_right_sum(std::string bytes) {
   const std::uint32_t sum = tree_sum(std::string_view(bytes).substr(0, bytes.size() - kTreeSum));
@@ -153,7 +153,7 @@ std::string with_right_sum(std::string bytes) {
   return bytes;
 }
 
-/// The message that refuses these bytes.
+/// The message with which these bytes are refused.
 std::string refusal(const std::string& bytes) {
   try {
     read_again(bytes);
@@ -165,7 +165,7 @@ std::string refusal(const std::string& bytes) {
   return {};
 }
 
-/// A word of the header, set.
+/// The bytes with one word of the header replaced.
 template <class T>
 std::string with_word(std::string bytes, std::size_t word, T value) {
   static_assert(sizeof value == kTreeWord);
@@ -190,7 +190,8 @@ TEST(DamagedTree, HeadersThatLie) {
   const double nan = std::nan("");
   for (const std::int64_t version : {1, 3})
     EXPECT_NE(refusal(with_word(bytes, 1, version)).find("version"), std::string::npos);
-  // Times of a seam; numbers of surfaces, of removed ones, of noises.
+  // The persistence of seams in units of noise; the numbers of surfaces, of removed surfaces, and
+  // of noise values.
   EXPECT_NE(refusal(with_word(bytes, 25, -1.0)).find("seam"), std::string::npos);
   for (const std::size_t word : {26U, 27U, 28U})
     for (const std::int64_t lie : {std::int64_t{-1}, std::int64_t{2}, std::int64_t{1} << 40})
@@ -237,7 +238,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.counts[3] += 1000; }), "points of a voxel"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.merge_tree.births[3] = -1; }), "birth"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
-                     t.method = Method::paper;  // whose voxels enter at 0
+                     t.method = Method::paper;  // in this method, voxels enter at 0
                      t.normals = Points(0, 3);
                      t.noise.clear();
                      t.distance = 1;
@@ -250,7 +251,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.normal[0] += 1; }), "surface"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.push_back({1, -1}); }), "noise"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.assign({{2, 1}, {1, 1}}); }), "noise"));
-  // A tree with such a merge is not written either.
+  // Such a tree cannot be written either; its bytes are damaged here.
   const std::size_t first_merge =
       (kTreeHeader + s.tree.surfaces.size() * kTreeSurface + s.tree.noise.size() * kTreeNoise) /
           kTreeWord +
@@ -263,7 +264,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(
       damaged([](SceneTree& t) { std::swap(t.merge_tree.merges[9], t.merge_tree.merges.back()); }),
       "forest"));
-  // Nor is one with more coordinates than points.
+  // A tree with more coordinates than points cannot be written either.
   std::string bytes = tree_bytes(s.tree);
   const std::size_t first_point = (first_merge + 2 * s.tree.merge_tree.merges.size()) * kTreeWord;
   std::memcpy(
@@ -271,7 +272,8 @@ TEST(DamagedTree, ContentsThatCannotBe) {
       &kTreeNoVertex, sizeof kTreeNoVertex);
   EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
-  // Far from the voxel: to the side, high above it, behind the plane; or too few points.
+  // A point far from its voxel: to the side, high above the plane, or behind it. Also too few
+  // points.
   const Vec3 n = s.tree.plane->normal;
   for (const double away : {1.0, -1.0, 1e30})
     EXPECT_TRUE(says(damaged([&](SceneTree& t) {
@@ -281,21 +283,23 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                      "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.6F; }), "coordinates"));
   SceneTree pieces = segment(CloudView{stack().xyz(), {}}, {.method = Method::supervoxels}).tree;
-  pieces.xyz[0] += 0.05F;  // too far for a base, and this method knows no openings
+  // Too far for the base of an object, and this method looks through no openings.
+  pieces.xyz[0] += 0.05F;
   EXPECT_TRUE(says(refusal(tree_bytes(pieces)), "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
-                     for (std::uint32_t& v : t.vertex_of_point)  // all of the first voxel elsewhere
+                     // Moves all points of the first voxel to another voxel.
+                     for (std::uint32_t& v : t.vertex_of_point)
                        if (v == 0) v = static_cast<std::uint32_t>(t.cells.size() - 1);
                    }),
                    "coordinates"));
 }
 
-/// Two vessels whose bottoms are seen 3 cm below the table, and the points that came back through
-/// their openings.
+/// Two vessels whose bottoms appear 3 cm below the table, and the points that were restored through
+/// the openings.
 struct Bottoms {
   test::VesselScene scene{{{.x = -0.15}, {.x = 0.15, .radius = 0.06, .height = 0.05}}, 0.03};
   Segmentation s = segment(scene.cloud());
-  std::vector<std::size_t> won_back;  // places in s.points
+  std::vector<std::size_t> won_back;  // indices of s.points
 
   Bottoms() {
     for (std::size_t k = 0; k < s.tree.points.size(); ++k)
@@ -342,7 +346,7 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
   EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
   for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
-  // Other methods do not look through openings, and without a plane there is nothing below it.
+  // Other methods do not look through openings, and without a plane nothing is below the plane.
   SceneTree tree = b.s.tree;
   tree.method = Method::supervoxels;
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const Eigen::Vector2d kCentre(0.3, -0.7);
 
-/// Points of a circle from an angle to another.
+/// Points of a circle between two angles.
 std::vector<Eigen::Vector2d> arc(double radius, double from, double to, int count = 100) {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < count; ++i) {
@@ -48,7 +48,8 @@ TEST(Circle, IsFoundAmongNoise) {
 }
 
 TEST(Circle, EachSetHasTheSameWeight) {
-  // Two circles with one centre: the radius is between theirs, however many points each has.
+  // For two concentric circles, the radius is between the two radii, whatever the numbers of
+  // points.
   for (const int count : {36, 36 * 50}) {
     const auto small = arc(0.06, 0, 2 * kPi, 36), large = arc(0.1, 0, 2 * kPi, count);
     const Circle circle = fit_circle({&small, &large});
@@ -57,8 +58,8 @@ TEST(Circle, EachSetHasTheSameWeight) {
   }
 }
 
-// The circle of a line is arbitrary, but a line never covers more than half of it, which is less
-// than a rim needs.
+// The circle fitted to a line is arbitrary, but a line never covers more than half of it. A rim
+// needs more.
 TEST(Circle, ALineIsOnHalfOfItsCircleAtMost) {
   for (int degrees = 0; degrees < 180; ++degrees) {
     const Eigen::Vector2d along(std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180));

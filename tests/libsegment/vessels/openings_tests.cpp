@@ -21,15 +21,16 @@ using test::VesselScene;
 constexpr Plane kTable{{0, 0, 1}, 0, 1};
 constexpr double kVoxel = 0.005, kMargin = 0.005;
 
-/// The points that are won back through the openings of a scene's objects.
+/// The points that are restored through the openings of a scene's objects.
 struct Found {
-  std::vector<Index> points;        ///< that came back
-  std::vector<std::uint32_t> to;    ///< their voxels
-  Points centroids;                 ///< of all voxels
-  std::map<Met, std::size_t> what;  ///< how many of each
+  std::vector<Index> points;        ///< the restored points
+  std::vector<std::uint32_t> to;    ///< the voxel that each of them joined
+  Points centroids;                 ///< the centroids of all voxels
+  std::map<Met, std::size_t> what;  ///< for each kind of thing, the number of restored points
 };
 
-/// @param object_of by the place of a voxel. All that stands on the table must have one.
+/// @param object_of returns the object of a voxel from its position. Everything on the table must
+/// have an object.
 template <class ObjectOf>
 Found find(const VesselScene& scene, const Vec3& eye, ObjectOf&& object_of) {
   const CloudView cloud{scene.xyz(), eye};
@@ -54,7 +55,7 @@ Found find(const VesselScene& scene, const Vec3& eye, ObjectOf&& object_of) {
   return found;
 }
 
-Found find(const VesselScene& scene) {  // all is one object
+Found find(const VesselScene& scene) {  // everything is one object
   return find(scene, scene.eye(), [](double, double) { return 0; });
 }
 
@@ -65,7 +66,8 @@ TEST(Openings, ShowTheBottomsOfVessels) {
       Found found = find(scene);
       EXPECT_GT(scene.count(Met::bottom), 30U);
       EXPECT_GT(found.what[Met::bottom], 0.9 * static_cast<double>(scene.count(Met::bottom)));
-      // And the foot of the wall behind, nothing else: no table in front of it or beside it.
+      // The other points are at the foot of the rear wall. No point of the table in front or beside
+      // is included.
       EXPECT_EQ(found.what[Met::bottom] + found.what[Met::inside], found.points.size());
       EXPECT_TRUE(std::ranges::is_sorted(found.points));
       EXPECT_EQ(std::set(found.to.begin(), found.to.end()).size(), 1U);
@@ -92,7 +94,7 @@ TEST(Openings, EachVesselHasItsOwn) {
     voxels.insert(found.to[k]);
   }
   EXPECT_EQ(voxels.size(), 2U);
-  // Taken as one object, they have no round rim.
+  // Taken as one object, the two have no round rim.
   EXPECT_TRUE(find(scene).points.empty());
 }
 
@@ -109,7 +111,7 @@ TEST(Openings, ARimMayHaveAHandle) {
 }
 
 TEST(Openings, AreRoundOnMostOfTheCircle) {
-  for (const double part : {100.0, 170.0, 250.0}) {  // the gap is at the right
+  for (const double part : {100.0, 170.0, 250.0}) {  // the gap is on the right
     const VesselScene scene(Vessel{.from = 180 - part / 2, .to = 180 + part / 2});
     EXPECT_EQ(find(scene).points.empty(), part < 200) << part;
   }
@@ -146,7 +148,7 @@ TEST(Openings, AreNeitherAsSmallAsAScrewNorAsLargeAsATable) {
 TEST(Openings, OfAnObjectThatIsTooSmallAreNone) {
   const VesselScene scene(Vessel{});
   EXPECT_FALSE(find(scene).points.empty());
-  int next = 0;  // a voxel each
+  int next = 0;  // each voxel is an object
   EXPECT_TRUE(find(scene, scene.eye(), [&](double, double) { return ++next; }).points.empty());
 }
 
@@ -174,7 +176,7 @@ TEST(OpeningsOfScenes, BottomsHaveTheLabelOfTheirVessel) {
     std::size_t right = 0, wrong = 0;
     for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
       if (scene.met()[i] == Met::table) {
-        // The base of a wall may take a little of the table.
+        // The foot of a wall may take some points from the table.
         wrong += s.cut.labels[i] != 0 && scene.xyz()[3 * i + 2] < 0.001 ? 1 : 0;
       } else if (scene.met()[i] == Met::bottom) {
         right += s.cut.labels[i] == (scene.xyz()[3 * i] < 0 ? 1U : 2U) ? 1 : 0;

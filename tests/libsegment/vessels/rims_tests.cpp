@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kVoxel = 0.005;
 
-/// Two walls of 4 cm in a cloud, as a bowl shows: its outside in front, its inside behind.
+/// A cloud with two walls of 4 cm, such as a bowl shows: its outside in front and its inside
+/// behind.
 class TwoWalls {
  public:
   void add(double x, double y, double top, Index part) {
@@ -121,7 +122,7 @@ TEST(Rims, ArcsOfDifferentCirclesDoNot) {  // two cups, one behind the other
 }
 
 TEST(Rims, StraightEdgesDoNot) {
-  for (const double gap : {0.0, 0.1}) {  // on one line; the sides of a box
+  for (const double gap : {0.0, 0.1}) {  // both edges on one line, or on two sides of a box
     TwoWalls edges;
     for (double x = 0; x < 0.1; x += kVoxel) {
       edges.add(x, 0, 0.07, 0);

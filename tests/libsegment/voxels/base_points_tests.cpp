@@ -10,11 +10,12 @@
 namespace ph::segment {
 namespace {
 
-/// A table z = 1 seen from the origin. Its squares are axis-aligned: unitOrthogonal of (0, 0, -1)
-/// is an axis.
+/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because unitOrthogonal of
+/// (0, 0, -1) is an axis.
 constexpr Plane kTable{{0, 0, -1}, 1, 1};
 
-/// The voxels of walls that points of the strip join, by assign_base_points.
+/// The voxels that points of the strip join by assign_base_points. @param side the side of a
+/// square.
 struct Bases {
   std::vector<float> xyz;
   std::vector<Index> walls, strip;
@@ -23,11 +24,11 @@ struct Bases {
     to.push_back(static_cast<Index>(xyz.size() / 3));
     for (const double c : {x, y, 1 - height}) xyz.push_back(static_cast<float>(c));
   }
-  /// By point of the strip: the wall whose voxel it joined, or -1.
+  /// For each point of the strip, the wall whose voxel it joins, or -1.
   std::vector<Index> assigned(double side) const {
     std::vector<Index> points = walls;
     VoxelGrid grid;
-    for (std::size_t k = 0; k < walls.size(); ++k)  // a voxel a wall
+    for (std::size_t k = 0; k < walls.size(); ++k)  // one voxel per wall
       grid.voxel_of.push_back(static_cast<std::uint32_t>(k));
     assign_base_points({xyz, {}}, strip, kTable, {0.005, 0}, side, points, grid);
     std::vector<Index> of(strip.size(), -1);
@@ -71,7 +72,7 @@ TEST(AssignBasePoints, AWallOnEverySquare) {
 }
 
 TEST(AssignBasePoints, SquaresFarFromTheOriginAreNotTakenForOneAnother) {
-  // Sides of 2^-33 … 2^-20: coordinates of 2^20 … 2^37 squares, of both signs.
+  // With sides of 2^-33 … 2^-20, coordinates are 2^20 … 2^37 squares, of both signs.
   for (int log = -33; log <= -20; ++log) {
     const double side = std::ldexp(1, log);
     for (const double sign : {-1.0, 1.0}) {

@@ -85,7 +85,8 @@ TEST(VoxelGrid, EqualsASlowOneWithManyVoxels) {
   }
   const double voxel = 0.1;
   const VoxelGrid grid = voxel_grid({xyz, {}}, all_of(points.rows()), voxel);
-  std::map<std::array<double, 3>, std::pair<std::array<double, 3>, Index>> slow;  // by z, y, x
+  // Keyed by z, y, x.
+  std::map<std::array<double, 3>, std::pair<std::array<double, 3>, Index>> slow;
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     auto& [sum, count] = slow[{std::floor(xyz[i + 2] / voxel), std::floor(xyz[i + 1] / voxel),
                                std::floor(xyz[i] / voxel)}];
@@ -106,7 +107,7 @@ TEST(VoxelGrid, EqualsASlowOneWithManyVoxels) {
 
 TEST(VoxelGrid, InOrderHoweverFarApart) {
   const Points points = random_points(3000, 5);
-  for (const float size : {1e-2F, 1.0F, 1e9F}) {  // the box around all: up to 2^120 voxels
+  for (const float size : {1e-2F, 1.0F, 1e9F}) {  // up to 2^120 voxels in the bounding box
     std::vector<float> xyz;
     for (Index i = 0; i < points.rows(); ++i)
       for (Index k = 0; k < 3; ++k) xyz.push_back(size * static_cast<float>(points(i, k) - 0.5));
@@ -167,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(DistancesAndSteps, RipsGraphTest,
                                           testing::Values(0, 1, 10, 5000)));
 
 TEST(RipsGraph, EqualPointsAndTies) {
-  Points grid(27 * 2, 3);  // a 3x3x3 grid of distance 1, each point twice
+  Points grid(27 * 2, 3);  // a 3x3x3 grid with distances of 1, each point twice
   for (Index i = 0; i < 54; ++i) {
     grid.set_row(i, {static_cast<double>(i / 2 % 3), static_cast<double>(i / 6 % 3),
                      static_cast<double>(i / 18)});

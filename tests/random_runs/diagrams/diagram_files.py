@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random barcodes, and files of them in each format that programs read back."""
+"""Random barcodes, and files of them in each format that programs can read."""
 import ast
 import gzip
 import json
@@ -11,11 +11,11 @@ import formats
 
 INF = math.inf
 STYLES = ["grid", "grid", "dyadic", "unit", "wide", "tiny", "huge", "shifted", "any"]
-LARGE = 4e99  # vectors use numbers up to 1e100, including lengths
+LARGE = 4e99  # vectors accept numbers, and lengths, up to 1e100
 
 
 def number(rng, style):
-    if style == "grid":  # with ties
+    if style == "grid":  # creates ties
         return float(rng.randint(-3, 6))
     if style == "dyadic":
         return rng.randint(-2 ** 12, 2 ** 12) / 2 ** rng.randint(0, 6)
@@ -25,7 +25,7 @@ def number(rng, style):
         return rng.choice([5e-324, 1e-310, 1e-300, 1e-160]) * rng.randint(-5, 9)
     if style == "huge":
         return rng.choice([1e97, 4e98]) * rng.randint(-9, 9) * rng.choice([1, rng.random()])
-    if style == "shifted":  # differences have few digits
+    if style == "shifted":  # numbers whose differences have few digits
         return 1e6 + rng.choice([rng.random(), rng.randint(0, 4)])
     if style == "vast":
         return rng.choice([1e153, 1e200, 1e304]) * rng.randint(-9, 9)
@@ -42,7 +42,7 @@ def random_bar(rng, style, infinite):
     way = rng.random()
     if way < 0.08:
         death = birth
-    elif way < 0.16:  # near the diagonal
+    elif way < 0.16:  # a bar near the diagonal
         death = math.nextafter(birth, INF) if rng.random() < 0.5 else birth + abs(birth) * 2 ** -rng.randint(10, 52)
     elif way < 0.16 + infinite:
         death = INF
@@ -56,7 +56,7 @@ def random_bar(rng, style, infinite):
 
 
 def moved(rng, style, bar, far):
-    """A bar near this one. @param far a factor of the distance; None: any distance."""
+    """A bar close to this one. @param far factor for the distance; None for a random distance."""
     ends = [x if math.isinf(x) or rng.random() < 0.3 else
             x + number(rng, style) * (far or rng.choice([1, 2 ** -4, 2 ** -20])) for x in bar]
     largest = LARGE if style != "vast" else 1e308
@@ -65,8 +65,8 @@ def moved(rng, style, bar, far):
 
 
 def random_barcode(rng, style, infinite, before=None):
-    """@param infinite the share of bars that never die. @param before a barcode to which it may be
-    close."""
+    """@param infinite the share of bars that never die. @param before a barcode that the new one
+    may resemble."""
     if rng.random() < 0.06:
         return []
     bars = []
@@ -77,7 +77,7 @@ def random_barcode(rng, style, infinite, before=None):
         for dim in sorted(rng.sample(range(4), rng.choice([1, 1, 2, 2, 3]))):
             most = rng.choice([3, 3, 5, 5, 8, 8, 30])
             bars += [(dim, *random_bar(rng, style, infinite)) for _ in range(rng.randint(0, most))]
-    while bars and rng.random() < 0.3:  # some of them twice
+    while bars and rng.random() < 0.3:  # repeats some of the bars
         bars.append(rng.choice(bars))
     if rng.random() < 0.5:
         rng.shuffle(bars)
@@ -146,17 +146,17 @@ WRITERS = {"csv": csv_file, "json": json_file, "txt": ripser_file, "pers": pers_
 
 
 def barcode_file(rng, stem, bars):
-    """@return name, content."""
+    """@return the name and content of a file."""
     ways = list(WRITERS) + ["csv"]
     if any(math.isinf(b) for _, b, _ in bars):
-        ways.remove("txt")  # the format has no such births
+        ways.remove("txt")  # this format has no infinite births
     way = rng.choice(ways)
     name, content = f"{stem}.{way}", WRITERS[way](rng, bars)
     return (name + ".gz", gzip.compress(content)) if rng.random() < 0.05 else (name, content)
 
 
 def read_npy(content):
-    """@return the shape and the numbers of an array of float64, C order."""
+    """@return the shape and the numbers of an array of float64 in C order."""
     assert content[:8] == b"\x93NUMPY\x01\x00", content[:8]
     start = 10 + struct.unpack_from("<H", content, 8)[0]
     header = ast.literal_eval(content[10:start].decode("latin-1"))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Distances of persistence diagrams by their definitions: each bar has a place on the diagonal, and
-all are assigned at once. Does not read files, and shares nothing with libph. Needs NumPy and SciPy.
+one assignment covers all bars. Reads no files, and shares nothing with libph. Needs NumPy and
+SciPy.
 
 A diagram is a list of bars (birth, death) of one dimension. Bars of length 0 do not count."""
 import itertools
@@ -12,12 +13,13 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
 INF = math.inf
-FEW = 2000  # up to this many ways to pair bars are all tried
+FEW = 2000  # up to this number of ways to pair bars, all are tried
 
 
 def kinds(bars):
-    """@return the finite bars, births of bars that never die, deaths of bars that always existed
-    (both sorted), and the number of bars that always existed and never die."""
+    """@return the finite bars; the births of bars that are born but never die, and the deaths of
+    bars that always existed, both sorted; and the number of bars that always existed and never
+    die."""
     finite = [(b, e) for b, e in bars if b < e and not math.isinf(b) and not math.isinf(e)]
     rays = sorted(b for b, e in bars if b > -INF and e == INF)
     always = sorted(e for b, e in bars if b == -INF and e < INF)
@@ -25,14 +27,14 @@ def kinds(bars):
 
 
 def same_numbers(a, b):
-    """True if both have the same number of infinite bars of each kind; otherwise their distance is
-    infinite."""
+    """True if both diagrams have the same number of infinite bars of each kind; otherwise, their
+    distance is infinite."""
     a, b = kinds(a), kinds(b)
     return (len(a[1]), len(a[2]), a[3]) == (len(b[1]), len(b[2]), b[3])
 
 
 def differences(a, b):
-    """The distances of infinite bars, in the order of their finite ends."""
+    """The distances between infinite bars, which are paired in the order of their finite ends."""
     return [abs(x - y) for k in (1, 2) for x, y in zip(kinds(a)[k], kinds(b)[k])]
 
 
@@ -44,8 +46,8 @@ def norm(x, y, ground):
 
 
 def costs(a, b, ground):
-    """The costs of finite bars: of pairs, of unmatched bars of `a`, and of unmatched bars of
-    `b`."""
+    """Costs of finite bars: of each pair, of each unmatched bar of `a`, and of each unmatched bar
+    of `b`."""
     pairs = np.zeros((len(a), len(b)))
     for (i, p), (j, q) in itertools.product(enumerate(a), enumerate(b)):
         pairs[i, j] = norm(abs(p[0] - q[0]), abs(p[1] - q[1]), ground)
@@ -54,8 +56,9 @@ def costs(a, b, ground):
 
 
 def square(pairs, alone_a, alone_b):
-    """Rows are bars of `a`, then a place on the diagonal for each bar of `b`; columns vice versa.
-    Each bar has its own place on the diagonal; the others are closed to it."""
+    """The square matrix of costs. Rows are the bars of `a`, then a place on the diagonal for each
+    bar of `b`; columns are the bars of `b`, then a place for each bar of `a`. A bar can only go to
+    its own place on the diagonal."""
     n, m = pairs.shape
     table = np.full((n + m, n + m), INF)
     table[:n, :m] = pairs
@@ -66,7 +69,8 @@ def square(pairs, alone_a, alone_b):
 
 
 def bottleneck(a, b):
-    """Exact: one of the differences, as computed in double precision."""
+    """The bottleneck distance. It is exact, because it is one of the differences in double
+    precision."""
     if not same_numbers(a, b):
         return INF
     least = max(differences(a, b), default=0.0)
@@ -84,12 +88,12 @@ def bottleneck(a, b):
 
 
 def ways(n, m):
-    """The number of ways to pair n and m bars."""
+    """The number of ways to pair n bars with m bars."""
     return sum(math.comb(n, k) * math.comb(m, k) * math.factorial(k) for k in range(min(n, m) + 1))
 
 
 def least_of_all(pairs, alone_a, alone_b):
-    """The least sum over all ways to pair bars."""
+    """The least sum, by trying all ways to pair the bars."""
     best = INF
     n, m = pairs.shape
     for k in range(min(n, m) + 1):
@@ -102,7 +106,7 @@ def least_of_all(pairs, alone_a, alone_b):
 
 
 def wasserstein(a, b, order, ground):
-    """@return the distance, and the cost of all bars unmatched, as a distance."""
+    """@return the distance, and the distance if all finite bars were unmatched."""
     if not same_numbers(a, b):
         return INF, INF
     rays = differences(a, b)
@@ -110,7 +114,7 @@ def wasserstein(a, b, order, ground):
     unit = max([*rays, *alone_a, *alone_b], default=0)
     if unit == 0:
         return 0.0, 0.0
-    with np.errstate(over="ignore"):  # such a pair is worse than the diagonal
+    with np.errstate(over="ignore"):  # a pair that overflows costs more than the diagonal
         pairs, alone_a, alone_b = ((c / unit) ** order for c in (pairs, alone_a, alone_b))
     if ways(*pairs.shape) <= FEW:
         least = least_of_all(pairs, alone_a, alone_b)
@@ -139,8 +143,9 @@ def sliced(a, b, directions):
 
 
 def loss(distances, labels, power):
-    """Over groups, the sum of the powers of distances of ordered pairs within / (2 n (n - 1)).
-    @param distances a square."""
+    """The loss of --groups: for each group of n barcodes, the sum of the powers of the distances
+    over ordered pairs, divided by 2 n (n - 1); summed over the groups.
+    @param distances a square matrix."""
     total = 0.0
     for word in sorted(set(labels)):
         own = [i for i, w in enumerate(labels) if w == word]

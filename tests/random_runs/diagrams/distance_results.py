@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads the output of ph-distance, by the definitions of its formats."""
+"""Reads the output of ph-distance according to the definitions of its formats."""
 import csv
 import io
 import itertools
@@ -19,7 +19,8 @@ def digits(text):
 
 
 def shortest(text):
-    """Parses a number, which must be the shortest text that reads back to it. @throws ValueError"""
+    """Parses a number, which must be the shortest text that gives this number. @throws
+    ValueError"""
     value = float(text)
     if math.isfinite(value) and digits(text) > digits(repr(value)):
         raise ValueError(f"found {text}, expected {value!r}")
@@ -36,7 +37,8 @@ def cell(program, ok, what):
 
 
 def check_names(program, task, row):
-    """Checks that distance, order, norm and directions are named. @param row of CSV."""
+    """Checks that a row states the distance, order, norm and directions. @param row of a CSV
+    file."""
     ground = "" if task.distance == "sliced" else repr(float(task.ground))
     directions = str(task.directions) if task.distance == "sliced" else ""
     cell(program, row["distance"] == task.distance and float(row["order"]) == task.order, "distance")
@@ -70,14 +72,15 @@ def read_text(program, task, text):
             cell(program, float(limit) == task.at_most, "limit")
             value, lower = high, low
         value = value or "inf"
-        # Text has no lower bound for exact distances.
+        # In text, exact distances have no lower bound.
         unsaid = task.distance == "wasserstein" and task.error == 0 and not lower and value != "inf"
         found[i, j, int(dim)] = shortest(value), None if unsaid else shortest(lower or value)
     return found
 
 
 def read_distances(program, task, content):
-    """@return value and lower bound (None if not stated) by indices of files and dimension."""
+    """@return the value and lower bound of each distance (None if not stated), by the indices of
+    the two files and the dimension."""
     text = content.decode()
     if task.form == "text":
         return read_text(program, task, text)
@@ -104,7 +107,7 @@ def read_distances(program, task, content):
 
 
 def read_tests(program, task, content):
-    """@return p and loss by dimension."""
+    """@return the p-value and loss for each dimension."""
     text = content.decode()
     if task.form == "csv":
         rows = list(csv.DictReader(io.StringIO(text)))
@@ -132,7 +135,7 @@ def read_tests(program, task, content):
 
 
 def read_matrix(program, task, folder):
-    """@return distances as if each were known exactly."""
+    """@return the distances in the form of read_distances, as if each were exact."""
     content = pathlib.Path(folder, task.matrix).read_bytes()
     count = len(task.names)
     if task.matrix.endswith(".npy"):
@@ -150,7 +153,8 @@ def read_matrix(program, task, folder):
 
 
 def read_matching(program, task, folder):
-    """@return rows (dim, a, b, bar of a, bar of b, cost); places None: the diagonal."""
+    """@return rows (dim, a, b, bar of a, bar of b, cost). None in place of a bar is the
+    diagonal."""
     text = pathlib.Path(folder, task.matching).read_text(encoding="utf-8")
     if task.matching.endswith(".csv"):
         found = []

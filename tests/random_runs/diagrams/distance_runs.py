@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares ph-distance with random options on random barcodes with distances by the definition."""
+"""Compares ph-distance, with random options and on random barcodes, with distances by the
+definition."""
 import dataclasses
 import itertools
 import math
@@ -11,12 +12,12 @@ from distance_tasks import random_task, with_senseless
 from random_runs import damaged
 
 INF = math.inf
-SMALL = 1e-307  # below it doubles have fewer digits
-LEAST = 1e-150  # relative to the cost of all unmatched bars; smaller numbers have vanishing squares
+SMALL = 1e-307  # smaller doubles have fewer digits
+LEAST = 1e-150  # relative to the cost of all bars unmatched; the squares of smaller numbers are 0
 
 
 def expected_of(task, a, b):
-    """@return the distance, and the cost of all bars unmatched."""
+    """@return the distance, and the distance if all bars were unmatched."""
     if task.distance == "bottleneck":
         return (oracle.bottleneck(a, b),) * 2
     if task.distance == "wasserstein":
@@ -26,7 +27,8 @@ def expected_of(task, a, b):
 
 
 def is_known(task, value, lower, exact, alone):
-    """Checks that the bounds are as requested. @param lower None: not stated."""
+    """Checks that the bounds enclose the exact distance as closely as requested. @param lower None
+    if not stated."""
     if lower is None:
         lower = value if exact == INF or task.distance == "sliced" else min(exact, value)
     if exact == INF:
@@ -34,15 +36,15 @@ def is_known(task, value, lower, exact, alone):
     if value < lower or math.isinf(value):
         return False
     if task.distance == "bottleneck":
-        # One of the differences, to the last digit.
+        # The distance is one of the differences, to the last digit.
         if not lower <= exact <= value:
             return False
         return lower > task.at_most or (
             lower == value if task.error == 0 else value <= (1 + task.error) * lower * (1 + 1e-15))
     if task.distance == "sliced":
         return value == lower and abs(value - exact) <= 1e-12 * exact + 1e-15 * alone + SMALL
-    # Costs to the power of the order agree to 1e-12, or to 1e-14 of the cost of all bars unmatched;
-    # or to 1e-300 of it, because powers of smaller numbers vanish.
+    # Costs to the power of the order agree up to 1e-12 of their size, or up to 1e-14 of the cost of
+    # all bars unmatched; or up to 1e-300 of that cost, because powers of smaller numbers are 0.
     if max(exact, value) <= SMALL or alone == 0:
         return value <= SMALL
 
@@ -78,7 +80,7 @@ def compare_matrix(program, task, folder, found):
         if found is not None:
             cell(program, square[i][j] == found[i, j, dim][0], "number in the matrix than in the table")
         exact, alone = expected_of(task, task.of(i, dim), task.of(j, dim))
-        # For distances that were cut off early, there is only a bound.
+        # For distances above --at-most, only a bound is known.
         near = dataclasses.replace(task, at_most=INF)
         if exact <= task.at_most and not is_known(near, square[i][j], None, exact, alone):
             program.differ(f"{task.names[i]} and {task.names[j]}: found {square[i][j]!r} in the matrix, "
@@ -86,7 +88,8 @@ def compare_matrix(program, task, folder, found):
 
 
 def check_pair(program, task, bars, row):
-    """Ends and cost of a pair. @param bars of both barcodes, in order. @return the cost."""
+    """Checks the ends and the cost of a pair. @param bars of both barcodes, in order. @return the
+    cost."""
     _, a, b, *ends, cost = row
     for place, own, end, other in ((a, bars[0], ends[0], ends[1]), (b, bars[1], ends[1], ends[0])):
         if place is None:
@@ -129,7 +132,7 @@ def compare_matching(program, task, folder, found):
         total = largest
         if task.order < INF and largest > 0:
             total = largest * math.fsum((c / largest) ** task.order for c in all_costs) ** (1 / task.order)
-        # Powers of costs far below those of unmatched bars vanish.
+        # Powers of costs that are far below those of unmatched bars underflow.
         alone = expected_of(task, *bars)[1]
         if task.order < INF and total < alone * 1e-300 ** (1 / task.order):
             continue
@@ -148,7 +151,8 @@ def compare_tests(program, task, found):
         unit = max(map(max, square)) or 1.0
         square = [[x / unit for x in row] for row in square]
         exact = oracle.loss(square, task.labels, task.power)
-        is_vast = abs(math.log10(unit)) * task.power > 290  # then the loss is not a double
+        # In this case, the loss is outside the range of doubles.
+        is_vast = abs(math.log10(unit)) * task.power > 290
         scale = math.nan if is_vast else unit ** task.power
         doubt = (1 + task.error) ** task.power - 1 + 1e-11
         ends = ((exact * (1 + sign * doubt) + sign * 1e-14) * scale for sign in (-1, 1))
@@ -160,17 +164,17 @@ def compare_tests(program, task, found):
         ends = []
         for slack in (-1e-9, 1e-9):
             share = sum(x <= exact * (1 + slack) + slack * 1e-3 for x in losses) / len(losses)
-            # Seven standard deviations of the count of shuffles, and one shuffle.
+            # Seven standard deviations of the number of shuffles, plus one shuffle.
             spread = 7 * math.sqrt(share * (1 - share) / task.shuffles) + 25 / task.shuffles * (share * (1 - share) > 0)
             ends.append(share + math.copysign(spread + 1 / (task.shuffles + 1), slack))
         if not ends[0] <= p <= ends[1] or not 0 < p <= 1:
             program.differ(f"H{dim}: found p {p!r}, expected {ends} by all {len(losses)} deals")
 
 
-# Runs.
+# Runs of the program.
 
 def refused(program, task, names):
-    """One line that names the option, and no output."""
+    """Expects one line that names one of the options, and no output."""
     program.expect_refusal(program.run.returncode, Names(task))
     said = [line for line in program.said.splitlines() if line.startswith("ph-distance: ") and ": read " not in line]
     if not any(name in said[-1] for name in names):
@@ -178,7 +182,7 @@ def refused(program, task, names):
 
 
 class Names:
-    """All outputs, in the form that Program.expect_refusal needs."""
+    """The names of all outputs, in the form that Program.expect_refusal needs."""
 
     def __init__(self, task):
         self.name = task.output or task.matching or task.matrix
@@ -192,7 +196,8 @@ def no_outputs(program, task, folder):
 
 
 def expected_refusal(task):
-    """@return the documented exit code and words, one of which the message has; or None."""
+    """@return the documented exit code, and words of which the message contains one; None if no
+    refusal is expected."""
     if task.matrix and len(task.dims) != 1:
         return 64, ["--matrix"]
     if task.aim != "groups":
@@ -206,7 +211,7 @@ def expected_refusal(task):
 
 
 def one_run(rng, program, folder):
-    """@return the kind of run, for the counts."""
+    """Runs the program once. @return the kind of run, for the counts."""
     task, options = random_task(rng, folder)
     kind = f"{task.distance}, {task.aim}"
     if rng.random() < 0.1:
@@ -226,7 +231,7 @@ def one_run(rng, program, folder):
         refused(program, task, [name])
         no_outputs(program, task, folder)
         return f"{kind}, refused"
-    # The order of files matters, the order of options does not.
+    # The order of files matters, and the order of options does not.
     rng.shuffle(options)
     at = rng.randint(0, len(options))
     code = program([*options[:at], *[[name] for name in task.names], *options[at:]])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random tasks for ph-distance: barcodes, options, and their meaning."""
+"""Random tasks for ph-distance: barcodes, options, and what the options mean."""
 import dataclasses
 import math
 import pathlib
@@ -8,7 +8,8 @@ import diagram_files
 import formats
 
 INF = math.inf
-# Options with a value, and where they apply: distances; two barcodes, more, a matching, groups.
+# Options with values, and where they apply: the distances, and the tasks (two barcodes, more, a
+# matching, groups).
 BOTH, ALL = {"bottleneck", "wasserstein"}, {"pair", "many", "matching", "groups"}
 SCOPES = {
     "--order": (["1", "2", "3.5"], {"wasserstein"}, ALL), "--ground": (["inf", "2", "1"], {"wasserstein"}, ALL),
@@ -26,7 +27,7 @@ SENSELESS = {
 
 @dataclasses.dataclass
 class Task:
-    """The requested results."""
+    """The results that a task requests."""
     names: list
     bars: list
     aim: str
@@ -51,7 +52,7 @@ class Task:
 
 
 def distance_options(rng, task):
-    """@return options, each with its value."""
+    """@return the options for the distance, each with its value."""
     options = [] if task.distance == "bottleneck" and rng.random() < 0.7 else [["--distance", task.distance]]
     if task.distance == "wasserstein":
         if rng.random() < 0.6:
@@ -97,7 +98,7 @@ def output_options(rng, task):
 
 
 def random_task(rng, folder):
-    """@return the task, its options."""
+    """@return the task and its options."""
     style = rng.choice(diagram_files.STYLES + ["vast"])
     aim = rng.choice(["pair", "pair", "many", "matching", "groups"])
     count = {"many": rng.randint(3, 5), "groups": rng.randint(4, 7)}.get(aim, 2)
@@ -105,7 +106,7 @@ def random_task(rng, folder):
     bars = [diagram_files.random_barcode(rng, style, infinite)]
     while len(bars) < count:
         bars.append(diagram_files.random_barcode(rng, style, infinite, bars[-1]))
-    if infinite and rng.random() < 0.5:  # as many infinite bars in all
+    if infinite and rng.random() < 0.5:  # gives all barcodes the same number of infinite bars
         bars = [[bar for bar in own if bar[1] > -INF and bar[2] < INF] + [
             (d, b if b == -INF else diagram_files.number(rng, style),
              e if e == INF else diagram_files.number(rng, style))
@@ -140,7 +141,7 @@ def random_task(rng, folder):
 
 
 def with_senseless(rng, task, options):
-    """@return options of which one makes no sense, that option's name."""
+    """@return the options with one that makes no sense, and the name of this option."""
     given = {option[0] for option in options}
     wrong = [(name, rng.choice(values)) for name, (values, distances, aims) in SCOPES.items()
              if name not in given and (task.aim not in aims or distances and task.distance not in distances)]

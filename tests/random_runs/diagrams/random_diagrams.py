@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""random_diagrams.py PH_DISTANCE PH_VECTORISE [--runs N] [--seed S] [--jobs J] [--keep FOLDER] [--only WHICH]
+"""random_diagrams.py PH_DISTANCE PH_VECTORISE [--runs N] [--seed S] [--jobs J] [--keep FOLDER]
+[--only WHICH]
 
-Runs both programs with random options on random barcodes of each format, and compares their output
+Runs both programs with random options on random barcodes in each format, and compares their output
 with distances and vectors by the definition (diagram_oracle.py, vector_oracle.py), which share no
-code with them. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at
-the first differences, with the commands; the files are kept in FOLDER (default: where the script is
-run). Skipped without SciPy."""
+code with the programs. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. If
+there are differences, it exits with 1 and prints the commands; the files are kept in FOLDER
+(default: where the script is run). Skipped without SciPy."""
 import argparse
 import functools
 import os

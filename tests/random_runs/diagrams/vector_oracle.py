@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Vectors of persistence diagrams by their definitions, bar by bar and value by value. Does not
-read files, and shares nothing with libph. Needs NumPy and SciPy.
+"""Vectors of persistence diagrams by their definitions, bar by bar and value by value. Reads no
+files, and shares nothing with libph. Needs NumPy and SciPy.
 
-A diagram is a list of bars (birth, death) of one dimension, of positive length."""
+A diagram is a list of bars (birth, death) of one dimension and of positive length."""
 import math
 
 import numpy as np
@@ -51,7 +51,7 @@ def lengths(bars, count):
 
 
 def grid(low, high, count):
-    """With both ends."""
+    """Evenly spaced values, including both ends."""
     if count == 1:
         return [low]
     step = (high - low) / (count - 1)
@@ -72,13 +72,14 @@ def tent(bar, t):
 
 
 def landscape(bars, at, layers):
-    """A row of all values for each layer."""
+    """The values of all layers, one layer after another."""
     columns = [(sorted((tent(bar, t) for bar in bars), reverse=True) + [0.0] * layers)[:layers] for t in at]
     return [columns[i][k] for k in range(layers) for i in range(len(at))]
 
 
 def weights(bars, power):
-    """In the unit of the largest. @return these, the largest length."""
+    """The weights in units of the largest one. @return these weights, and the length of the longest
+    bar."""
     longest = max(e - b for b, e in bars)
     return [((e - b) / longest) ** power for b, e in bars], longest
 
@@ -100,8 +101,9 @@ def shares_of_pixels(low, high, count, centre, sigma):
 
 
 def image(bars, births, across, sigma, power):
-    """Rows are lengths, ascending. @param births, across (low, high, pixels).
-    @return the pixels, the sum of the weights."""
+    """A persistence image. Rows are lengths in ascending order. @param births the (low, high,
+    pixels) of births. @param across the same for lengths.
+    @return the pixels, and the sum of the weights."""
     pixels, total = np.zeros((across[2], births[2])), 0.0
     for b, e in bars:
         weight = (e - b) ** power
@@ -111,7 +113,7 @@ def image(bars, births, across, sigma, power):
 
 
 def euler(bars, at):
-    """@param bars with their dimensions."""
+    """@param bars (dim, birth, death)."""
     return [float(sum((-1) ** d for d, b, e in bars if b <= t < e)) for t in at]
 
 
@@ -123,12 +125,12 @@ def atol(bars, centres, widths, contrast):
 
 
 def are_means(points, centres, slack):
-    """True if the centres are a fixed point of k-means: each is the mean of the points nearest to
-    it."""
+    """True if the centres are a fixed point of k-means: each is the mean of the points that are
+    nearest to it."""
     points, centres = np.array(points), np.array(centres)
     far = np.sqrt(((points[:, None] - centres[None]) ** 2).sum(-1))
     nearest = far.argmin(1)
-    # A point between two centres may belong to either.
+    # A point at the same distance from two centres may belong to either.
     doubtful = (far <= far.min(1)[:, None] + slack).sum(1) > 1
     if doubtful.any():
         return True
@@ -137,8 +139,8 @@ def are_means(points, centres, slack):
 
 
 def widths(points, centres):
-    """Half the distance to the nearest other centre; of a single one the mean distance of the points, 1 if
-    that is 0."""
+    """For each centre, half the distance to the nearest other centre. A single centre has the mean
+    distance of the points, or 1 if that is 0."""
     if len(set(points)) == 1:
         return [1.0]
     if len(centres) == 1:

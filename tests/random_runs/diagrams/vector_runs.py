@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares ph-vectorise with random options on random barcodes and images with vectors by the
+"""Compares ph-vectorise, with random options and on random barcodes and images, with vectors by the
 definition."""
 import csv
 import io
@@ -21,8 +21,8 @@ INF = math.inf
 
 
 def counted(task, dim):
-    """The bars of a dimension (of all dimensions, if it is None) of each input that count, and the
-    number of omitted ones."""
+    """The bars of each input that count, in a dimension or, if `dim` is None, in all; and the
+    number of bars that were left out."""
     left_out, found = 0, []
     for own in task.bars:
         kept = []
@@ -42,7 +42,8 @@ def counted(task, dim):
 
 
 def expected_refusal(task):
-    """@return the permitted exit codes and words, one of which the message has; or None."""
+    """@return the permitted exit codes, and words of which the message contains one; None if no
+    refusal is expected."""
     used = [bar for own in task.bars for bar in own if task.kind == "euler" or bar[0] in task.dims]
     if not task.dims:
         return [65], ["no bars"]
@@ -63,25 +64,25 @@ def expected_refusal(task):
         for points in of_dims:
             far = max(abs(x) for bar in points for x in bar)
             if any(math.dist(p, q) < far * 1e-150 for p, q in itertools.combinations(points, 2)):
-                return [0, 64], ["widths > 0"]  # squares of their distance vanish
+                return [0, 64], ["widths > 0"]  # the squares of their distances are 0
     longest = max((e - b for _, b, e in used if e - b < INF), default=0.0)
     if task.kind == "image" and longest > 0 and task.power * math.log10(longest) > 300:
-        return [0, 65], ["expected a weight below infinity"]  # it may be that of a bar beside the pixels
+        return [0, 65], ["expected a weight below infinity"]  # the bar may be outside the pixels
     if task.kind == "image" and any(0 < e - b < 1e-305 for _, b, e in used):
-        return [0, 64], ["persistence_image: "]  # what is fitted has few digits or none
+        return [0, 64], ["persistence_image: "]  # fitted values have few digits or none
     return None
 
 
 # The fitted values.
 
 def around(x, width):
-    """A range around one number, wide enough for doubles to be distinguished."""
+    """A range around a number, wide enough that doubles in it differ."""
     half = max(width / 2, abs(x) * 2 ** -40)
     return x - half, x + half
 
 
 def ends_of(diagrams):
-    """From the least finite birth or death to the largest."""
+    """The range from the least to the largest finite birth or death."""
     values = [x for own in diagrams for bar in own for x in bar if math.isfinite(x)]
     if not values:
         return 0.0, 1.0
@@ -106,7 +107,7 @@ def fitted_grid(task, diagrams):
 
 
 def fitted_frame(task, diagrams):
-    """@return ranges of births and lengths, sigma."""
+    """The fitted frame of an image. @return the ranges of births and lengths, and sigma."""
     bars = [bar for own in diagrams for bar in own]
     births, across = (list(g or [None, None, None]) for g in (task.grid, task.across))
     births[2] = births[2] or 20
@@ -121,11 +122,11 @@ def fitted_frame(task, diagrams):
     return births, across, task.sigma or longer / 20
 
 
-# Vectors, each with its permitted errors.
+# Vectors, each with the errors that are permitted.
 
 def block_of(task, bars, dim, fit):
-    """@param fit the grid or other fitted values. @return names of the columns, numbers, and their
-    permitted errors."""
+    """@param fit the grid or other fitted values. @return the names of the columns, the numbers,
+    and their permitted errors."""
     h = "" if dim is None else f"H{dim}_"
     kind, far = task.kind, max((abs(x) for bar in bars for x in bar[-2:] if math.isfinite(x)), default=0.0)
     if kind == "statistics":
@@ -141,7 +142,7 @@ def block_of(task, bars, dim, fit):
     if kind == "image":
         births, across, sigma = fit
         numbers, total = oracle.image(bars, births, across, sigma, task.power)
-        # Rounding decides the distance of a bar from the border of a pixel.
+        # The distance of a bar from the border of a pixel is affected by rounding.
         rounded = 4 * math.ulp(max(far, *map(abs, births[:2] + across[:2]))) / sigma
         names = [f"{h}p{j}_b{i}" for j, i in itertools.product(range(across[2]), range(births[2]))]
         return names, numbers, [max(total * (2e-14 + rounded), 1e-307)] * len(numbers)
@@ -159,8 +160,8 @@ def block_of(task, bars, dim, fit):
 
 
 def fit_of(task, diagrams, block):
-    """The fitted values, by the definition. @param block of the file of --fit, for values learned
-    at random."""
+    """The fitted values by the definition. @param block the block in the file of --fit, for values
+    that are learned from a random start."""
     if task.kind == "image":
         return fitted_frame(task, diagrams)
     if task.kind == "atol":
@@ -187,7 +188,7 @@ def compare_fit(program, task, fit, block, dim, diagrams):
             program.differ(f"found other centres: {block}")
         near = min((math.dist(p, q) for p, q in itertools.combinations(set(points), 2)), default=far)
         if near < far * 1e-150:
-            return  # squares of their distance vanish
+            return  # the squares of their distances are 0
         if not oracle.are_means(points, centres, 1e-12 * far):
             program.differ(f"found centres that are no means: {block}, points {points}")
         widths = oracle.widths(points, centres)
@@ -197,10 +198,10 @@ def compare_fit(program, task, fit, block, dim, diagrams):
         same("grid", list(block["grid"].values()), fit)
 
 
-# Tables, read back.
+# Tables read from the output.
 
 def read_table(program, task, folder):
-    """@return names of the columns (None of an array), rows of numbers."""
+    """@return the names of the columns (None for an array), and the rows of numbers."""
     content = pathlib.Path(folder, task.output).read_bytes() if task.output else program.run.stdout
     try:
         if task.form == "npy":
@@ -215,7 +216,8 @@ def read_table(program, task, folder):
 
 
 def compare(program, task, folder, fits=None):
-    """@param fits of an earlier run, by dimension. @return the fitted values, by dimension."""
+    """Compares the outputs of a run with the definitions. @param fits the fitted values of an
+    earlier run, by dimension. @return the fitted values, by dimension."""
     names, rows = read_table(program, task, folder)
     document = json.loads(pathlib.Path(folder, task.fit).read_text()) if task.fit else None
     blocks = document["blocks"] if document else [None] * len(task.dims)
@@ -257,10 +259,11 @@ def compare(program, task, folder, fits=None):
     return found
 
 
-# Images.
+# Image tasks.
 
 def image_task(rng, folder):
-    """An Euler curve of images: by counting cells. @return the task, its options, the bars' stand-in."""
+    """A task for Euler curves of images, whose values are found by counting cells. @return the task
+    and its options; the bars of the task stand for cells."""
     axes = rng.choice([1, 2, 2, 3])
     task = Task([], [], "euler", [None], infinite="keep")
     options = [["--kind", "euler"], ["--format", "image"]]
@@ -283,7 +286,7 @@ def image_task(rng, folder):
         pathlib.Path(folder, name).write_bytes(formats.npy(rng, shape, values))
         voxels = {at: None if math.isnan(v) else v for at, v in zip(formats.indices(shape), values)}
         filtration = barcodes.cubical_filtration(shape, voxels, task.construction == "cells", task.superlevel, periodic)
-        # Each cell as a bar that never dies.
+        # Each cell stands for a bar that never dies.
         task.names.append(name)
         task.bars.append([(dim, value, INF) for value, dim, _ in filtration.values()])
     task.grid, text = some_grid(rng, task, False)
@@ -293,7 +296,7 @@ def image_task(rng, folder):
     return task, options + output_options(rng, task)
 
 
-# Runs.
+# Runs of the program.
 
 class Names:
     def __init__(self, task):
@@ -311,7 +314,7 @@ def refused(program, task, folder, words):
 
 
 def fitted_run(rng, program, task, folder, fits, like):
-    """The fitted vectors, for other barcodes."""
+    """Applies the fitted values to other barcodes, and checks the vectors."""
     names, bars = random_barcodes(rng, folder, "e", *like)
     if task.output:
         pathlib.Path(folder, task.output).unlink()
@@ -339,7 +342,7 @@ def fitted_run(rng, program, task, folder, fits, like):
 
 
 def one_run(rng, program, folder):
-    """@return the kind of run, for the counts."""
+    """Runs the program once. @return the kind of run, for the counts."""
     of_images = rng.random() < 0.1
     if of_images:
         task, options = image_task(rng, folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random tasks for ph-vectorise: barcodes or images, options, and their meaning."""
+"""Random tasks for ph-vectorise: barcodes or images, options, and what the options mean."""
 import dataclasses
 import math
 import pathlib
@@ -12,7 +12,7 @@ KINDS = ["statistics", "betti", "landscape", "silhouette", "image", "entropy", "
          "euler"]
 ON_GRIDS = {"betti", "landscape", "silhouette", "image", "life-entropy", "euler"}
 KEEP = {"betti", "landscape", "euler"}
-# Options with a value that are for some kinds only.
+# Options with a value, and the kinds of vectors that accept them.
 SCOPES = {
     ("--grid", "0,9,5"): ON_GRIDS, ("--length-grid", "0,9,5"): {"image"}, ("--layers", "2"): {"landscape"},
     ("--count", "2"): {"lengths", "atol"}, ("--sigma", "0.5"): {"image"}, ("--power", "2"): {"image", "silhouette"},
@@ -31,7 +31,8 @@ SENSELESS = {
 
 @dataclasses.dataclass
 class Task:
-    """The requested results. Grids are [low, high, count]; None if they are fitted."""
+    """The results that a task requests. Grids are [low, high, count], or None if they are
+    fitted."""
     names: list
     bars: list
     kind: str
@@ -53,7 +54,8 @@ class Task:
 
 
 def some_grid(rng, task, pixels):
-    """@return [low, high, count], low None: fitted; the value of the option."""
+    """@return [low, high, count], where low is None if the range is fitted; and the value of the
+    option."""
     count = rng.choice([1, 2, 3, 5, 9] if pixels else [1, 2, 3, 7, 20, 20, 50, 50])
     if rng.random() < 0.4:
         return [None, None, count], str(count)
@@ -66,7 +68,7 @@ def some_grid(rng, task, pixels):
 
 
 def kind_options(rng, task):
-    """@return options, each with its value."""
+    """@return the options of a kind of vectors, each with its value."""
     options, kind = [] if task.kind == "statistics" and rng.random() < 0.7 else [["--kind", task.kind]], task.kind
     if kind in ON_GRIDS and rng.random() < 0.7:
         task.grid, text = some_grid(rng, task, kind == "image")
@@ -140,7 +142,7 @@ def output_options(rng, task):
 
 
 def random_barcodes(rng, folder, stem, style, infinite):
-    """@return names of files, their bars."""
+    """@return the names of files, and their bars."""
     bars = [diagram_files.random_barcode(rng, style, infinite)]
     while rng.random() < 0.6 and len(bars) < 5:
         bars.append(diagram_files.random_barcode(rng, style, infinite, bars[-1]))
@@ -153,8 +155,8 @@ def random_barcodes(rng, folder, stem, style, infinite):
 
 
 def random_task(rng, folder):
-    """A task for barcodes. @return the task, its options, and the parameters with which others may
-    be made alike."""
+    """A task for barcodes. @return the task, its options, and the parameters to make similar
+    barcodes."""
     style = "vast" if rng.random() < 0.02 else rng.choice(diagram_files.STYLES)
     infinite = rng.choice([0, 0.05, 0.2])
     task = Task(*random_barcodes(rng, folder, "d", style, infinite), rng.choice(KINDS))
@@ -163,7 +165,7 @@ def random_task(rng, folder):
     if task.kind == "euler":
         task.dims = [None]
         if any(".npy" in name for name in task.names) or rng.random() < 0.2:
-            options.append(["--format", "barcode"])  # an array may be an image
+            options.append(["--format", "barcode"])  # an array could be an image
     elif rng.random() < 0.3:
         task.dims = rng.sample(range(5), rng.choice([1, 1, 2]))
         options.append([rng.choice(["--dims", "--dim"]), ",".join(map(str, task.dims))])
@@ -171,7 +173,7 @@ def random_task(rng, folder):
 
 
 def with_senseless(rng, task, options):
-    """@return options of which one makes no sense, that option's name."""
+    """@return the options with one that makes no sense, and the name of this option."""
     given = {option[0] for option in options}
     dims = {"--dims", "--dim"}
     taken = given | (dims if given & dims else set())

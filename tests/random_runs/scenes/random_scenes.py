@@ -2,11 +2,11 @@
 """random_scenes.py PH_SEGMENT [--runs N] [--seed S] [--jobs J] [--keep FOLDER]
 
 Runs the whole program with random options on random small scenes in each format, and compares its
-output with the documentation (scene_oracle.py), which shares no code with it: voxels, components
-and cuts must agree exactly where the documentation determines them, and otherwise have the required
-properties. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. Exits 1 at the
-first differences, with the commands; the files are kept in FOLDER (default: where the script is
-run)."""
+output with the documentation (scene_oracle.py), which shares no code with the program. Voxels,
+components and cuts must agree exactly where the documentation determines them, and otherwise have
+the required properties. Each run has its own seed: --seed S --runs 1 repeats the run of seed S. If
+there are differences, it exits with 1 and prints the commands; the files are kept in FOLDER
+(default: where the script is run)."""
 import argparse
 import functools
 import json
@@ -36,8 +36,8 @@ from scene_checks import Wrong  # noqa: E402
 from scene_program import Program  # noqa: E402
 
 BARCODES = {"csv": "csv", "json": "json", "pers": "pers", "dipha": "dipha", "npy": "npy"}
-# Options that make no sense, or have no effect with these methods (none: with any method, or with a
-# cloud).
+# Options that make no sense, or have no effect with these methods. An empty list of methods means
+# any method, or any cloud.
 SENSELESS = [
     *((option, "surface supervoxels") for option in ("--distance 0.1", "--steps 3")),
     *((option, "paper") for option in ("--min-part 3", "--min-persistence 1", "--plane-noise 0.1", "--cut 1e39")),
@@ -52,7 +52,8 @@ SENSELESS = [
 
 
 def outputs_for(rng, scene, organised):
-    """Random outputs, including the summary and the labels. @return name of each kind"""
+    """Random outputs, including the summary and the labels. @return the name of each kind of
+    output."""
     names = {"json": rng.choice(["s.json", "s.json", "-"])}
     ways = ["npy", "csv"] + (["png"] if organised else [])
     names["labels"] = f"l.{rng.choice(ways)}"
@@ -88,7 +89,8 @@ def side_options(rng):
 
 
 def expected_refusal(scene, asked):
-    """@return the documented exit codes, or nothing, and the text that the message names."""
+    """@return the documented exit codes (none if no refusal is expected), and the text that the
+    message names."""
     if asked.method == "supervoxels" and asked.spacing < asked.voxel_edge():
         return (64,), "--supervoxels"
     if not 1e-30 <= asked.voxel_edge() <= 1e30:
@@ -101,14 +103,14 @@ def expected_refusal(scene, asked):
 
 
 def may_be_too_fine(scene, asked):
-    """True if coordinates are beyond 2^52 voxels."""
+    """True if coordinates may exceed 2^52 voxels."""
     xyz = abs(oracle.as_floats(scene.xyz))
     top = xyz[np.isfinite(xyz)].max(initial=0)
     return top / asked.voxel_edge() >= 2.0 ** 52 - 1
 
 
 def check_run(program, check, names):
-    """All outputs of a run against each other."""
+    """Checks all outputs of a run against each other."""
     check.all()
     tree = json.loads(program.output(names["tree"])) if "tree" in names else None
     if tree:
@@ -131,7 +133,7 @@ def check_run(program, check, names):
 
 
 def refuse(rng, program, scene, file, asked, words):
-    """An option too many."""
+    """Adds an option that must be refused."""
     extra, where = rng.choice(SENSELESS)
     extra = extra.split()
     fits = not where or asked.method in where or (where == "cloud" and scene.depth is None)
@@ -147,7 +149,7 @@ def refuse(rng, program, scene, file, asked, words):
 
 
 def missing(rng, program, scene, file, asked, words):
-    """No such input, or no place for an output."""
+    """Checks that a missing input, or a missing folder of an output, is refused."""
     if rng.random() < 0.5:
         output, name = rng.choice([("--labels", "none/l.npy"), ("--json", "none/o.json"), ("--tree", "none/t.tree")])
         program([*(w for w in words if w[0] != output), [output, name]])
@@ -160,7 +162,7 @@ def missing(rng, program, scene, file, asked, words):
 
 
 def one_run(path, seed, folder):
-    """@return the kind of run, for the counts. @throws Difference"""
+    """Runs the program once. @return the kind of run, for the counts. @throws Difference"""
     rng, np_rng = random.Random(seed), np.random.default_rng(seed)
     program = Program(path, folder)
     scene = scenes.random_scene(rng, np_rng)
@@ -168,7 +170,7 @@ def one_run(path, seed, folder):
     file = scene_files.depth_file(rng, scene) if scene.depth is not None else scene_files.cloud_file(rng, scene)
     is_damaged = rng.random() < 0.1
     inputs = [(file.name, file.content), *file.others]
-    if is_damaged:  # one of them: bytes changed, or the end left out
+    if is_damaged:  # one of the files, with bytes changed or the end left out
         k = rng.randrange(len(inputs))
         name, content = inputs[k]
         inputs[k] = name, damaged(rng, content) if rng.random() < 0.8 else content[:rng.randrange(len(content) + 1)]
@@ -213,7 +215,7 @@ def one_run(path, seed, folder):
 
 
 def valid(program, summary, names):
-    """Whatever the bytes mean now, labels and segments agree."""
+    """Checks that labels and segments agree, whatever the damaged bytes mean."""
     count = summary["input"]["points"]
     labels = scene_files.read_labels(program.output(names["labels"]), names["labels"], count, ())
     scene_checks.expect("labels", len(labels), count)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Checks that the output of ph-segment for a scene is correct (scene_oracle.py) and consistent."""
+"""Checks that the output of ph-segment for a scene agrees with scene_oracle.py, and that its parts
+are consistent."""
 import math
 
 import numpy as np
@@ -8,7 +9,8 @@ import scene_files
 import scene_oracle as oracle
 from scene_oracle import Unsure
 
-# Voxels are adjacent if their corners touch: centroids up to about sqrt(3) edges apart.
+# Voxels are adjacent if their corners touch. Their centroids are then up to about sqrt(3) edges
+# apart.
 SURELY_ADJACENT, SURELY_NOT = 1.73, 1.8
 
 
@@ -27,14 +29,15 @@ def require(condition, what):
 
 
 def same_partition(found, expected):
-    """True if labels are the same up to renaming; 0 stays 0."""
+    """True if the labels are the same up to renaming, where 0 stays 0."""
     pairs = set(zip(found.tolist(), expected.tolist()))
     return len(pairs) == len({f for f, _ in pairs}) == len({e for _, e in pairs}) and \
         all((f == 0) == (e == 0) for f, e in pairs)
 
 
 def segments_of(names, least, of_point, count):
-    """@param names of the components of vertices. @return numbers of the points and of the vertices, 0: none."""
+    """@param names the component of each vertex. @return the segment of each point and of each
+    vertex; 0 for none."""
     _, component, voxels = np.unique(names, return_inverse=True, return_counts=True)
     component = component.reshape(-1)
     of_vertex = np.where(voxels[component] >= least, component + 1, 0) if len(names) else names
@@ -44,7 +47,8 @@ def segments_of(names, least, of_point, count):
 
 
 class Check:
-    """@param xyz as floats. @param summary of --json. @param labels of the points."""
+    """@param xyz the coordinates as floats. @param summary the output of --json. @param labels of
+    the points."""
 
     def __init__(self, scene, file, asked, summary, labels, said):
         self.scene, self.file, self.asked = scene, file, asked
@@ -103,7 +107,7 @@ class Check:
         expect("options", self.json["options"], expected)
 
     def segments(self):
-        """The properties of each segment, by its points."""
+        """Checks the properties of each segment against its points."""
         j, labels = self.json, self.labels
         expect("labels", [s["label"] for s in j["segments"]], list(range(1, len(j["segments"]) + 1)))
         require(set(np.unique(labels)) - {0} == set(range(1, len(j["segments"]) + 1)), "labels without a segment")
@@ -149,7 +153,7 @@ class Check:
             require(abs(axes[2] @ plane["normal"]) > 1 - 1e-9, f"{name}: box does not stand on the plane")
 
     def scene_stages(self):
-        """Range, plane, voxels; for method paper also the later stages."""
+        """Checks range, plane and voxels; for method paper, also the later stages."""
         j, a = self.json, self.asked
         kept = oracle.in_range(self.xyz, j["viewpoint"], a.max_range, a.crop)
         expect("points in range", self.points_of("range filter"), int(kept.sum()))
@@ -166,7 +170,7 @@ class Check:
             self.counted = True
 
     def before_plane(self, kept):
-        """@return marks of the points in front of the plane; None: unknown."""
+        """@return a mask of the points in front of the plane; None if the mask cannot be known."""
         j, a, plane = self.json, self.asked, self.json["plane"]
         require(a.plane or not plane["found"], "a plane though it is off")
         if not plane["found"]:
@@ -181,7 +185,7 @@ class Check:
         require(plane["share"] >= 0.1, "a plane of less than a tenth of the points")
         margin = a.plane_distance or (0.006 if a.method == "paper" else 0.005)
         if a.method != "paper":
-            # The base of an object is within the margin, but not in its lowest fifth.
+            # The base of an object is within the margin of the plane, but not in its lowest fifth.
             if a.method == "supervoxels":
                 require(not self.labels[kept & (height < 0.2 * margin * (1 - 1e-9))].any(), "a label on the plane")
             return None
@@ -190,14 +194,14 @@ class Check:
             raise Unsure("a point at the margin of the plane")
         beyond = kept & (height > margin)
         expect("points before the plane", self.points_of("plane"), int(beyond.sum()))
-        # Duplicate points count once.
+        # Duplicates of a point count once.
         _, once = np.unique(self.xyz[kept] + 0.0, axis=0, return_index=True)
         share = (abs(height[kept][once]) <= margin).mean()
         require(math.isclose(share, plane["share"], rel_tol=1e-9), f"share: found {plane['share']}, expected {share}")
         return beyond
 
     def of_point(self):
-        """The voxel of each point; -1: none."""
+        """The voxel of each point; -1 for none."""
         of_point = np.full(len(self.xyz), -1)
         of_point[self.beyond] = self.voxels.of_point
         return of_point
@@ -229,7 +233,7 @@ class Check:
             expect("persistence", s["persistence"], s["meets_at"])
 
     def barcode(self, bars):
-        """@param bars of --barcode"""
+        """Checks the bars that --barcode wrote."""
         require(all(d == 0 for d, _, _ in bars), "a bar of another dimension")
         if self.asked.method != "paper" or not self.counted:
             return
@@ -246,7 +250,7 @@ class Check:
         expect("bars that never die", len(bars) - len(found), len(self.voxels) - len(self.rips.deaths()))
 
     def tree(self, tree):
-        """--tree FILE.json"""
+        """Checks the tree that --tree FILE.json wrote."""
         j, a = self.json, self.asked
         fault = oracle.replay(tree)
         require(fault is None, f"tree: {fault}")
@@ -278,8 +282,8 @@ class Check:
             require(all(v["birth"] == 0 for v in tree["vertices"]), "a voxel that is born late")
 
     def cut(self, tree, of_point, of_vertex):
-        """Methods surface and supervoxels: checks that the segments are basins, or unions of
-        them."""
+        """For methods surface and supervoxels: checks that segments are basins, or unions of
+        basins."""
         a, count = self.asked, len(tree["vertices"])
         centroids = np.array([v["centroid"] for v in tree["vertices"]]).reshape(-1, 3)
         births = np.array([math.inf if v["birth"] is None else v["birth"] for v in tree["vertices"]])
@@ -319,14 +323,14 @@ class Check:
                        s["meets_at"] - births[of_vertex == s["label"]].min())
 
     def seeds(self, centroids, births):
-        """No voxel is farther from a seed than requested."""
+        """Checks that no voxel is farther from a seed than requested."""
         seeds = centroids[births == 0]
         apart = np.sqrt(((centroids[:, None] - seeds[None]) ** 2).sum(axis=2).min(axis=1)) if len(seeds) else np.inf
         require(np.max(apart) <= self.asked.spacing * (1 + 1e-9), f"a voxel is {np.max(apart)} from all seeds")
 
     def meetings(self, pairs, lengths, births, of_vertex):
-        """The values at which segments meet, over edges that certainly exist and over all that may
-        exist."""
+        """Checks the values at which segments meet: they lie between the values for edges that
+        certainly exist and for edges that may exist."""
         told = {(s["label"], n["label"]): n["meets_at"] for s in self.json["segments"] for n in s["neighbours"]}
         for far, sign in ((SURELY_ADJACENT, 1), (9, -1)):
             first = {}
@@ -360,12 +364,13 @@ class Check:
                [(m["value"], set(m["edge"])) for m in tree["merges"]])
 
     def cloud(self, content, with_labels=True):
-        """-o: the same points with all their fields; --coloured: one colour per segment."""
+        """Checks the cloud of -o: the same points with all their fields. With --coloured, each
+        segment has one colour."""
         columns, shape = scene_files.read_cloud(content)
         if shape is not None:
             expect("rows and columns", shape, self.file.shape or (1, len(self.xyz)))
         found, given = scene_files.unpacked(columns), scene_files.unpacked(dict(self.file.fields))
-        # PCD has coordinates in single precision, unless they are very large.
+        # PCD stores coordinates in single precision, unless they are very large.
         near = np.nanmax([np.abs(given[c]) for c in "xyz"], initial=0) <= 1024
         single = not with_labels or (content.startswith(b"# .PCD") and near)
         for name, values in given.items():

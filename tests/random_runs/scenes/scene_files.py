@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Clouds and depth images in the formats that ph-segment reads, written by the formats' definitions, and
-its outputs read back: labels, clouds and stored trees."""
+"""Clouds and depth images in the formats that ph-segment reads, written according to the
+definitions of the formats. Also reads the program's outputs: labels, clouds and stored trees."""
 import gzip
 import struct
 import zlib
@@ -18,19 +18,19 @@ CLOUDS = ("pcd-ascii", "pcd-binary", "pcd-compressed", "ply-ascii", "ply-little"
 
 
 class File:
-    """An input: its name, its bytes, and its content."""
+    """An input: its name, its bytes, and what it contains."""
 
     def __init__(self, form, name, content, fields, shape=None, viewpoint=False):
         self.form, self.name, self.content = form, name, content
-        self.fields = fields  # name: values, for comparison after reading back
-        self.shape = shape  # rows and columns that the file stores
-        self.viewpoint = viewpoint  # True if it stores the position of the sensor
+        self.fields = fields  # maps names to values, for comparison with outputs
+        self.shape = shape  # the rows and columns stored in the file
+        self.viewpoint = viewpoint  # true if the file stores the position of the sensor
         self.options = []
-        self.others = []  # other files: name, content
+        self.others = []  # other files: (name, content)
 
 
 def word(value):
-    """A number as the shortest text that reads back to the same number."""
+    """The shortest text that reads back to the same number."""
     return "nan" if value != value else str(value)
 
 
@@ -44,7 +44,7 @@ def fits_float(xyz):
 
 
 def columns_of(rng, scene, normals, colours):
-    """@return pairs of name and array, coordinates first."""
+    """@return pairs of name and array, with the coordinates first."""
     kind = "f4" if fits_float(scene.xyz) and rng.random() < 0.7 else "f8"
     columns = [(name, scene.xyz[:, k].astype(kind)) for k, name in enumerate("xyz")]
     if scene.normals is not None:
@@ -135,10 +135,11 @@ def npy(rng, scene):
 
 
 def text(rng, scene, form):
-    """x y z on each line; in csv under their names, in pts after the number of points."""
+    """A text file with x y z on each line; in csv below their names, in pts below the number of
+    points."""
     table, names = [scene.xyz[:, k] for k in range(3)], list("xyz")
     if scene.colours is not None and len(scene.xyz) > 0:
-        # In pts, an intensity follows the coordinates and precedes the colours.
+        # In pts, an intensity is between the coordinates and the colours.
         if form == "pts":
             table, names = [*table, np.full(len(scene.xyz), 0.5)], [*names, "intensity"]
         table += [scene.colours[:, k].astype("i8") for k in range(3)]
@@ -163,7 +164,7 @@ def text(rng, scene, form):
 
 
 def cloud_file(rng, scene, form=None):
-    """In any format, or the requested one."""
+    """A cloud in a random format, or in the requested one."""
     if form is None:
         form = rng.choice(CLOUDS)
         if form == "pts" and len(scene.xyz) == 0:
@@ -182,17 +183,17 @@ def cloud_file(rng, scene, form=None):
 
 
 def camera_file(rng, camera, rows, columns):
-    """@return name, content."""
+    """@return the name and content of a file."""
     fx, fy, cx, cy = camera
     if rng.random() < 0.5:
-        matrix = f"[{fx!r}, 0, 0, 0, {fy!r}, 0, {cx!r}, {cy!r}, 1]"  # column by column
+        matrix = f"[{fx!r}, 0, 0, 0, {fy!r}, 0, {cx!r}, {cy!r}, 1]"  # the matrix column by column
         return "c.json", f'{{"width": {columns}, "height": {rows}, "intrinsic_matrix": {matrix}}}'.encode()
     return "c.yaml", (f"height: {rows}\nwidth: {columns}\ndistortion_model: plumb_bob\nd: [0, 0, 0, 0, 0]\n"
                       f"k: [{fx!r}, 0, {cx!r}, 0, {fy!r}, {cy!r}, 0, 0, 1]\n").encode()
 
 
 def depth_file(rng, scene):
-    """A depth image with its camera. @param scene with `depth`, numbers as they are stored."""
+    """A depth image with its camera. @param scene its `depth` has the numbers to store."""
     rows, columns = scene.shape
     depth, scale, options = scene.depth, scene.depth_scale, []
     whole = depth.dtype.kind == "u"
@@ -223,10 +224,11 @@ def depth_file(rng, scene):
     return file
 
 
-# Reads the output of the program.
+# Readers of the program's outputs.
 
 def read_labels(content, name, count, shape):
-    """@param shape None: not organised; (): any. @return one number per point."""
+    """Reads a file of labels. @param shape None if the cloud is not organised; () for any shape.
+    @return one number per point."""
     if name.endswith(".csv"):
         return np.array([int(line) for line in content.decode().split("\n")[:-1]], int)
     if name.endswith(".png"):
@@ -268,7 +270,7 @@ def lzf_unpacked(packed):
 
 
 def unpacked(columns):
-    """A packed colour as three."""
+    """Replaces a packed colour by its three channels."""
     out = {}
     for name, array in columns.items():
         if name in ("rgb", "rgba") and "red" not in columns:
@@ -280,7 +282,7 @@ def unpacked(columns):
 
 
 def read_cloud(content):
-    """@return name: values, rows and columns (none: PLY)."""
+    """@return values by name; and rows and columns, which PLY lacks."""
     if content[:3] == b"ply":
         head, _, body = content.partition(b"end_header\n")
         lines = head.decode().splitlines()
@@ -299,7 +301,7 @@ def read_cloud(content):
         body = lzf_unpacked(body[8:8 + size])
         assert len(body) == plain == count * kind.itemsize, (len(body), plain, count, kind)
         columns, at = {}, 0
-        for name in kind.names:  # field after field
+        for name in kind.names:  # the fields follow one another
             columns[name] = np.frombuffer(body, kind[name], count, at)
             at += columns[name].nbytes
         return columns, shape
@@ -309,7 +311,7 @@ def read_cloud(content):
 
 
 def read_tree(content):
-    """A stored tree by its description in docs/explanation/segmentation.md."""
+    """Reads a stored tree according to docs/explanation/segmentation.md."""
     assert content[:8] == b"ph-tree\n", content[:8]
     assert zlib.crc32(content[:-4]) == struct.unpack("<I", content[-4:])[0], "checksum of a stored tree"
     at = 8

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Processes the same scene in another way: the labels must be the same."""
+"""Processes the same scene in other ways, which must give the same labels."""
 import copy
 import dataclasses
 import json
@@ -34,7 +34,7 @@ def same_labels(program, check, words, shape, stdin=None):
 
 
 def same_bytes(rng, np_rng, program, check, tree, source, names):
-    """Options in another order, and another number of threads: all files are the same, except for
+    """Options in another order and another number of threads: all files are the same, except for
     times."""
     words = [*plain_words(check, source), ["--threads", rng.choice("234")]]
     kept = {k: n for k, n in names.items() if k not in ("json", "report")}
@@ -47,7 +47,7 @@ def same_bytes(rng, np_rng, program, check, tree, source, names):
 
 def standard_input(rng, np_rng, program, check, tree, source, names):
     if check.file.form in ("pts", "csv") or check.scene.depth is not None:
-        return  # known by their names
+        return  # these formats are recognised by the file's name
     same_labels(program, check, [["-"], *check.asked.options()], check.file.shape, check.file.content)
 
 
@@ -66,7 +66,7 @@ def other_format(rng, np_rng, program, check, tree, source, names):
 
 
 def shuffled(rng, np_rng, program, check, tree, source, names):
-    """In another order: the points have the same labels."""
+    """With the points in another order, each point has the same label."""
     if len(check.xyz) == 0:
         return
     order = np_rng.permutation(len(check.xyz))
@@ -81,7 +81,7 @@ def shuffled(rng, np_rng, program, check, tree, source, names):
 
 
 def table(rng, np_rng, program, check, tree, source, names):
-    """Without outputs: one line per segment."""
+    """Without an output, the program prints one line per segment."""
     program.must(plain_words(check, source))
     lines = program.run.stdout.decode().splitlines()
     expect("header", lines[0].split()[:3], ["label", "points", "voxels"])
@@ -116,7 +116,7 @@ def explain(rng, np_rng, program, check, tree, source, names):
 
 
 def stored_tree(rng, np_rng, program, check, tree, source, names):
-    """A stored tree, cut as before and otherwise."""
+    """Cuts a stored tree with the same options, and with others."""
     program.must([*plain_words(check, source), ["--tree", "t.tree"], ["--labels", "first.npy"]])
     check.stored(program.output("t.tree"), tree)
     program.must([["t.tree"], ["--labels", "second.npy"], ["--tree", "again.tree"], ["--json", "again.json"]])
@@ -135,7 +135,8 @@ def stored_tree(rng, np_rng, program, check, tree, source, names):
 
 
 def cut_options(asked):
-    """Values that are not given come from the tree; here all are given."""
+    """Options for the same cut. All values are given, because otherwise they would come from the
+    tree."""
     full = copy.copy(asked)
     full.cut, full.min_size = float(full.value()), full.least_voxels()
     if full.method != "paper":
@@ -146,10 +147,10 @@ def cut_options(asked):
 
 
 def stream(rng, np_rng, program, check, tree, source, names):
-    """Frames of a stream have the same labels as single frames. A failing frame does not affect the
-    others."""
+    """The frames of a stream have the same labels as single frames. A failing frame does not affect
+    the others."""
     if check.scene.depth is not None or check.asked.plane or ".gz" in check.file.name:
-        return  # a plane is searched for where it was in the previous frame
+        return  # the plane is first searched for where it was in the previous frame
     folder = pathlib.Path(program.folder)
     other = dataclasses.replace(check.scene, xyz=check.xyz[::-1].copy(), shape=None, colours=None, normals=None,
                                 extra=[])
@@ -178,7 +179,7 @@ def stream(rng, np_rng, program, check, tree, source, names):
 
 
 def over_input(rng, np_rng, program, check, tree, source, names):
-    """An output that is the input is refused; with --force it is overwritten."""
+    """An output that is also the input is refused; with --force it is overwritten."""
     if check.scene.depth is not None or not check.file.name.endswith((".pcd", ".ply")):
         return
     words = [*plain_words(check, source), ["-o", rng.choice(["", "./"]) + check.file.name]]
@@ -189,7 +190,7 @@ def over_input(rng, np_rng, program, check, tree, source, names):
 
 
 def little_memory(rng, np_rng, program, check, tree, source, names):
-    """The same result, or exit code 75."""
+    """With little memory, the result is the same, or the exit code is 75."""
     words = [*plain_words(check, source), ["--memory-limit", rng.choice(["1", "1kB", "20kB", "100kB", "1MB", "3MiB"])],
              ["--labels", "small.npy"]]
     if program(words) == 0:
@@ -199,7 +200,7 @@ def little_memory(rng, np_rng, program, check, tree, source, names):
 
 
 def signatures(rng, np_rng, program, check, tree, source, names):
-    """For each segment, one piece that is born at 0 and never dies."""
+    """Each segment has one component that is born at 0 and never dies."""
     program.must([*plain_words(check, source), ["--signatures"], ["--json", "g.json"], ["--threads", rng.choice("12")]])
     for s in json.loads(program.output("g.json"))["segments"]:
         bars = s["signature"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Computes the required results of ph-segment by docs/explanation/segmentation.md: points in range,
-voxels, components of the Vietoris-Rips complex, cuts of a merge tree. Comparisons that rounding
-decides are treated separately."""
+"""Computes the required results of ph-segment from docs/explanation/segmentation.md: points in
+range, voxels, components of the Vietoris-Rips complex, and cuts of a merge tree. Comparisons that
+depend on rounding are treated separately."""
 import math
 from fractions import Fraction
 
@@ -13,7 +13,7 @@ MOST_EDGES = 60000
 
 
 class Unsure(Exception):
-    """Rounding decides, or the computation would take too long."""
+    """The result depends on rounding, or would take too long to compute."""
 
 
 class Sets:
@@ -27,7 +27,7 @@ class Sets:
         return v
 
     def join(self, u, v):
-        """@return True if they were separate"""
+        """@return True if the two sets were separate."""
         u, v = self.find(u), self.find(v)
         self.up[max(u, v)] = min(u, v)
         return u != v
@@ -37,13 +37,13 @@ class Sets:
 
 
 def as_floats(xyz):
-    """Coordinates are 32-bit floats; coordinates beyond their range become holes."""
+    """The coordinates as 32-bit floats; coordinates outside their range become holes."""
     with np.errstate(over="ignore"):
         return xyz.astype("f4").astype("f8")
 
 
 def in_range(xyz, viewpoint, max_range, crop):
-    """@return marks of points. @throws Unsure"""
+    """@return a mask of the points in range. @throws Unsure"""
     with np.errstate(invalid="ignore", over="ignore"):
         square = ((xyz - viewpoint) ** 2).sum(axis=1)
         kept = np.isfinite(xyz).all(axis=1)
@@ -61,7 +61,8 @@ def in_range(xyz, viewpoint, max_range, crop):
 
 
 class Voxels:
-    """Cubes and the centroids of their points, in the order of the grid, z slowest."""
+    """The cubes with points, and the centroids of these points, in the order of the grid, z
+    slowest."""
 
     def __init__(self, xyz, edge):
         with np.errstate(over="ignore"):
@@ -76,7 +77,7 @@ class Voxels:
         sums = np.zeros((len(self.cells), 3))
         np.add.at(sums, self.of_point, inside)
         self.centroids = (self.cells + sums / self.counts[:, None]) * edge
-        # Exact if nothing is rounded: few bits, divided by a power of two.
+        # The division is exact if no number is rounded: few bits, divided by a power of two.
         grain = inside * 2 ** 10
         rough = np.zeros(len(self.cells), bool)
         np.logical_or.at(rough, self.of_point, (grain != np.floor(grain)).any(axis=1))
@@ -89,10 +90,10 @@ class Voxels:
 
 
 def close_pairs(voxels, distance):
-    """@return pairs of voxels at most `distance` apart, and their distances. @throws Unsure"""
+    """@return the pairs of voxels at most `distance` apart, and their distances. @throws Unsure"""
     if len(voxels) < 2:
         return np.zeros((0, 2), int), np.zeros(0)
-    unit = 1 / voxels.edge  # no underflow of squares
+    unit = 1 / voxels.edge  # prevents squares from underflowing
     tree = cKDTree(voxels.centroids * unit)
     slack = distance * unit * (1 + 1e-9) + 3 * voxels.error * unit
     if tree.count_neighbors(tree, slack) > 2 * MOST_EDGES:
@@ -113,7 +114,7 @@ def close_pairs(voxels, distance):
 
 
 def levels(voxels, length, distance, steps):
-    """The values of edges. @throws Unsure"""
+    """The value of each edge. @throws Unsure"""
     if steps == 0 or len(length) == 0:
         return length
     if distance == 0:
@@ -138,7 +139,7 @@ class Rips:
         return levels(self.voxels, self.lengths, self.distance, self.steps)
 
     def components(self, cut):
-        """At a distance. @throws Unsure"""
+        """The components at a distance. @throws Unsure"""
         sets = Sets(len(self.voxels))
         if cut == self.distance:
             chosen = self.pairs
@@ -159,7 +160,7 @@ class Rips:
 
 
 def basins(merges, count, value, least_part):
-    """The cut of a merge tree in the form of its JSON. @return a name for each vertex."""
+    """A cut of a merge tree in the form of the program's JSON. @return the basin of each vertex."""
     sets = Sets(count)
     for m in merges:
         separates = m["value"] - m["younger_birth"] >= value and \
@@ -170,7 +171,7 @@ def basins(merges, count, value, least_part):
 
 
 def replay(tree):
-    """A violation of the elder rule by the merges of a tree; None if there is none."""
+    """The first violation of the elder rule by the merges of a tree, or None."""
     births = [math.inf if v["birth"] is None else v["birth"] for v in tree["vertices"]]
     sets, size, first = Sets(len(births)), [1] * len(births), list(range(len(births)))
     last = -math.inf
@@ -195,8 +196,8 @@ def replay(tree):
 
 
 def meeting(tree, labels, a, b):
-    """The value at which two segments join, the parts of each being joined from the start; None:
-    never. @param labels of the vertices"""
+    """The value at which two segments join, when the parts of each are joined from the start; None
+    if they never join. @param labels of the vertices"""
     sets = Sets(len(labels))
     ends = [np.nonzero(labels == x)[0].tolist() for x in (a, b)]
     for members in ends:

@@ -11,7 +11,7 @@ class Program(random_runs.Program):
         return {p.name: p.read_bytes() for p in pathlib.Path(self.folder).iterdir() if p.is_file()}
 
     def __call__(self, options, stdin=None):
-        """@return the exit code. Files of earlier calls are kept."""
+        """Runs the program. @return the exit code. Files of earlier calls are kept."""
         self.before = self.files()
         return super().__call__(options, stdin)
 
@@ -23,7 +23,8 @@ class Program(random_runs.Program):
         return pathlib.Path(self.folder, name).read_bytes()
 
     def expect_refusal(self, codes, named):
-        """A message (one line with --quiet) that names the fault, and no output."""
+        """Checks that there is a message (one line with --quiet) that names the fault, and no
+        output."""
         found = self.run.returncode
         last = self.said.splitlines()[-1] if self.said else ""
         if found not in codes or self.run.stdout or not self.said.endswith("\n"):
@@ -38,7 +39,7 @@ class Program(random_runs.Program):
             self.differ(f"found other files after a refusal: {sorted(set(now) ^ set(self.before))}")
 
     def last_line(self, summary, words):
-        """The line of numbers on standard error."""
+        """Checks the line with the numbers of segments and points on standard error."""
         if ["--quiet"] in words:
             return None if not self.said else self.differ("found messages with --quiet")
         last = self.said.splitlines()[-1]

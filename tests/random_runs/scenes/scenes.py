@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Random small scenes, and random options of ph-segment that suit them."""
+"""Random small scenes, and random options of ph-segment that fit the scenes."""
 import dataclasses
 import math
 
@@ -9,14 +9,14 @@ import numpy as np
 @dataclasses.dataclass
 class Scene:
     kind: str
-    xyz: np.ndarray  # n x 3, float64; NaN: a hole
-    size: float = 0.3  # a description of its content
-    shape: tuple = None  # rows and columns
+    xyz: np.ndarray  # n x 3, float64; NaN is a hole
+    size: float = 0.3  # the approximate size of the scene
+    shape: tuple = None  # rows and columns, if organised
     colours: np.ndarray = None
     normals: np.ndarray = None
-    extra: list = dataclasses.field(default_factory=list)  # pairs of name and array
+    extra: list = dataclasses.field(default_factory=list)  # further fields: pairs of name and array
     viewpoint: tuple = (0.0, 0.0, 0.0)
-    voxel: float = None  # a length that makes ties, if any
+    voxel: float = None  # a voxel size that causes ties
     depth: np.ndarray = None
     depth_scale: float = 1000
     camera: tuple = None
@@ -29,7 +29,7 @@ def blobs(rng, np_rng, size):
 
 
 def table(rng, np_rng, size):
-    """A plane in any direction, boxes and blobs on it."""
+    """A plane in any direction, with boxes and blobs on it."""
     n = rng.choice([10, 15, 25, 40])
     side = np.linspace(-size, size, n)
     x, y = (a.reshape(-1) for a in np.meshgrid(side, side))
@@ -42,12 +42,12 @@ def table(rng, np_rng, size):
     cloud = np.concatenate(parts)
     turn, _ = np.linalg.qr(np_rng.normal(0, 1, (3, 3)))
     if rng.random() < 0.5:
-        turn = np.diag([1.0, 1.0, -1.0])  # things stick out towards the sensor
+        turn = np.diag([1.0, 1.0, -1.0])  # objects rise towards the sensor
     return cloud @ turn.T + [0, 0, 2.5 * size]
 
 
 def relief(rng, np_rng, size):
-    """A dense surface with valleys, where basins meet: bumps, balls or boxes side by side."""
+    """A dense surface with valleys where basins meet: bumps, balls or boxes side by side."""
     n = rng.choice([15, 25, 35])
     side = np.linspace(-size / 2, size / 2, n)
     x, y = (a.reshape(-1) for a in np.meshgrid(side, side))
@@ -60,20 +60,23 @@ def relief(rng, np_rng, size):
 
 
 def lattice(rng, np_rng, step):
-    """Multiples of a power of two: all sums are exact, with ties."""
+    """Points whose coordinates are multiples of a power of two: all sums are exact, and there are
+    ties."""
     shape = rng.choice([(6, 6, 6), (12, 12, 1), (60, 1, 1), (4, 20, 3)])
     count = rng.randint(1, 150)
     return np.stack([np_rng.integers(-n // 2, n - n // 2, count) for n in shape], 1) * step
 
 
 def organised(rng, np_rng):
-    """Depths of a table and boxes in front of a pinhole camera: as floats in metres, by pixel."""
+    """Depths of a table and boxes in front of a pinhole camera, as floats in metres, for each
+    pixel."""
     rows, columns = rng.choice([(2, 2), (4, 6), (12, 16), (24, 32), (36, 48)])
     focal = columns * rng.choice([0.8, 1.0, 2.0])
     camera = (float(focal), float(focal * rng.choice([1, 1, 1.125])), (columns - 1) / 2, (rows - 1) / 2)
     u, v = np.meshgrid(np.arange(columns), np.arange(rows))
     ray_y = (v - camera[3]) / camera[1]
-    depth = 0.5 / np.maximum(0.3 * ray_y + 0.4, 0.1)  # y down, the table below and behind
+    # y points down; the table is below and extends backwards.
+    depth = 0.5 / np.maximum(0.3 * ray_y + 0.4, 0.1)
     depth = np.minimum(depth, rng.choice([1.3, 1.8, 5.0]))
     for _ in range(rng.randint(0, 4)):
         top, left = rng.randrange(rows), rng.randrange(columns)
@@ -85,7 +88,7 @@ def organised(rng, np_rng):
 
 
 def points_of_depth(depth, camera, scale):
-    """Metres, by the definition of a pinhole camera."""
+    """The points in metres, by the definition of a pinhole camera."""
     fx, fy, cx, cy = camera
     rows, columns = depth.shape
     u, v = (a.astype(float) for a in np.meshgrid(np.arange(columns), np.arange(rows)))
@@ -132,10 +135,10 @@ def random_scene(rng, np_rng):
         xyz, shape, size = points_of_depth(metres, camera, 1.0), metres.shape, 1.0
     elif kind == "few":
         xyz = np_rng.normal(0, 0.1, (rng.choice([0, 1, 1, 2, 3]), 3))
-    elif kind == "flat":  # all on a plane or a line
+    elif kind == "flat":  # all points on a plane or a line
         xyz = np_rng.uniform(-0.3, 0.3, (rng.randint(3, 200), 3)) * rng.choice([[1, 1, 0], [1, 0, 0], [0, 0, 0]])
         xyz = xyz + [0, 0, 0.7]
-    else:  # rows and columns that are not a picture
+    else:  # rows and columns that do not form a picture
         shape = rng.randint(2, 12), rng.randint(1, 12)
         xyz = np_rng.normal(0, 0.1, (shape[0] * shape[1], 3))
     scene = Scene(kind, xyz, size, shape, voxel=voxel)
@@ -153,7 +156,7 @@ def random_scene(rng, np_rng):
 
 def disturb(rng, np_rng, scene):
     xyz = scene.xyz
-    if len(xyz) > 1 and rng.random() < 0.2 and scene.shape is None:  # duplicates
+    if len(xyz) > 1 and rng.random() < 0.2 and scene.shape is None:  # adds duplicates
         again = np_rng.integers(0, len(xyz), rng.randint(1, 30))
         xyz = np.concatenate([xyz, xyz[again]])
     if rng.random() < 0.2 and len(xyz):
@@ -162,7 +165,7 @@ def disturb(rng, np_rng, scene):
     if rng.random() < 0.1 and len(xyz):
         xyz = xyz.copy()
         xyz[rng.randrange(len(xyz))] = [rng.choice([1e3, -1e6, 1e20, 1e-30]) for _ in range(3)]
-    if rng.random() < 0.12:  # another unit
+    if rng.random() < 0.12:  # uses another unit
         factor = 2.0 ** rng.choice([-60, -20, -10, 10, 20, 60])
         xyz, scene.size = xyz * factor, scene.size * factor
         scene.voxel = scene.voxel and scene.voxel * factor
@@ -175,7 +178,7 @@ def disturb(rng, np_rng, scene):
 
 @dataclasses.dataclass
 class Asked:
-    """Options that decide the labels, as numbers."""
+    """The options that determine the labels, as numbers."""
     method: str = "surface"
     voxel: float = None
     max_range: float = 2.0
@@ -185,7 +188,7 @@ class Asked:
     plane_noise: float = 0.005
     viewpoint: tuple = None
     distance: float = 0.025
-    steps: int = 10  # 0: exact
+    steps: int = 10  # 0 for exact values
     cut: float = None
     min_part: int = None
     min_size: int = None
@@ -210,7 +213,7 @@ class Asked:
         return self.min_part or (8 if self.method == "supervoxels" else 200)
 
     def options(self):
-        """The options as on the command line."""
+        """The options as words of a command line."""
         out = []
         if self.method == "supervoxels":
             out += [["--supervoxels", repr(self.spacing)]]
@@ -230,7 +233,7 @@ class Asked:
         return out + self.cut_options(self.cut_name)
 
     def cut_options(self, name="--cut"):
-        """Options that a stored tree also accepts."""
+        """The options that a stored tree accepts as well."""
         out = [[name, repr(self.cut)]] if self.cut is not None else []
         for name in ("min_part", "min_size", "min_seam"):
             if getattr(self, name) is not None:
@@ -239,7 +242,7 @@ class Asked:
 
 
 def other_cut(rng, asked, scene):
-    """Random values of the options of a cut."""
+    """Random values for the options of a cut."""
     if rng.random() < 0.5:
         asked.cut = {"surface": rng.choice([0.0, 0.1, 0.5, 3.0, 100.0]),
                      "supervoxels": rng.choice([0.0, 0.03, 0.3, 5.0]) * scene.size,
@@ -254,7 +257,7 @@ def other_cut(rng, asked, scene):
 
 
 def random_options(rng, scene):
-    """@return Asked"""
+    """@return the options as an Asked."""
     asked = Asked(rng.choice(["paper", "paper", "surface", "surface", "supervoxels"]))
     size = scene.size
     if rng.random() < 0.9 or size > 10 or size < 0.01:
