@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs every engine on small standard inputs, for profiling and for comparing before and after a
+// Runs every engine on small standard inputs, for profiling and for comparisons before and after a
 // change.
 #include <benchmark/benchmark.h>
 

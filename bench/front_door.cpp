@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Computes a Rips barcode as a user of the library does: the call that the README shows. Prints the
-// number of bars of each dimension and the sum of their finite lengths. front_door.py compares the
-// cost of this call with the cost of ph-barcode.
+// Computes a Rips barcode as a user of the library does, with the call that the README shows.
+// Prints the number of bars in each dimension and the sum of their finite lengths. front_door.py
+// compares the cost of this call with the cost of ph-barcode.
 //
-// Unlike the README's call, this one names a context, because one thread is compared with one.
+// Unlike the README's call, this call passes a context, because both programs must use one thread.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

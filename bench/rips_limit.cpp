@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The minimum work of any algorithm for H0 and H1 of a distance matrix: reads the input, finds the
-// enclosing radius, and sorts the edges up to it by (value, u, v). The reference of
-// compare_rips.py.
+// enclosing radius, and sorts the edges up to this radius by (value, u, v). compare_rips.py uses it
+// as the lower limit.
 //
-// It shares no code with libph and must not be tuned with it, because a yardstick must not change
-// its length. The sort is a radix sort from the lowest digit, 11 bits at a time. It is stable, and
-// edges are created in the order of (u, v), so that only the 32 bits of the value are digits.
+// It shares no code with libph and must not be tuned together with libph, because a yardstick must
+// keep its length. The sort is a radix sort from the lowest digit, with 11 bits per digit. The sort
+// is stable and edges are created in the order of (u, v), and therefore it only needs the 32 bits
+// of the value.
 #include <algorithm>
 #include <array>
 #include <bit>

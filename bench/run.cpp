@@ -2,8 +2,9 @@
 // Runs a command and writes the cost of its process to a file descriptor: "status user system wall
 // peak", with the status from wait4, seconds, and bytes.
 //
-// A process starts as a copy of its parent, and the kernel counts that copy in its peak: if an
-// interpreter starts it, no program seems smaller than the interpreter. This program is small.
+// A process starts as a copy of its parent, and the kernel counts this copy in the peak memory. If
+// an interpreter started the command, the peak would be at least that of the interpreter. This
+// program is small.
 #include <cerrno>
 #include <chrono>
 #include <csignal>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Measures vectors of 10,000 bars, and Euler curves of images of N³ voxels with noise and with
-// smooth waves. Prints CPU seconds of one thread, the least of three runs; nanoseconds per voxel.
+// smooth waves. Prints CPU seconds of one thread, the least of three runs, and nanoseconds per
+// voxel.
 //
-//     bench_vectors [N]     (default 512; 0: no Euler curves)
+// bench_vectors [N]     (default 512; 0: no Euler curves)
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Compiles through ccache if it is installed, unless a launcher is named, even an empty one.
+# Compiles through ccache if it is installed, unless a launcher is set, which may be empty.
 find_program(CCACHE ccache)
 if(NOT CCACHE OR DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   return()

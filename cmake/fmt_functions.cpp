@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All functions of fmt that its users call, compiled once: FMT_HEADER_ONLY defines them inline, and
-// -fkeep-inline-functions keeps those that nothing here calls.
+// Compiles once all functions of fmt that users of fmt call: FMT_HEADER_ONLY defines them inline,
+// and -fkeep-inline-functions keeps those that nothing here calls.
 #include <fmt/format.h>
 
 namespace {

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Installation for other projects: `cmake --install`, then find_package(ph CONFIG). Each library has
-# its own set of exported targets and thus requires only its own dependencies.
+# its own set of exported targets, and thus requires only its own dependencies.
 #
-# `cmake --install BUILD --component NAME` installs one component: `c`, the files needed by programs
-# linked with ph::c; `dev`, the files for compiling and linking others; `pcl` and `alpha`, the same
-# for ph::pcl and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a
-# package of each, except for `mpi` and `licence`.
+# `cmake --install BUILD --component NAME` installs one component: `c`, the files needed to run
+# programs linked with ph::c; `dev`, the files needed to compile and link programs; `pcl` and
+# `alpha`, the same for ph::pcl and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`.
+# debian/rules makes a package of each component, except `mpi` and `licence`.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Files from the output of the programs (--help man, and so on): manual pages, completions, and a
-# reference page for the documentation site, ${PROJECT_BINARY_DIR}/pages/options-PROGRAM.md.
+# Makes files from the output of the programs (--help man, and so on): manual pages, completions,
+# and a reference page for the documentation site, ${PROJECT_BINARY_DIR}/pages/options-PROGRAM.md.
 #
-# The programs print their pages and therefore must run here. If they do not, PH_HOST_PROGRAMS names
-# a folder with programs of the same version that do; CMAKE_CROSSCOMPILING_EMULATOR is used if it is
-# set.
+# The programs print their pages and therefore must run on this machine. If they cannot,
+# PH_HOST_PROGRAMS names a folder with programs of the same version that can;
+# CMAKE_CROSSCOMPILING_EMULATOR is used if it is set.
 include(GNUInstallDirs)
 set(PH_HOST_PROGRAMS "" CACHE PATH
     "When cross-building: a folder with the programs that run here, to print their pages")

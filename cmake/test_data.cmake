@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The folder of the test data that the repository does not hold: docs/development/test-data.md.
+# The folder of test data that are not in the repository: docs/development/test-data.md.
 if(NOT DEFINED PH_TEST_DATA)
   cmake_path(SET default NORMALIZE ${PROJECT_SOURCE_DIR}/../shared)
   if(NOT IS_DIRECTORY ${default})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes the barcode of points in a file: how many components and loops are there, and at which
-// scale?
+// scales?
 #include <iostream>
 #include <ph/io/read.hpp>
 #include <ph/ph.hpp>

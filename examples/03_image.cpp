@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The barcode of a volume: a hollow box of value 1 in a background of 9.
+// Computes the barcode of a volume: a hollow box of value 1 in a background of 9.
 #include <iostream>
 #include <ph/ph.hpp>
 

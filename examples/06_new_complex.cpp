@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Your own complex needs three small functions, and every engine that requires no more runs on it.
-// Here it is a polygon whose sides appear one by one, followed by the disc inside.
+// Your own complex needs three small functions. Every engine that requires no more runs on it. Here
+// it is a polygon whose sides appear one by one, followed by the disc inside.
 #include <iostream>
 #include <ph/custom.hpp>
 #include <ph/ph.hpp>

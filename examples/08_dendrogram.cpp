@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Single-linkage clustering of many points: the merge tree, cut where it is widest.
+// Single-linkage clustering of many points: computes the merge tree, and cuts it where the gap
+// between merges is widest.
 #include <cmath>
 #include <iostream>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles too many points, and outliers, by subsampling, a sparse filtration and DTM weights.
+// Handles large inputs by subsampling and by a sparse filtration, and outliers by DTM weights.
 #include <cmath>
 #include <iostream>
 #include <numbers>

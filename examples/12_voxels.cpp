@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the loops and the hollow of a point cloud through voxels: the cost depends on the volume,
-// not on the pairs of points.
+// Finds the loops and the void of a point cloud by converting it to voxels: the cost depends on the
+// volume, not on the number of pairs of points.
 #include <cmath>
 #include <iostream>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints the voxels of a component of an image and of a hollow.
+// Prints the voxels of a component of an image, and the voxels of a void.
 #include <iostream>
 #include <ph/ph.hpp>
 

@@ -2,20 +2,21 @@
 # SPDX-License-Identifier: MIT
 # Makes all packages of HEAD and tests them on minimal systems: check_packages.sh [PART]…
 #
-#   archives    dist/ from scripts/package.sh: its checksums, and the list of files in the archive
-#               of the sources
-#   build       dpkg-buildpackage from these archives, with its tests, without a network
-#   lintian     no errors and no warnings; other remarks are counted
-#   reproduce   both again in other folders, with a different umask, language, time zone and home
-#   install     on a bare Debian 12: apt install, a first picture, Python, a C++ program, each
-#               with its time; autopkgtest
-#   elsewhere   the static programs beside BusyBox alone, and on other releases of Debian, with the
-#               time from the archive to the picture
+#   archives    makes dist/ with scripts/package.sh, and checks its checksums and the list of files
+#               in the archive of the sources
+#   build       runs dpkg-buildpackage on these archives, with its tests and without a network
+#   lintian     demands that there are no errors and no warnings; counts other remarks
+#   reproduce   makes archives and packages again in other folders, with a different umask,
+#               language, time zone and home
+#   install     on a bare Debian 12: installs with apt, makes a first picture, runs Python and a C++
+#               program, and measures each; runs autopkgtest
+#   elsewhere   runs the static programs on a system with only BusyBox, and on other releases of
+#               Debian; measures the time from the archive to the picture
 #
 # install and elsewhere need root and a Debian mirror (PH_MIRROR; default: debootstrap's own).
 # DEB_BUILD_OPTIONS is passed on: noautodbgsym saves minutes. The work folder is
-# build/check-packages, or PH_WORK; a part uses the files that earlier parts left there.
-# PH_JOBS: number of compilers.
+# build/check-packages, or PH_WORK; each part uses the files that earlier parts left in it.
+# PH_JOBS: number of parallel compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

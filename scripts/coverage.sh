@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# coverage.sh [readers|engines]…: measures the share of lines that tests reach. Without arguments:
-# both. Exits with 1 if a share is below its minimum.
-#   readers  99 %; tests of readers, the samples, their prefixes, seeds of fuzzing, the corpus of bad
-#            inputs, random runs
-#   engines  97 %; the C++ tests with a fiftieth of their random inputs; all of libph/src except files
-#            and pictures, and the internal headers
-# COVERAGE_BUILD: another build folder. The last lines have the result of each.
+# coverage.sh [readers|engines]…: measures the share of lines that tests reach, by default for both
+# parts of the code. Exits with 1 if a share is below its minimum.
+#   readers  at least 99 %: by the tests of readers, the samples, their prefixes, seeds of fuzzing,
+#            the corpus of bad inputs, and random runs
+#   engines  at least 97 % of libph/src (except files and pictures) and of the internal headers: by
+#            the C++ tests with a fiftieth of their random inputs
+# COVERAGE_BUILD: another build folder. The last lines have the result of each part.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${COVERAGE_BUILD:-build/coverage}

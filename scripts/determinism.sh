@@ -5,7 +5,8 @@
 # x86-64-v3 (AVX2, FMA) or x86-64-v4 (AVX-512), such as clang-O2 or gcc-O3-v3. Without another build,
 # it also checks processors that QEMU emulates: Nehalem (SSE 4.2) or max (AVX2, FMA). platforms.sh
 # checks 64-bit ARM and other C++ libraries. REFERENCE: the build to compare with (default:
-# build/release, built here); JOBS: number of parallel jobs. The last lines have the counts of each.
+# build/release, built here); JOBS: number of parallel jobs. The last lines have the counts of each
+# variant.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

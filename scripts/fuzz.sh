@@ -3,8 +3,8 @@
 # fuzz.sh [--fast] [TARGET [libFuzzer options…]]: searches for bytes that break the promises in
 # tests/fuzz. Without a target, each target runs for a minute. Learned inputs stay in
 # build/fuzz/corpus/TARGET, findings in build/fuzz/findings/TARGET. FUZZ_BUILD: another build folder.
-# --fast: two to six times as many executions, without sanitizers; afterwards the learned inputs run
-# through the sanitizers. Only readers and command lines are instrumented.
+# --fast: two to six times as many executions, without sanitizers and with only readers and command
+# lines instrumented; afterwards, the learned inputs run with sanitizers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${FUZZ_BUILD:-build/fuzz}

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: static checks; without arguments: all. layout
-# (clang-format) checks all C++; clang-tidy checks naming and habits, and cppcheck faults, of the
-# libraries and programs; GCC's analyzer checks C, the only language that it supports. Installs
-# missing packages. The last lines have the result of each. tests/analysis lists false positives.
+# lint.sh [layout|clang-tidy|cppcheck|analyzer]…: runs static checks, by default all of them. layout
+# checks the format of all C++ with clang-format; clang-tidy checks the names and idioms of
+# libraries and programs, and cppcheck searches them for faults; analyzer runs GCC's analyzer on C,
+# the only language that it supports. Installs missing packages first. The last lines have the
+# result of each check. tests/analysis lists false positives.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

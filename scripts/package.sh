@@ -3,12 +3,13 @@
 # Makes the archives for distribution in dist/: package.sh [source|binary]… (default: both)
 #
 #   libph-VERSION.tar.xz               the sources of HEAD, with the bundled page of the reports
-#   debian/                            the same as a Debian source package
+#   debian/                            the sources as a Debian source package
 #   libph-VERSION-linux-MACHINE.tar.xz the programs, linked statically, for any Linux on MACHINE
 #   libph-VERSION-linux-MACHINE.spdx.json   the contents of the programs (SPDX 2.3)
 #   SHA256SUMS
 #
-# The same commit with the same Debian packages gives the same bytes. PH_JOBS: number of compilers.
+# The same commit with the same Debian packages gives the same bytes. PH_JOBS: number of parallel
+# compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C TZ=UTC

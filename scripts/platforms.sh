@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # platforms.sh [clang-libcxx|aarch64|mingw]…: builds libraries and programs for another C++ library,
-# another processor or another system, and runs the tests of libph; without arguments: for all three.
-# Installs missing packages first. The last line of each shows the counts. JOBS: number of parallel
-# jobs.
+# another processor or another system, by default for all three, and runs the tests of libph there.
+# Installs missing packages first. The last line for each platform shows the counts. JOBS: number of
+# parallel jobs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# sanitize.sh [asan-ubsan|tsan|debug|valgrind|integers]…: builds with run-time checks, then runs the
-# C++ tests with few random inputs, and the programs with the commands of tests/platforms, whose
-# outputs must equal those of build/release. Without arguments: the first four. Installs missing
-# packages.
-#   asan-ubsan  Clang: addresses, leaks, undefined behaviour, numbers that do not fit an integer
-#   tsan        Clang: threads
-#   debug       GCC: the checks of libstdc++'s debug mode
-#   valgrind    every eighth command, without CGAL: memory that was never written
-#   integers    Clang: a list, for review, of places where integers wrap or lose digits legally
+# sanitize.sh [asan-ubsan|tsan|debug|valgrind|integers]…: builds with run-time checks, runs the C++
+# tests with few random inputs, and then runs the commands of tests/platforms, whose outputs must
+# equal those of build/release. By default, the first four kinds run. Installs missing packages
+# first.
+#   asan-ubsan  Clang checks addresses, leaks, undefined behaviour, and conversions to integers
+#   tsan        Clang checks threads
+#   debug       GCC with the checks of libstdc++'s debug mode
+#   valgrind    checks for reads of memory that was never written; every eighth command, no CGAL
+#   integers    Clang lists, for review, the places where integers wrap or lose digits legally
 # EVERY=N: every Nth command; SECONDS_EACH: commands that take longer are left out and counted;
 # REFERENCE: the build to compare with (default: build/release, built here); JOBS: number of parallel
 # jobs; TESTS: a regular expression of the tests to run. The last lines have the result of each kind.

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs missing Debian packages: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|determinism|sanitize|clang-libcxx|aarch64|mingw]…
+# Installs the missing Debian packages of some sets: setup.sh SET… The sets are build, page, demo,
+# test, python, viewer, docs, packages, lint, fuzz, coverage, determinism, sanitize, clang-libcxx,
+# aarch64 and mingw.
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev

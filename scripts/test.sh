@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds everything with warnings as errors, and runs all tests, including those of reports in a
-# browser. Installs missing packages first, and prints the counts last.
+# Builds everything with warnings as errors, and runs all tests, including tests of reports in a
+# browser. Installs missing packages first, and prints the counts at the end.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)

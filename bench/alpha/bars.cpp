@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench_alpha delaunay|bars FILE [THREADS]: CGAL's triangulation of points alone, or all bars of
+// bench_alpha delaunay|bars FILE [THREADS]: computes CGAL's triangulation of points, or all bars of
 // their alpha complex. Prints the CPU seconds, without reading, and the number of cells or bars.
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Compares H0 of points in parts, one after another, with the same points as a whole: CPU seconds,
-// the largest memory of a part beside the points themselves, bytes of all parts. Prints whether the
-// bars are the same. One thread.
+// Compares H0 of points computed in parts, one after another, with H0 of all points at once: CPU
+// seconds, the largest memory of a part in addition to the points, and the bytes of all parts.
+// Prints whether the bars are the same. Uses one thread.
 //
-//     bench_cloud_parts [POINTS [PARTS…]]
+// bench_cloud_parts [POINTS [PARTS…]]
 #include <fmt/format.h>
 #include <sys/resource.h>
 

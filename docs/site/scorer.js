@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ranks search results: pages for users come before pages for developers, and parameters of
-// functions come last. The other numbers are Sphinx's.
+// functions come last. The other scores are Sphinx's defaults.
 var Scorer = {
   score: function (result) {
     const [page, , , description, score] = result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An engine of somebody else: the boundary matrix from left to right, in sorted vectors. This file
-// is all that it takes; programs that link it have the engine.
+// A user's engine: it reduces the boundary matrix from left to right, with columns stored as sorted
+// vectors. Nothing but this file is needed; every program that links it has the engine.
 #include <algorithm>
 #include <ph/custom.hpp>
 #include <unordered_map>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The suite on somebody else's complex; somebody else's engine is in it by itself.
+// Runs the conformance suite on a user's complex. The user's engine takes part, because it is
+// linked.
 #include "tests/extension/own_complexes.hpp"
 #include "tests/extension/polygon.hpp"
 #include "tests/support/conformance.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What gives the complex to the program.
+// Registers the complex with the program.
 #include "apps/barcode/job/own_complex.hpp"
 #include "tests/extension/polygon.hpp"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * peak REPORT PROGRAM arguments…: runs a program and writes "peak KiB, microseconds of CPU" to the
- * file REPORT. Started from Python itself, a child would count Python's memory as its own peak. */
+ * file REPORT. If Python started the program directly, its peak would include Python's memory. */
 #include <signal.h>
 #include <stdio.h>
 #include <sys/prctl.h>

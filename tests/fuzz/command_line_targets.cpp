@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any words give options, an answer, or an error that says what is wrong with them.
+// Any words on a command line must give options, an answer, or an error that says what is wrong
+// with the words.
 #include <array>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The conformance suite on filtrations that the bytes choose.
+// Runs the conformance suite on filtrations that the bytes choose.
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "tests/fuzz/targets.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer's end of the table of targets. The program's own name says which one: fuzz_points runs
-// `points`. `fuzz --targets` lists them, `fuzz --help-of TARGET` prints the help of a
-// program whose command lines are a target.
+// Connects libFuzzer to the table of targets. The program's own name selects the target:
+// fuzz_points runs `points`. `fuzz --targets` lists the targets, and `fuzz --help-of TARGET` prints
+// the help of the program whose command line the target tests.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checksums stop nearly every change of a PNG before it reaches a decoder: here they are set right.
+// The checksums of a PNG would stop nearly every change before it reaches a decoder: this target
+// corrects them.
 #include <vector>
 
 #include "libph/src/io/bytes/unpack.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds for every reader: a result that is what it promises, or one line that names the file.
+// Checks what must hold for every reader: it returns a result that is as promised, or fails with
+// one line that names the file.
 #include <algorithm>
 #include <optional>
 

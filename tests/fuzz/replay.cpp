@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // fuzz_replay CORPUS SAMPLES: runs the files in CORPUS/<target>/ through their targets, as
-// libFuzzer does, and each sample through all of them: a file of one format is damage to the
-// others. Prints how many runs it were; exits 1 if a property does not hold.
+// libFuzzer does, and each sample through all targets, because a file of one format is a damaged
+// file for the others. Prints the number of runs; exits with 1 if a property does not hold.
 #include <exception>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every proper prefix of every sample. A format that says its length rejects it; any other rejects
-// it or gives what is there.
+// Tests every proper prefix of every sample. A format that states its length must reject the
+// prefix. Any other format must reject it or return the data that are present.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

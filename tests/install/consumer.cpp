@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program of somebody else: it includes as users do, and calls something of each library.
+// A user's program, with a user's includes. It calls a function of each library.
 #include <ph/ph.hpp>
 #ifndef CORE_ALONE
 #include <ph/io/read.hpp>

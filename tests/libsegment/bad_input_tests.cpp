@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input with nothing in it, or not what was meant: what docs/explanation/segmentation.md says of
-// it, with all methods.
+// Input that is empty, or is not what the user meant: tests what docs/explanation/segmentation.md
+// says about it, with all methods.
 #include <gtest/gtest.h>
 
 #include <algorithm>

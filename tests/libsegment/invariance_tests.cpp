@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What must not change the segmentation: the order of the points, duplicates, powers of two,
-// threads, holes.
+// Changes of the input that must not change the segmentation: the order of the points, duplicates,
+// powers of two, threads, holes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

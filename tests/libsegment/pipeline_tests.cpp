@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Method paper on small scenes with known answers, and on inputs with nothing in them.
+// Method paper on small scenes with known answers, and on empty inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

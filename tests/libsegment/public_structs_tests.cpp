@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user of the library fills in himself is looked at like a file.
+// Structs that a user of the library fills in are checked like files.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Method paper against an independent single linkage on real frames.
+// Compares method paper with an independent single linkage on real frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thousand frames: memory stays what it was, and threads change nothing.
+// Segments a thousand frames: memory does not grow, and threads change nothing.
 #include <gtest/gtest.h>
 #include <malloc.h>
 

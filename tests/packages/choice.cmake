@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Options of several words: what means the same is the same, and the last one here is refused.
+# Tests options with several words: synonyms mean the same, and the last word here is refused.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/choice.cmake)
 

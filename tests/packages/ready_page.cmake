@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake -DFOLDER=… -P ready_page.cmake: a page that is ready is taken with the sources that it was made
-# of, and with no others. `sha256sum` says what libreport/ready_page.cmake has to find.
+# cmake -DFOLDER=… -P ready_page.cmake: a ready page is accepted with the sources that it was made
+# from, and with no others. `sha256sum` gives the digest that libreport/ready_page.cmake must
+# compute.
 include(${CMAKE_CURRENT_LIST_DIR}/../../libreport/ready_page.cmake)
 
 file(REMOVE_RECURSE ${FOLDER})

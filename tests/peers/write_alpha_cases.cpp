@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// write_alpha_cases FILE COUNT LARGE: writes COUNT clouds of up to 300 points and LARGE ones of
-// 10 000 points, each with the bars of its alpha complex, squared, one JSON object a line, for
-// compare.py to hold against other programs. A cloud in a plane of space is written as points of
-// the plane, since some programs refuse it.
+// write_alpha_cases FILE COUNT LARGE: writes COUNT clouds of up to 300 points and LARGE clouds of
+// 10 000 points, each with the bars of its alpha complex in squared values, as one JSON object per
+// line. compare_alpha.py compares them with GUDHI. A cloud in a plane in space is written as points
+// of the plane, because some programs refuse it otherwise.
 #include <fmt/format.h>
 
 #include <cmath>

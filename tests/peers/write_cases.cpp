@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes random small inputs, each with the barcode that libph computes for it, and pairs of
-// diagrams with their distance, one JSON object a line, for compare.py to hold against other
+// diagrams with their distance, as one JSON object per line. compare.py compares them with other
 // programs.
 #include <cstdlib>
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory that runs out at any moment inside the library: std::bad_alloc or Error (resource) comes
-// out, nothing leaks, and no file is half written.
+// Memory runs out at any moment inside the library: it throws std::bad_alloc or Error (resource),
+// leaks nothing, and leaves no file half written.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a command line says: numbers, choices, files.
+// Tests the parsing of command lines: numbers, choices, files.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A run: exit codes, limits of memory, progress.
+// Tests how a program runs: exit codes, memory limits, progress.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the arrays of a report hold: normals, trees and their leaves, sets of voxels.
+// Tests the contents of the arrays in a report: normals, trees and their leaves, sets of voxels.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth images in their formats, and cameras by file or name, as ph-segment takes them.
+// Depth images in all formats, and cameras given by file or by name, as inputs of ph-segment.
 #include <gtest/gtest.h>
 
 #include <cmath>

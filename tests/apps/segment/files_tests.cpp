@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of ph-segment: what it reads, and what it writes.
+// The files that ph-segment reads and writes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

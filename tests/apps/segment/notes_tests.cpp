@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What ph-segment notes: lengths or a camera that cannot be meant, options that do nothing.
+// The notes of ph-segment: lengths or a camera that cannot be meant, and options without an effect.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ph-segment as a user runs it: options, stored trees, exit codes, messages.
+// Runs ph-segment as a user does: options, stored trees, exit codes, messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>

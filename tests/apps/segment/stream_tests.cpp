@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ph-segment on streams of frames.
+// Runs ph-segment on streams of frames.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of any doubles.
+// Checks alpha complexes of points with any doubles.
 #include "ph/persistence.hpp"
 #include "tests/fuzz/chosen_numbers.hpp"
 #include "tests/fuzz/targets.hpp"

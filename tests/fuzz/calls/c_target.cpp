@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calls of the C interface, sensible and not, beside the same calls of the C++ library.
+// Compares calls of the C interface, sensible and senseless, with the same calls of the C++
+// library.
 #include <algorithm>
 #include <array>
 #include <cmath>

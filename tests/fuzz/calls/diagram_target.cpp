@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Distances and vectors of persistence diagrams of any doubles.
+// Checks distances and vectors of persistence diagrams with any doubles.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page of a report holds: arrays of any numbers, texts of any bytes.
+// Checks the contents of a report page: arrays of any numbers, and texts of any bytes.
 #include <algorithm>
 #include <cstring>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parts that processes send each other or leave in files. A checksum stops every change before
-// anything else looks at it, so the bytes are what a part says, and get one that is right.
+// Checks parts that processes send to each other or store in files. A checksum would reject every
+// change before any other check. For this reason, the bytes are the content of a part, and the
+// checksum is computed.
 #include <algorithm>
 #include <utility>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the programs store for themselves, and small files of their own: merge trees of scenes, fits
-// of vectors, groups of barcodes.
+// Checks files that the programs store for their own use, and other small files: merge trees of
+// scenes, fits of vectors, groups of barcodes.
 #include <algorithm>
 #include <memory_resource>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Must not compile: nobody has said which complex.
+// Must not compile, because no complex of the points is named.
 #include "ph/ph.hpp"
 
 ph::Barcode bars(const ph::Points& points) { return ph::persistence(points); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of points that are bad for rounding, for exact signs or for the time.
+// Alpha complexes of points that are difficult for rounding, for exact signs, or for the running
+// time.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes: the engine against the oracle of all filtrations, and what holds for any points.
+// Alpha complexes: compares their engine with the oracle for all filtrations, and checks properties
+// that hold for any points.
 #include "ph/alpha.hpp"
 
 #include <gtest/gtest.h>

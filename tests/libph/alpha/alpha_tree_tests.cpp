@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Merge trees of alpha complexes: vertices are the points of the input, whatever became of them.
+// Merge trees of alpha complexes. Their vertices are the points of the input, including hidden and
+// equal points.
 #include <gtest/gtest.h>
 
 #include <cmath>

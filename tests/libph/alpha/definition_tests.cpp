@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values and bars against the definition in exact numbers. PH_TEST_SEEDS=50 tries 20 000 sets of
-// points.
+// Compares values and bars with the definition in exact numbers. PH_TEST_SEEDS=50 tries 20 000 sets
+// of points.
 #include <gtest/gtest.h>
 
 #include "tests/libph/alpha/alpha_oracle.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Representatives in periodic spaces, by the vertices that users see and the signs that these have
-// by definition; the incidences of the library are not asked.
+// Representatives in periodic spaces. They are checked with the vertices that users see and the
+// signs that vertices define; the library's own incidences are not used.
 #include <gtest/gtest.h>
 
 #include <map>

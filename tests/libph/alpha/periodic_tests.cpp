@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of periodic spaces: against the definition, against generic engines, and what
-// holds for any points.
+// Alpha complexes of periodic spaces: compares them with the definition and with engines for any
+// complex, and checks properties that hold for any points.
 #include <gtest/gtest.h>
 
 #include <numeric>

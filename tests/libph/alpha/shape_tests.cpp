@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Alpha shapes and wraps against the simplices themselves.
+// Compares alpha shapes and wraps with the simplices themselves.
 #include <gtest/gtest.h>
 
 #include <map>

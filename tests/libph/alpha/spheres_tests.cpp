@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Signs of which rounding knows nothing: what goes wrong with them is seldom seen in bars.
+// Signs of exact geometric tests, which must not depend on rounding. Wrong signs seldom show in
+// bars, and are therefore tested directly.
 #include <gtest/gtest.h>
 
 #include "tests/libph/alpha/exact_spheres.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the stored complexes refuse, and in which words; how they name their cells.
+// Stored complexes: the inputs that they refuse and their messages, and the names of their cells.
 #include <algorithm>
 #include <limits>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// strtod in place of std::from_chars. Where the C++ library has from_chars, it is the oracle.
+// Tests the functions that use strtod in place of std::from_chars. Where the C++ library has
+// from_chars, it is the oracle.
 #include "ph/detail/core/floating.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory that is counted and refused, stops that are heard, progress that is reported.
+// Memory is counted and refused, stops are obeyed, and progress is reported.
 #include "ph/run_context.hpp"
 
 #include <algorithm>

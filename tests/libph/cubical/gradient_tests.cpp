@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images paired voxel by voxel, against the oracle cell by cell: all types of voxels, both
-// constructions, holes, axes that close up, and the duality of the two constructions.
+// Images whose cells are paired voxel by voxel: compares them with the oracle cell by cell. Covers
+// all types of voxels, both constructions, holes, periodic axes, and the duality of the two
+// constructions.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Loops of volumes in parts, whoever works when and whatever arrives first, against the same
-// volumes as one: any number of parts, both constructions, holes, infinities, ties, axes that close
-// up.
+// Loops of volumes in parts, with any order of work and of messages: compares them with the same
+// volumes as a whole. Covers any number of parts, both constructions, holes, infinities, ties,
+// periodic axes.
 #include "ph/parts/image_loops.hpp"
 
 #include <gtest/gtest.h>

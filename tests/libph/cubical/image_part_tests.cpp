@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images in parts that know nothing of each other, joined in random groups, against the same images
-// as one: any number of parts, both constructions, holes, infinities, ties, axes that close up.
+// Images in parts that are computed independently and joined in random groups: compares them with
+// the same images as a whole. Covers any number of parts, both constructions, holes, infinities,
+// ties, periodic axes.
 #include "ph/parts/image_part.hpp"
 
 #include <gtest/gtest.h>

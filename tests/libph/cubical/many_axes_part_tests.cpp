@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of more than three axes in parts that know nothing of each other, joined in random groups,
-// against one process: the pieces, and the highest dimension but one.
+// Images of more than three axes, in parts that are computed independently and joined in random
+// groups: compares components and the highest dimension but one with the result of one process.
 #include <gtest/gtest.h>
 
 #include <string>

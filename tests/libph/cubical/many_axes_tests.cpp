@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of more than three axes, paired star by star, against the oracle cell by cell and against
-// spaces that are known.
+// Images of more than three axes, paired within the star of each vertex: compares them with the
+// oracle cell by cell, and with known spaces.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is foreseen of an image in parts: layers that parts may begin with, whatever the image is,
-// and how many bytes parts take, against those that they took.
+// Forecasts for images in parts: checks the first layers that they propose, for any image, and
+// compares the predicted numbers of bytes with the actual ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

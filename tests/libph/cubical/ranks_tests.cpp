@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images and clouds on several ranks, which are threads here and talk in messages, against one
-// process; and messages that are lost, come twice, in another order, or changed.
+// Images and clouds on several ranks, which are threads here and exchange messages: compares them
+// with one process. Messages are also lost, duplicated, reordered or changed.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of which a slab is seen at a time, against the same images seen whole: slabs of any
-// height, all types of voxels, both constructions, holes, axes that close up.
+// Images that are read one slab at a time: compares them with the same images as a whole. Covers
+// slabs of any height, all types of voxels, both constructions, holes, periodic axes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

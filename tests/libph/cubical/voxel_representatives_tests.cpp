@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What represents the bars of images, voxel by voxel: cycles from their definition, sets of voxels
-// by flood fill.
+// Representatives of the bars of images: checks cycles by their definition, and sets of voxels by
+// flood fill.
 #include <array>
 #include <set>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prices that prove a matching, looked at pair by pair; auctions that are given up.
+// Checks, pair by pair, that prices prove a matching to be optimal. Also tests auctions that are
+// abandoned.
 #include "libph/src/diagram/wasserstein/assignment.hpp"
 
 #include <gtest/gtest.h>

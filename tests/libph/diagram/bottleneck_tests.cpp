@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bottleneck distance, held to all matchings of small diagrams and to a slow algorithm for
-// larger ones.
+// Compares the bottleneck distance with the best of all matchings for small diagrams, and with a
+// slow algorithm for larger ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

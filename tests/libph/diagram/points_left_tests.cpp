@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points that are left in a tree, held to a list of them.
+// Compares the points left in a tree with the points left in a list.
 #include "libph/src/diagram/bottleneck/points_left.hpp"
 
 #include <gtest/gtest.h>

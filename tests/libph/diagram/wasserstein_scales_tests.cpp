@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wasserstein distances that are far below the lengths of the bars, beside all matchings in long
-// doubles, whose powers have digits to spare.
+// Wasserstein distances that are far below the lengths of the bars: compares them with the best of
+// all matchings in long doubles, whose precision is sufficient for the powers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Wasserstein distance, held to all matchings of small diagrams and to the Hungarian method for
-// larger ones.
+// Compares the Wasserstein distance with the best of all matchings for small diagrams, and with the
+// Hungarian method for larger ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Clouds in parts that know nothing of each other, joined in random groups and orders, against all
-// pairs of points (Prim's algorithm, here) and against the same cloud as one: any number of parts,
-// blocks and points of the sample, ties, copies, lattices, lines, clusters far apart, thresholds.
+// Clouds in parts that are computed independently and joined in random groups and orders: compares
+// them with all pairs of points (by Prim's algorithm, implemented here) and with the same cloud as
+// a whole. Covers any number of parts, blocks and sample points, ties, copies, lattices, lines,
+// clusters far apart, thresholds.
 #include "ph/parts/cloud_part.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// H0 as a tree, held to brute force and to the oracle.
+// Compares H0 as a tree with brute force and with the oracle.
 #include "ph/merge_tree.hpp"
 
 #include <numeric>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The facade: options, engines, estimates, a filtration of the user's own.
+// Tests the function persistence(): options, engines, estimates, and a filtration of the user's
+// own.
 #include "ph/estimate.hpp"
 
 #include "ph/detail/rips/edge_collapse.hpp"

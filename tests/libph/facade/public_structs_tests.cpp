@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structs that callers fill in are checked like files: each struct and constructor reports what it
-// found, whatever it is given. These tests should also run with sanitizers.
+// Structs that callers fill in are checked like files: whatever it is given, each struct or
+// constructor reports what it found. These tests should also run with sanitizers.
 #include <gtest/gtest.h>
 
 #include <climits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forms of a Rips filtration: made once, when they are asked for, whoever asks and however often
-// it fails before.
+// Forms of a Rips filtration: each is made once, on the first request, by any caller, and after any
+// number of failures.
 #include <array>
 #include <atomic>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which form of a Rips filtration is planned, and that all of them have the same bars.
+// Tests which form of a Rips filtration is planned, and that all forms have the same bars.
 #include <fmt/format.h>
 
 #include <array>

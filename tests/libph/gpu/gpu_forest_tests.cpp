@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The forest that a GPU finds is that of the CPU, edge for edge and bit for bit.
+// The forest that a GPU finds equals that of the CPU, edge for edge and bit for bit.
 #include <cmath>
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces that a user fills in are looked at before they are written.
+// Surfaces that a user fills in are checked before they are written.
 #include <gtest/gtest.h>
 
 #include <filesystem>

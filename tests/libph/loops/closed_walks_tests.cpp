@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cycles of edges as closed walks, of chains and of the bars of images and other complexes: the sum
-// of the walks is the chain.
+// Closed walks of cycles of edges, both of chains and of the bars of images and other complexes:
+// the sum of the walks is the chain.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loops and chains of edges, each as the other.
+// Converts loops to chains of edges, and chains to loops.
 #pragma once
 #include <gtest/gtest.h>
 

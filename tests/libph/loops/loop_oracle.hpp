@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What loops are by definition: boundaries and cocycles by elimination on dense rows, shortest
-// walks by Dijkstra's algorithm through all pairs of a vertex and values of cocycles.
+// Loops by their definition: boundaries and cocycles are found by elimination on dense rows, and
+// shortest walks by Dijkstra's algorithm on pairs of a vertex and the values of cocycles.
 #pragma once
 #include <algorithm>
 #include <array>

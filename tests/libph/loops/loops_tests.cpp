@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loops of bars of Rips filtrations against an oracle of their own.
+// Compares loops of bars of Rips filtrations with a separate oracle.
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/loops.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What parts of a cloud are made of: the cut into blocks, and forests that are joined.
+// Components of cloud parts: the division into blocks, and forests that are joined.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spanning forests: H0 without the graph of all edges, held to the oracle on the whole filtration.
+// Spanning forests, which give H0 without the graph of all edges: compares them with the oracle on
+// the whole filtration.
 #include <limits>
 
 #include "ph/eigen.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device is asked for and cannot do is refused; what it does: gpu/gpu_forest_tests.cpp.
+// Requests that a device cannot fulfil are refused. gpu/gpu_forest_tests.cpp tests the requests
+// that it can fulfil.
 #include "ph/persistence.hpp"
 #include "tests/support/expect_error.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distances: values by hand, the ends of the range of double, near pairs against all pairs.
+// Distances: compares with values computed by hand, at the limits of the range of doubles, and near
+// pairs with all pairs.
 #include <limits>
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Greedy permutations, distances to the measure, sparse Rips filtrations: what they promise.
+// Tests what greedy permutations, distances to a measure, and sparse Rips filtrations promise.
 #include <limits>
 #include <numeric>
 

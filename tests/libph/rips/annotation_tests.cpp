@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the classes of edges of the sweep of edge links are kept in.
+// Tests the data structures in which the sweep of edge links keeps classes of edges.
 #include <array>
 #include <initializer_list>
 #include <map>

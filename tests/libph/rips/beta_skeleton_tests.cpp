@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edges found from points alone give the same pairs as all edges, cell by cell, whatever the ties.
+// Edges found from points alone give the same pairs as all edges, cell by cell, in spite of ties.
 #include <cmath>
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edge collapse: fewer edges, the same bars, cells and cycles that mean what they say.
+// Edge collapse: fewer edges, but the same bars, with valid cells and cycles.
 #include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/detail/rips/rips_graph.hpp"

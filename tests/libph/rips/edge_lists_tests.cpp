@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edges on their way into a complex: collected, put into bins, sorted, as lists of neighbours.
+// The path of edges into a complex: they are collected, sorted into bins, and stored as lists of
+// neighbours.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// H3 by links of edges: pair by pair and cell by cell as the oracle, over several fields, with
-// ties, with both ways to keep the graph.
+// H3 by links of edges: compares with the oracle pair by pair and cell by cell, over several
+// fields, with ties, and for both ways to store the graph.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the sweep of edge links keeps the classes of edges in where thousands of classes live.
+// Tests the data structures in which the sweep of edge links keeps classes of edges when thousands
+// of classes are alive.
 #include <algorithm>
 #include <array>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The graph under a Rips filtration: thresholds, layouts, small and degenerate inputs.
+// The graph of a Rips filtration: thresholds, layouts, small and degenerate inputs.
 #include <limits>
 
 #include "ph/merge_tree.hpp"

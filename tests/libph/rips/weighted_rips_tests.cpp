@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices that enter late: weighted Rips filtrations, held to what they are by definition.
+// Weighted Rips filtrations, in which vertices enter late: compares them with the definition.
 #include <limits>
 #include <numeric>
 

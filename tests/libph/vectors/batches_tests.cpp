@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is learned of many diagrams, and kernels of two.
+// Values that are fitted to many diagrams, and kernels of two diagrams.
 #include <gtest/gtest.h>
 
 #include <cmath>

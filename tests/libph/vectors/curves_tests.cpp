@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids, what becomes of infinite bars, and curves on grids.
+// Grids, the treatment of infinite bars, and curves on grids.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cameras that look straight down on a table: the origin's perpendicular meets the plane inside the
-// picture, so that the coordinates of the plane's squares have both signs and pass through -1.
+// Cameras that look straight down on a table: the perpendicular from the origin meets the plane
+// inside the picture. As a result, the coordinates of the plane's squares have both signs and pass
+// through -1.
 #include <gtest/gtest.h>
 
 #include <random>

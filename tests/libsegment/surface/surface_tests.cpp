@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Method surface on small scenes with known answers; surface_stages_tests.cpp has its stages.
+// Method surface on small scenes with known answers. surface_stages_tests.cpp tests its stages.
 #include <gtest/gtest.h>
 
 #include <algorithm>

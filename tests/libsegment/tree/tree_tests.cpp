@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cuts of a scene's merge tree, and the tree as a file.
+// Cuts of a scene's merge tree, and the file that stores the tree.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

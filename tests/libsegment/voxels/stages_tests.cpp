@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each stage alone, on data with known answers.
+// Tests each stage separately, on data with known answers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Options together: any small complex with whatever options its engines take, against the oracle
-// that computes all bars of positive length. What an option may save must not be a bar.
+// Combinations of options: compares any small complex, with any options that its engines accept,
+// with the oracle, which computes all bars of positive length. Options that save work must not lose
+// bars.
 #include <gtest/gtest.h>
 
 #include <algorithm>

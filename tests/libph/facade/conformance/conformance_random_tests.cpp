@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every engine against the oracle on random small filtrations, half of them with heavy ties.
+// Compares every engine with the oracle on random small filtrations, half of which have many ties.
 #include <cmath>
 #include <numbers>
 

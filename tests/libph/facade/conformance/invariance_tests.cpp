@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must not change a barcode, and what must change it in a known way.
+// Tests changes of the input that must not change a barcode, or must change it in a known way.
 #include <chrono>
 
 #include "ph/eigen.hpp"

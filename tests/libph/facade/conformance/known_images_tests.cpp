@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of known homology: shells, rings, boxes that close up on themselves.
+// Images of known homology: shells, rings, boxes with periodic axes.
 #include "tests/support/conformance.hpp"
 #include "tests/support/generators.hpp"
 #include "tests/support/known_spaces.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spaces of known homology, each run through the whole suite and then held to the textbook.
+// Spaces of known homology: runs each through the whole suite, and compares it with the textbook.
 #include "tests/support/known_spaces.hpp"
 
 #include "tests/support/conformance.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images with a mask: every engine against the oracle on cubes that are listed by the definition.
+// Images with a mask: compares every engine with the oracle, for which the cubes are listed by the
+// definition.
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What only POSIX has: FIFOs, and files that nobody may read.
+// Tests of what exists only on POSIX systems: FIFOs, and files without read permission.
 #include <sys/stat.h>
 #include <unistd.h>
 

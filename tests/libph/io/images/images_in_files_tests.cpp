@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that exceed the memory limit stay in their file, or in a temporary one: with the same
+// Images that exceed the memory limit stay in their file, or in a temporary file, and have the same
 // numbers as in memory.
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables with names, indexes and chosen columns, and what is read where nothing says what it is.
+// Tables with names, indexes and chosen columns, and tables without any hint of what they contain.
 #include <algorithm>
 #include <limits>
 

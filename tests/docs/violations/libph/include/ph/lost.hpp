@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// No page of the reference has it.
+// No page of the reference lists this header.

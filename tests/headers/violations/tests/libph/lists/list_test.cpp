@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// Neither its folder nor its name is that of a test.
+// Neither the name of its folder nor its own name is that of a test.

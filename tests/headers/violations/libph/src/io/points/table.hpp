@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-// A circle of folders: bytes/ includes this file.
+// Makes a circle of folders: bytes/ includes this file.
 #include "libph/src/io/bytes/input.hpp"

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// One of two public headers, where only one is allowed.
+// One of two public headers in a folder that may have only one.
