@@ -12,7 +12,7 @@ RELATIVE = 1e-5  # tolerance, relative to the larger end
 
 
 def read(text, max_dim):
-    """Ripser's output as {dim: sorted [(birth, death)]}."""
+    """Reads Ripser's output as {dim: sorted [(birth, death)]}."""
     bars, dim = {d: [] for d in range(max_dim + 1)}, None
     for line in text.splitlines():
         if found := re.match(r"persistence intervals in dim(?:ension)? (\d+)", line):

@@ -40,8 +40,10 @@ from measuring import Limits, Meter
 PROGRAM = "ph-barcode"
 DOORS = ("C++", "C++ moved", "C", "Python")
 CPU_BOUND, MEMORY_BOUND = 1.2, 1.5  # the default bounds of --check
-CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0  # s and MB above the program's cost that still count as equal
-START_NOISE = 0.25  # share of a door's start that is added to CPU_FLOOR: imports do not always take as long
+# A door within these seconds and MB of the program counts as equal.
+CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0
+# Share of a door's start that is added to CPU_FLOOR, because the time of imports varies.
+START_NOISE = 0.25
 LENGTHS_AGREE = 1e-9  # relative: sums of the same lengths may be rounded in different orders
 PYTHON = """import numpy as np
 import libph as ph

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 SHORT = 0.05  # s: a shorter run is repeated often
 LONG = 10.0  # s: a longer run is not repeated
 WALL_OVER_CPU = 6  # the wall-clock limit of a run, as a multiple of its CPU limit
-PR_SET_THP_DISABLE = 41  # <linux/prctl.h>; lasts across execve
+PR_SET_THP_DISABLE = 41  # from <linux/prctl.h>; the setting survives execve
 
 
 @dataclass(frozen=True)
@@ -64,10 +64,11 @@ def _outcome(status, messages):
 
 
 class Meter:
-    """Runs programs through `bench_run`, which reports the cost of each.
+    """Runs programs through `bench_run`, which reports the cost of each run.
 
-    Each program is run `repeat` times, or once if it takes long; a short one is repeated until its
-    runs have taken `together` seconds.
+    Each program is run `repeat` times, or once if it takes long. A short program is repeated until
+    its runs have taken `together` seconds.
+
     """
 
     def __init__(self, bench_run, limits=Limits(), repeat=3, together=0.5):
@@ -101,8 +102,8 @@ class Meter:
         return self.best_in_turns([command])[0]
 
     def best_in_turns(self, commands):
-        """The best run of each command. The commands take turns, so that a slow minute of the
-        machine affects all of them."""
+        """The best run of each command. The commands take turns, because a slow minute of the
+        machine then affects all of them."""
         taken = [[] for _ in commands]
         while waiting := [i for i, runs in enumerate(taken) if not self._enough(runs)]:
             for i in waiting:

@@ -16,7 +16,7 @@ int long_loops(const ph::Barcode& bars, double longer_than) {
 }  // namespace
 
 int main() {
-  // A circle of radius 1, a little blurred; the last 20 points lie inside.
+  // A slightly blurred circle of radius 1; the last 20 points are outliers inside it.
   const ph::Index count = 2000, outliers = 20;
   ph::Points points(count, 2);
   for (ph::Index i = 0; i < count; ++i) {

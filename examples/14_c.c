@@ -7,7 +7,7 @@
 
 static int never(void* user) {
   (void)user;
-  return 0; /* anything else stops the computation */
+  return 0; /* any other value stops the computation */
 }
 
 int main(void) {

@@ -82,7 +82,7 @@ def write(path, rows):
 
 
 def measure(command, folder):
-    """@return CPU seconds, peak in MB, output."""
+    """@return CPU seconds, peak memory in MB, output."""
     best = None
     for _ in range(3):
         out = open(folder / "out", "w+")

@@ -55,7 +55,7 @@ def stride(scene, step, _):
 
 
 def subset(scene, percent, generator):
-    """A random choice of the points with depth, in random order, without rows and columns."""
+    """A random subset of the points with depth, in random order and without rows and columns."""
     there = numpy.flatnonzero(numpy.isfinite(scene.points).all(axis=1))
     kept = generator.permutation(there)[: round(len(there) * percent / 100)]
     return dataclasses.replace(

@@ -76,8 +76,8 @@ def run_doxygen(folder):
 
 
 def with_namespaces(group):
-    """Breathe shows the members of a group by their bare names, and does not search namespaces for
-    parameter types."""
+    """Adds namespaces, because Breathe shows the members of a group by their bare names, and does
+    not search namespaces for parameter types."""
     def whole(match):
         name = re.search(r"<qualifiedname>(ph::[^<]*)</qualifiedname>", match[0])
         return re.sub(r"<name>[^<]*</name>", f"<name>{name[1]}</name>", match[0], count=1) if name else match[0]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the data of this folder that pages of docs/ use: make.py. Needs only the standard library;
-the numbers are the same each time."""
+"""Makes the data in this folder, which pages of docs/ use: make.py. Needs only the standard
+library, and makes the same numbers each time."""
 import gzip
 import math
 import random

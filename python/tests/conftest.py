@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Fixtures shared by all tests. PH_BARCODE: the program to compare with."""
+"""Fixtures shared by all tests. The environment variable PH_BARCODE names the program to compare
+with."""
 import os
 
 import numpy as np

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares distances of barcodes with SciPy's assignments, on matrices with a diagonal place for
-each bar."""
+"""Compares distances of barcodes with SciPy's assignments, on matrices with a place on the diagonal
+for each bar."""
 import itertools
 import math
 import pickle

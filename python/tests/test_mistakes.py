@@ -46,7 +46,7 @@ def test_correlations_given_as_distances(dtype):
         ph.rips(missing, metric="precomputed")
     bars = ph.rips(1 - CORRELATIONS, metric="precomputed")
     assert len(bars.dgm(0)) == 8
-    # An option that is given explicitly is obeyed.
+    # An option that is stated explicitly is obeyed without a warning.
     births = ph.rips(np.ones((3, 3)), metric="precomputed", diagonal="births")
     assert births.dgm(0).tolist() == [[1, np.inf]]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Options: defaults are the current ones, and meaningless values are refused with a message."""
+"""Options: defaults are those of the program, and meaningless values are refused with a message."""
 import threading
 
 import numpy as np

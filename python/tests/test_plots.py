@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures that matplotlib draws of barcodes."""
+"""The pictures of barcodes that matplotlib draws."""
 import numpy as np
 import pytest
 

@@ -3,7 +3,7 @@
 """Tests the programs that pages show: they compile and print what the page says.
 
     programs_in_pages.py write PAGE FOLDER COUNT     PAGE's programs as FOLDER/1.cpp, FOLDER/2.cpp, …
-    programs_in_pages.py run PAGE NUMBER PROGRAM     runs what was made of one of them
+    programs_in_pages.py run PAGE NUMBER PROGRAM     runs PROGRAM, which was compiled from one of them
 
 A program is a block ```cpp with a main function. The block ```text after it is what it prints. It runs
 in the root of the repository.

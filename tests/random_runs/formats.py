@@ -310,7 +310,7 @@ def values_file(rng, values):
     return "v.bin", packed(values, "float64")
 
 
-# Barcodes.
+# Barcodes, read from the program's output.
 
 def read_barcode(content, form):
     """@return the bars as sorted triples (dim, birth, death)."""

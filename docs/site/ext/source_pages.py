@@ -140,7 +140,7 @@ def page_of_file(app, path):
         lexer = "text"
     shown = PygmentsBridge("html", app.config.pygments_style).highlight_block(
         text, lexer, force=True, linenos="inline")
-    # Binary data are not copied.
+    # Line numbers become attributes: whoever copies the text does not copy them.
     return re.sub(r'<span class="linenos">([^<]*)</span>', r'<span class="linenos" data-line="\1"></span>', shown)
 
 

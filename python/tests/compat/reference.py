@@ -123,5 +123,5 @@ def random_distances(rng, n, ties):
 
 
 def single(numbers):
-    """Doubles rounded to single precision."""
+    """The doubles rounded to single precision."""
     return np.asarray(numbers, dtype=np.float32).astype(float)

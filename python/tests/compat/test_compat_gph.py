@@ -96,7 +96,7 @@ def test_of_a_sparse_matrix_both_triangles_are_read_and_the_upper_one_wins(rng):
                                (np.concatenate([j, i]), np.concatenate([i, j]))), shape=(8, 8))
     for stored in (up, up.T, up.tocsr(), wrong, wrong.tocsr()):
         assert same(of_matrix(stored)["dgms"], expected)
-    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # shape (1, 4): points without a row
+    oblong = sparse.coo_matrix(([1.0], ([0], [3])))  # shape (1, 4): three of the points have no row
     assert of_matrix(oblong)["dgms"][0].tolist() == [[0, 1], [0, INF], [0, INF], [0, INF]]
     empty = sparse.coo_matrix((0, 0))
     assert [d.shape for d in of_matrix(empty)["dgms"]] == [(0, 2), (0, 2)]

@@ -144,7 +144,7 @@ def test_layouts(layout, name, data, compute):
 def test_types(name, compute):
     given, plain = of_type(POINTS, name)
     if compute not in (ph.rips, ph.cubical, ph.merge_tree) and given.dtype.kind in "bu":
-        given = plain  # NumPy itself wraps around
+        given = plain  # for these types, NumPy's own results wrap around
     before = given.copy()
     result, expected = compute(given), compute(plain)
     assert np.array_equal(given, before)

@@ -8,6 +8,6 @@ def of_class(kind):
 
 
 def same(a, b):
-    """True if lists of lists of arrays are equal."""
+    """True if two lists of lists of arrays are equal."""
     return len(a) == len(b) and all(
         len(x) == len(y) and all(map(np.array_equal, x, y)) for x, y in zip(a, b))

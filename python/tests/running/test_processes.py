@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Computations in threads and processes, and at the end of Python."""
+"""Computations in threads and in processes, and computations that run while Python ends."""
 import concurrent.futures
 import copy
 import multiprocessing

@@ -159,8 +159,7 @@ def test_ctrl_c_reaches_the_main_thread_only():
     assert outcome == [ph.Cancelled]
 
 
-# Without a second thread, the computation itself checks the time, its stop and signals, and reports
-# its progress.
+# ---- progress
 
 
 def test_progress_is_told():
@@ -214,7 +213,8 @@ def test_progress_true_is_a_bar_of_tqdm(monkeypatch):
 
 
 def test_where_the_system_gives_no_thread():
-    """The computation checks the time, stops and signals itself, and reports its progress."""
+    """Without a second thread, the computation itself checks the time, its stop and signals, and
+    reports its progress."""
     code = textwrap.dedent("""
         import os, resource, signal, threading, time
         import numpy as np

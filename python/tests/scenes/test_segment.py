@@ -247,7 +247,7 @@ def test_the_tree_is_that_of_the_program(program):
         else:
             normals = [None if np.isnan(n).any() else n.tolist() for n in voxels.normals]
             assert normals == [v["normal"] for v in vertices]
-        # Points of one voxel have the label of the voxel.
+        # All points of a voxel have the voxel's label.
         has_voxel = voxels.of_point >= 0
         assert np.array_equal(voxels.labels[voxels.of_point[has_voxel]], found.labels[has_voxel])
         barcode = program.folder / "bars.json"

@@ -33,7 +33,7 @@ class Formats(ProgramTest):
         self.assertEqual(run.stdout.decode(), SQUARE_CSV)
 
     def test_one_image_in_many_formats(self):
-        # x runs fastest: 3 x 2 values
+        # x varies fastest: 3 x 2 values
         values = [0, 5, 2, 4, 9, 1]
         expected = self.bars("a.dipha", dipha(1, 6, 2, 3, 2, *map(float, values)))
         self.assertIn("0,0,inf", expected)

@@ -15,7 +15,7 @@ import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
 EXTENTS = (160, 150, 144)
-UNITS = {"KiB": 1 / 1024, "MiB": 1, "GiB": 1024}  # MiB
+UNITS = {"KiB": 1 / 1024, "MiB": 1, "GiB": 1024}  # in MiB
 BESIDE = 32  # MiB that code, libraries and small allocations may take in addition to the limit
 
 

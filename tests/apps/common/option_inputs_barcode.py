@@ -155,7 +155,7 @@ def inputs(Input, program):
 
     pairs = [(i, j, length(i, j)) for i in range(size) for j in range(i)]
     grey = [random.randrange(10) for _ in range(30)]
-    grey[7] = 200  # a byte with its high bit
+    grey[7] = 200  # a byte whose high bit is set
     many = [random.randrange(256) for _ in range(4 * 30)]
     floats = [value + 0.25 for value in grey]
     one_nan = [math.nan, *floats[1:]]

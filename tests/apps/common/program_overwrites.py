@@ -127,7 +127,7 @@ class Overwrites(FolderTest):
                            "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
         self.assertFalse(os.path.exists(self.path("new")))
-        # A device that keeps nothing may be written twice.
+        # A device that keeps nothing may be named as two outputs.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
 

@@ -15,7 +15,7 @@
 
 namespace ph::test {
 
-/// A coefficient for each edge of a complex.
+/// The coefficient of each edge of a complex.
 using EdgeRow = std::vector<std::int64_t>;
 
 /// A flag complex with a list of its edges, as the oracle needs it.

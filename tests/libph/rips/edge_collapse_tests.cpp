@@ -41,7 +41,7 @@ Rips random_rips(Generator& random, Index most_points, bool ties) {
   }
 }
 
-/// The graph that would be collapsed.
+/// The graph that the engine cohomology uses for H1, which the collapse works on.
 const RipsGraph& graph_of(const Rips& rips) {
   return planned_graph(rips, {.max_dim = 1, .engine = Engine::cohomology});
 }

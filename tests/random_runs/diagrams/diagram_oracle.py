@@ -17,9 +17,9 @@ FEW = 2000  # up to this number of ways to pair bars, all are tried
 
 
 def kinds(bars):
-    """@return the finite bars; the births of bars that are born but never die, and the deaths of
-    bars that always existed, both sorted; and the number of bars that always existed and never
-    die."""
+    """@return four kinds of bars: the finite bars; the births of bars that are born and never die,
+    sorted; the deaths of bars that always existed and die, sorted; and the number of bars that
+    always existed and never die."""
     finite = [(b, e) for b, e in bars if b < e and not math.isinf(b) and not math.isinf(e)]
     rays = sorted(b for b, e in bars if b > -INF and e == INF)
     always = sorted(e for b, e in bars if b == -INF and e < INF)

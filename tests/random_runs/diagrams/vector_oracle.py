@@ -93,7 +93,7 @@ def silhouette(bars, at, power):
 
 
 def shares_of_pixels(low, high, count, centre, sigma):
-    """The mass of a normal distribution in each pixel."""
+    """For each pixel, the mass of a normal distribution in it."""
     ends = low + (high - low) * np.arange(count + 1) / count
     with np.errstate(over="ignore"):
         left, right = (ends[:-1] - centre) / sigma, (ends[1:] - centre) / sigma

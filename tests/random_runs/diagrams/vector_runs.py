@@ -73,7 +73,7 @@ def expected_refusal(task):
     return None
 
 
-# The fitted values.
+# Fitted values by the definition.
 
 def around(x, width):
     """A range around a number, wide enough that doubles in it differ."""

@@ -52,7 +52,7 @@ def standard_input(rng, np_rng, program, check, tree, source, names):
 
 
 def other_format(rng, np_rng, program, check, tree, source, names):
-    """Every other format holds the same points, possibly as 32-bit floats."""
+    """The same points in another format, possibly as 32-bit floats, have the same labels."""
     scene = dataclasses.replace(check.scene, xyz=check.xyz, viewpoint=tuple(check.json["viewpoint"]), depth=None,
                                 extra=[])
     forms = [f for f in scene_files.CLOUDS if f != "pts" or len(check.xyz)]

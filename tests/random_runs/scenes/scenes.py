@@ -257,7 +257,7 @@ def other_cut(rng, asked, scene):
 
 
 def random_options(rng, scene):
-    """@return the options as an Asked."""
+    """@return random options as an Asked."""
     asked = Asked(rng.choice(["paper", "paper", "surface", "surface", "supervoxels"]))
     size = scene.size
     if rng.random() < 0.9 or size > 10 or size < 0.01:

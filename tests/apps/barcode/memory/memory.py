@@ -20,7 +20,7 @@ from program import ProgramTest, main  # noqa: E402
 from under_limit import BESIDE, INPUTS, UnderLimit, is_sanitized, peak_of  # noqa: E402
 
 MIB = 1 << 20
-LIMITS = (2, 16, 48, 128)  # MiB
+LIMITS = (2, 16, 48, 128)  # in MiB
 NOBODY = 65534
 SECONDS = 2  # CPU seconds; a longer run is stopped, and only its memory until then is checked
 BEYOND_LIMITS = ("--engine", "cohomology", "--min-persistence", "-1")  # exceeds every limit soon
