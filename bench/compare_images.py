@@ -4,13 +4,13 @@
 
     compare_images.py build/release --peer 'OTHER 1.0 = construction=cells PROGRAM {input} [--print]'
 
-A peer is NAME = COMMAND, the name with its version. The command is preceded by
-construction=vertices or construction=cells, the construction to compare, and by axes=N if it
-accepts only images with N axes. In the command, {input} is a .npy file of float64 in C order and
-{threads} the number of threads (a command without {threads} is measured with one). Words in
-[brackets] are used only in the run whose bars are compared; [A|B] means A in that run and B in
-measured runs. In that run the peer prints `dim birth death`, one bar per line. Arguments may be
-stored in a file, one per line, given as @FILE.
+A peer is NAME = COMMAND; the name includes the version. The command is preceded by
+construction=vertices or construction=cells, which names the construction to compare, and by axes=N
+if it accepts only images with N axes. In the command, {input} is a .npy file of float64 in C order
+and {threads} the number of threads (a command without {threads} is measured with one thread). Bars
+are compared in a separate run. Words in [brackets] are used only in this run; [A|B] means A in this
+run and B in measured runs. In this run, the peer prints one bar per line, as `dim birth death`.
+Arguments may be stored in a file, one per line, which is given as @FILE.
 
 The script measures user + system CPU seconds and peak resident memory of whole processes, including
 reading the image, with output discarded; bench/README.md explains how. Needs numpy.

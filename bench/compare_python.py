@@ -6,10 +6,10 @@ run.
     compare_python.py build/release --path FOLDER_WITH_A_PACKAGE --json results.json
 
 A package that is neither installed nor in a folder given by --path leaves its cells empty. The
-script measures user + system CPU seconds and peak resident memory of `python3 -c PROGRAM`, which
+script measures user + system CPU seconds and peak resident memory of `python3 -c PROGRAM`: this
 includes the start of the interpreter, imports and reading the array. The first row is the same
-interpreter importing only NumPy. An unmeasured run compares the bars with ours. Needs NumPy;
-bench/README.md explains the method.
+interpreter when it imports only NumPy. A separate run, which is not measured, compares the bars
+with ours. Needs NumPy; bench/README.md explains the method.
 """
 import argparse
 import json

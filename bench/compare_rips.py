@@ -5,11 +5,11 @@ run.
 
     compare_rips.py build/release --data FOLDER --peer 'Ripser 1.2.1 = ripser {options}'
 
-A peer is NAME = COMMAND, the name with its version. In the command, {options} stands for the input
-in Ripser's options (--format F --dim D [--threshold T] FILE), and {threads} for the number of
-threads (a command without {threads} is measured with one). Words in [brackets] are used only in the
-run whose bars are compared; [A|B] means A in that run and B in measured runs. Arguments may be
-stored in a file, one per line, given as @FILE.
+A peer is NAME = COMMAND; the name includes the version. In the command, {options} stands for the
+input in Ripser's options (--format F --dim D [--threshold T] FILE), and {threads} for the number of
+threads (a command without {threads} is measured with one thread). Bars are compared in a separate
+run. Words in [brackets] are used only in this run; [A|B] means A in this run and B in measured
+runs. Arguments may be stored in a file, one per line, which is given as @FILE.
 
 The script measures user + system CPU seconds and peak resident memory of whole processes, with
 output discarded; bench/README.md explains how. Needs only the standard library.

@@ -1,27 +1,29 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares the cost of the ways into the library with ph-barcode, on the same Rips barcodes, in one
-run.
+"""Compares the cost of calling the library with the cost of ph-barcode, on the same Rips barcodes,
+in one run.
 
     front_door.py build/release [--large] [--rows WORD] [--csv FILE] [--check [CPU MEMORY]]
 
-The ways in are called *doors*:
+The ways to call the library are named *doors*:
 
 * C++: `ph::persistence(ph::Rips(points), {.max_dim = k})`, as the README writes it;
 * C++ moved: the same with `ph::Rips(std::move(points))`;
 * C: `ph_rips_points` and `ph_rips_distances`;
 * Python: `ph.rips(points, max_dim=k)`.
 
-A cell of the table has two ratios, door / program: of user + system CPU seconds, and of peak resident memory. Each
-door runs one thread, and its run with the least CPU time counts. Every process reads its input. The doors print a
-summary of their bars; the program prints nothing while it is measured. What a door takes on ten points, beyond what
-the program takes on ten points, is subtracted: these are the imports of Python. The doors must find the program's
-bars: as many in each dimension, of the same total length.
+A cell of the table has two ratios of door to program: one of user + system CPU seconds, and one of
+peak resident memory. Each door uses one thread, and its run with the least CPU time counts. Every
+process reads its input. The doors print a summary of their bars; the program prints nothing while
+it is measured. Starting a door takes longer than starting the program, mainly because of Python's
+imports. This difference is measured on ten points and subtracted. The doors must find the program's
+bars: the same number in each dimension, with the same total length.
 
-A ratio is ≈ 1 where the door and the program differ by at most 8 MB, or by at most 0.02 s and a quarter of the CPU
-time that was subtracted: such differences are the noise of a machine. `--check` exits with 1, and names the rows, if a
-door takes more than CPU or MEMORY times what the program takes and the difference is no noise. The script always exits
-with 1 if a door fails or finds other bars. Needs NumPy; a door that is not built is left out.
+A ratio is ≈ 1 if the door and the program differ by at most 8 MB, or by at most 0.02 s and a
+quarter of the CPU time that was subtracted: smaller differences are noise. `--check` exits with 1,
+and names the rows, if a door takes more than CPU or MEMORY times as much as the program and the
+difference exceeds the noise. The script always exits with 1 if a door fails or finds other bars.
+Needs NumPy. A door that is not built is left out.
 """
 import argparse
 import csv

@@ -6,9 +6,10 @@ The page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each ta
 replaces the text between them. With --check it does not change the page, and the exit code is 1 if
 the page would change.
 
-A CSV file has the columns of the table between a column `shown` (yes: the row is on the page) and
-the columns `script`, `machine`, `date` and `versions`. These make up the line above the table. Two
-columns "X s" and "X MB" become one column X. Standard library only.
+A CSV file begins with a column `shown` (yes: the row is on the page) and ends with the columns
+`script`, `machine`, `date` and `versions`, from which the line above the table is made. The columns
+between them are those of the table. Two columns "X s" and "X MB" become one column X. Needs only
+the standard library.
 """
 import argparse
 import csv

@@ -2,8 +2,8 @@
 """The inputs of compare_rips.py: files of a data folder, and seeded samples that are written when
 needed.
 
-Samples use only `random.Random.random()`, whose sequence Python promises to keep, so that a sample
-is the same file on every machine.
+Samples use only `random.Random.random()`, whose sequence Python promises to keep: a sample is the
+same file on every machine.
 """
 import math
 import os

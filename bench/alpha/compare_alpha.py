@@ -3,10 +3,10 @@
 """Compares alpha complexes with CGAL's triangulation alone and with GUDHI: compare_alpha.py BUILD
 [--gudhi-python PYTHON] [--million] [ROW…]
 
-Measures whole programs on one thread, including reading: CPU seconds, the least of three runs (one
-for long runs), and peak memory. GUDHI runs in the faster of its modes `safe` and `exact`; `fast`
-makes no promises. Bars are compared by their total length in each dimension. Prints a table in
-Markdown."""
+Measures whole programs on one thread, including the time to read: CPU seconds, the least of three
+runs (or the only run, if it is long), and peak memory. GUDHI runs in the faster of its modes `safe`
+and `exact`, because its mode `fast` makes no promises. Bars are compared by their total length in
+each dimension. Prints a table in Markdown."""
 import argparse
 import math
 import os

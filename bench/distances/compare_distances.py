@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Compares distances of diagrams with Hera, through GUDHI: compare_distances.py [ROW…]
 
-Needs libph and gudhi in one Python. Counts only the computation, on one thread, in CPU seconds: the
-least of three runs for libph, one run for Hera. The results must agree within 1e-9 or within the
-requested error. For a matrix, Hera computes some pairs, and its time is extrapolated to all pairs.
-Prints a table in Markdown."""
+Needs libph and gudhi in the same Python. Measures only the computation, on one thread, in CPU
+seconds: the least of three runs for libph, and a single run for Hera. The results must agree within
+1e-9 or within the requested error. For a matrix, Hera computes some of the pairs, and its time is
+extrapolated to all pairs. Prints a table in Markdown."""
 import sys
 import time
 

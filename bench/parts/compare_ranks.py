@@ -4,10 +4,11 @@
 
     compare_ranks.py build/release --rows 128³ --ranks 1,2,4 --peer 'OTHER 1.0 = PROGRAM {input} {output}'
 
-In a peer's command, {input} is a .npy file of float32 in C order and {output} a path that it may
-write to. The peer runs under mpirun, like ph-barcode-mpi. The script measures user + system CPU
-seconds of all ranks together, wall seconds, and the peak resident memory of the largest rank. The
-bars of ph-barcode-mpi must equal those of ph-barcode, byte for byte. Needs numpy and scipy.
+In a peer's command, {input} is a .npy file of float32 in C order, and {output} is a path to which
+the peer may write. The peer runs under mpirun, like ph-barcode-mpi. The script measures user +
+system CPU seconds of all ranks together, wall seconds, and the peak resident memory of the largest
+rank. The bars of ph-barcode-mpi must equal those of ph-barcode, byte for byte. Needs numpy and
+scipy.
 """
 import argparse
 import filecmp

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Draws pictures of labels: ground truth and segments side by side, as PNG.
 
-Unless they are shaded, the pictures show nothing of the frame itself except where depth is missing.
-A segment has the colour of its matched object; an unmatched segment has its own colour and
+Unless the pictures are shaded, the only thing that they show of the frame itself is where depth is
+missing. A segment has the colour of its matched object; an unmatched segment has its own colour and
 stripes."""
 import pathlib
 import struct

@@ -6,21 +6,21 @@ one run.
     segmentation_scores.py build/release SCENES \\
       --peer 'NAME 1.0 = PROGRAM {input} --labels {output}.npy'
 
-SCENES is a folder of PCD files with fields x y z label: 0 no depth, 1 to 9 the table, 20 to 29 the
-parts of the first object, 30 to 39 those of the second, … The category of each frame is in a CSV
-file (frame,category).
+SCENES is a folder of PCD files with the fields x y z label. A label of 0 means no depth, 1 to 9 the
+table, 20 to 29 the parts of the first object, 30 to 39 those of the second object, and so on. The
+category of each frame is in a CSV file (frame,category).
 
-A peer is NAME = COMMAND, the name with its version. In the command, {input} is the frame, {folder}
-and {name} are its folder and its name without .pcd. The peer writes one label per point, in the
-order of the input, to {output}.npy, {output}.pgm or {output}.pcd; {outputs} is the folder of this
-file. The command may be preceded by background=B (labels up to B are not segments; default 0) and
-stages=FILE (CSV with the seconds of each stage in columns t_NAME). Arguments may be stored in a
-file, one per line, given as @FILE.
+A peer is NAME = COMMAND; the name includes the version. In the command, {input} is the frame, and
+{folder} and {name} are its folder and its name without .pcd. The peer writes one label per point,
+in the order of the input, to {output}.npy, {output}.pgm or {output}.pcd; {outputs} is the folder of
+this file. The command may be preceded by background=B (labels up to B are not segments; default 0)
+and stages=FILE (CSV with the seconds of each stage in columns t_NAME). Arguments may be stored in a
+file, one per line, which is given as @FILE.
 
-Scores are always computed; for a program with "supervoxels" in its name or options, they are the
-scores of pieces of objects: boundary recall and under-segmentation error. --times measures CPU
-seconds and memory, --perturb makes the frames worse, --cross-validate chooses options on other
-categories, --pictures draws labels; see docs/notes/segmentation-benchmarks.md. Needs numpy.
+Scores are always computed. A program with "supervoxels" in its name or options gets the scores for
+pieces of objects: boundary recall and under-segmentation error. --times measures CPU seconds and
+memory, --perturb degrades the frames, --cross-validate chooses options by the other categories, and
+--pictures draws labels; see docs/notes/segmentation-benchmarks.md. Needs numpy.
 """
 import argparse
 import csv

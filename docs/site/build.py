@@ -8,7 +8,7 @@ In the folder it makes
 
 source/     a tree of links to the pages of the repository, none of which is copied
 doxygen/    XML of the public headers
-printed/    the options of the programs, as they print them, if there are programs
+printed/    the options of the programs, as the programs print them, if there are programs
 reports/    the reports of the gallery, if there are programs
 html/       the site
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Runs the commands that pages show and compares their output: commands_in_pages.py BIN… [-- PAGE…]
-Without a page: all pages with commands.
+Without PAGE, it takes all pages with commands.
 
-In a block ```console, a line `$ command` is run in a separate folder for the page, with a copy of
-examples/ and with the programs of the folders BIN on the path; a backslash at its end continues it
-in the next line. The lines after it are its output. `…` stands for anything within a line, a line
-`…` for any number of lines. Commands that write a report are skipped with a message if the programs
-have no page, and commands that use jq if there is none.
+In a block ```console, each line `$ command` is run. All commands of a page run in a separate folder
+with a copy of examples/, and the folders BIN with the programs are on the path. A backslash at the
+end of a line continues the command. The lines after a command are its expected output, in which `…`
+stands for any text within a line, and a line `…` for any number of lines. Commands that write a
+report are skipped with a message if the report page is not built in, and so are commands that use
+jq if it is missing.
 
-A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write;
-docs/images/make.py copies it. The two must be equal, byte for byte.
+A picture images/pages/NAME.svg on a page must equal, byte for byte, the file NAME.svg that the
+commands of the page write; docs/images/make.py copies it.
 """
 import os
 import pathlib

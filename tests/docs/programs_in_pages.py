@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Tests the programs that pages show: they compile and print what the page says.
 
-    programs_in_pages.py write PAGE FOLDER COUNT     PAGE's programs as FOLDER/1.cpp, FOLDER/2.cpp, …
-    programs_in_pages.py run PAGE NUMBER PROGRAM     runs PROGRAM, which was compiled from one of them
+    programs_in_pages.py write PAGE FOLDER COUNT     writes PAGE's programs to FOLDER/1.cpp, …
+    programs_in_pages.py run PAGE NUMBER PROGRAM     runs PROGRAM, compiled from one of the files
 
-A program is a block ```cpp with a main function. The block ```text after it is what it prints. It runs
-in the root of the repository.
+A program is a block ```cpp with a main function. The block ```text after it is its expected output.
+A program runs in the root of the repository.
 """
 import re
 import subprocess

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs inputs
-designed to take long, in sizes n, 2n and 4n. The CPU time must not grow faster than the class of
-the attack allows. Attacks that may grow quadratically or faster must end at a memory limit, or
---dry-run must predict them. `full`: larger sizes."""
+"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs inputs that
+are designed to take long, called attacks, in sizes n, 2n and 4n. The CPU time must not grow faster
+than the complexity class of the attack allows. Attacks whose time may grow quadratically or faster
+must reach a memory limit, or --dry-run must predict their memory. `full` selects larger sizes, and
+WORDS the attacks whose names contain the words."""
 import dataclasses
 import gzip
 import math

@@ -5,11 +5,11 @@
 
 which is invisible to readers of the file. Kinds:
 
-    cpp HEADER…         what public headers declare, in the words of their comments
-    python NAME…        functions and classes of the package libph, by their docstrings
-    options PROGRAM     its options, as it prints them itself
+    cpp HEADER…         the declarations of public headers, described by their comments
+    python NAME…        functions and classes of the package libph, described by their docstrings
+    options PROGRAM     the options of a program, as the program prints them
     schema FILE         a JSON Schema as a table of members
-    report NAME         a link to a report that build.py let a program make
+    report NAME         a link to a report that a program made for build.py
 """
 import json
 import re
