@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     return 64;
   }
   const int out = std::atoi(argv[1]);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // end with the parent, which may be aborted
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends this process with its parent, which may be aborted
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child == 0) {

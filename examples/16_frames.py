@@ -14,7 +14,7 @@ def distance(segment, viewpoint):
 for line in sys.stdin:  # each frame arrives as soon as it is done
     frame = json.loads(line)
     path = frame["input"]["path"]
-    if "exit_code" in frame:  # the next frames follow all the same
+    if "exit_code" in frame:  # a failed frame; the next frames follow
         print(f"{path}: failed", flush=True)
     elif not frame["segments"]:
         print(f"{path}: nothing", flush=True)

@@ -159,8 +159,8 @@ def test_periodic_spaces():
     still = ph.alpha(np.round(points * 2**20) / 2**20, period=1)
     for dim in range(4):
         assert_allclose(moved.dgm(dim), still.dgm(dim), rtol=1e-14)
-    # With one axis that does not close up, the space is a cylinder; without any, it is ordinary
-    # space.
+    # With one axis that is not periodic, the space is a cylinder. Without a periodic axis, it is
+    # ordinary space.
     cylinder = ph.alpha(points, period=[1, None, 0])
     assert np.bincount(cylinder.dims[np.isinf(cylinder.deaths)]).tolist() == [1, 1]
     assert ph.alpha(points, period=[0, 0, 0]) == ph.alpha(points)

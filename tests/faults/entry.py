@@ -92,7 +92,7 @@ class Entry:
     message: str = ""   # regular expression for the line of a failure, or for a note of a success
     named: str = ""     # file or option that the error line names
     files: typing.Mapping = dataclasses.field(default_factory=dict)  # maps names to contents
-    output: typing.Optional[str] = None   # of a success, on stdout
+    output: typing.Optional[str] = None   # what a success prints on stdout
     form: str = ""      # key of FORMS; empty if the entry is not about a file's content
     around: typing.Optional[typing.Callable] = None  # a context manager like `plain`
     # after(folder) returns what is wrong after the run, or nothing.

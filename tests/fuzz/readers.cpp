@@ -60,7 +60,7 @@ std::vector<double> values(const Input& input, const ReadOptions& options) {
   return read_values(input, kValues, options);
 }
 
-/// All numbers of a camera, and the rays of some pixels; pixels without a ray are left out.
+/// All numbers of a camera, and the ray of one place in the picture, if the lens has a ray there.
 std::vector<double> camera(const Input& input, const ReadOptions&) {
   const Camera c = read_camera(input);
   std::vector<double> numbers{c.intrinsics.fx,

@@ -282,8 +282,8 @@ def check_kills(mpi, one_process, kills, seed):
         try:
             process.communicate(timeout=2 * MOST_SECONDS)
         except subprocess.TimeoutExpired:
-            # Open MPI 4.1.4: if a rank dies during its start, mpirun waits forever in one of a
-            # hundred runs, for its own lock (PMIx) and after all ranks have ended.
+            # In Open MPI 4.1.4, mpirun may hang if a rank dies during its start: in one of a
+            # hundred runs, it waits for its own lock (PMIx) after all ranks have ended.
             assert "openmpi" in mpi.mpirun and not mpi.ranks("killed.csv"), "ranks hang"
             process.kill()
             process.communicate()

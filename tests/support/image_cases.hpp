@@ -138,7 +138,7 @@ inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   return std::move(parts[0]);
 }
 
-/// The first layer of each of this many parts, whose sizes are random.
+/// The first layers of `parts` parts of random sizes.
 inline std::vector<Index> random_first_layers(Generator& random, int layers, int parts) {
   std::vector<Index> first{0};
   for (int left = parts - 1; left > 0; --left) {

@@ -151,9 +151,9 @@ def solve(matrix, right):
 
 
 def smallest_ball(points, weights=None):
-    """The squared radius of the smallest ball around some points. It is the largest among the
-    circumscribed balls of subsets that are the smallest ball around the subset. Weights are
-    subtracted from squared distances."""
+    """The squared radius of the smallest ball around some points. It is the largest circumscribed
+    ball of a subset that is also the smallest ball around this subset. Weights are subtracted from
+    squared distances."""
     best = INF
     weight = dict(enumerate(weights or [0.0] * len(points)))
     dim = len(points[0])

@@ -54,7 +54,7 @@ SMALL = {PersistenceImage: PersistenceImage(resolution=(3, 2)),
 @pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
 def test_ranges_are_those_of_the_samples_that_were_fitted(kind, dgms):
     fitted = clone(SMALL[kind]).fit(dgms[:3])
-    found = fitted.transform(dgms)  # these have one diagram more than the estimator was fitted to
+    found = fitted.transform(dgms)  # these include a sample that the estimator was not fitted to
     for i, row in enumerate(dgms):
         expected = np.concatenate([
             expected_columns(kind, dgm, [other[j] for other in dgms[:3]])

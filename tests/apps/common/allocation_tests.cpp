@@ -159,8 +159,8 @@ class Allocation : public testing::Test {
     const Files want = outputs();
     ASSERT_GT(total, 10) << "the library allocates elsewhere";
     RecordProperty("allocations", static_cast<int>(total));
-    // Tests every allocation if there are few. Otherwise the step is odd, so that it does not keep
-    // time with loops in the code.
+    // Tests every allocation if there are few. Otherwise the step is odd, because an even step
+    // could miss the same allocations in every round of a loop.
     const long step = total <= 4000 ? 1 : total / 2000 | 1;
     for (const bool once : {true, false}) {
       for (long n = 1; n <= total; n += step) {

@@ -82,7 +82,8 @@ class Input:
 
 
 def options_of(program):
-    """All options of the help by their first long name: the placeholder, and the listed choices."""
+    """Maps the first long name of each option in the help to its placeholder and its listed
+    choices."""
     found = {}
     for name, option in described.options_of(program).items():
         choices = option.value.replace("minkowski:P", "minkowski:3").split("|")

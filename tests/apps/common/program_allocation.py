@@ -170,7 +170,7 @@ def main():
         folder.run(SEGMENT, ["table.pcd", "--min-size", "1"],
                    {"-o": "out.pcd", "--labels": "out.png"})
         made = folder.outputs()
-        folder.add("out.pcd.in", made["out.pcd"])  # a PCD file of the kind binary_compressed
+        folder.add("out.pcd.in", made["out.pcd"])  # a binary_compressed PCD file
         folder.add("out.png.in", made["out.png"])
         # Most calls declare the options, and they are the same in every run of a program: all of
         # them fail in the first case of each program.

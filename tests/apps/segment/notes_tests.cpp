@@ -48,7 +48,7 @@ TEST_F(Notes, DepthImages) {
   const std::string camera = "--intrinsics 260,260,159.5,119.5";
   ASSERT_EQ(run("--depth d.png " + camera), 0) << err();
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
-  ASSERT_EQ(run("d.png " + camera), 0) << err();  // without --depth-scale, the result is the same
+  ASSERT_EQ(run("d.png " + camera), 0) << err();  // recognised without --depth
   EXPECT_TRUE(notes("2 segments")) << err();
   ASSERT_EQ(run("d.png --depth-scale 200 " + camera), 0);
   EXPECT_TRUE(notes("see --max-range, or --depth-scale")) << err();

@@ -20,7 +20,7 @@ ph_options defaults() {
   return options;
 }
 
-/// Compares all bars and their cells, using only the C interface for the first.
+/// Compares all bars and their cells, using only the C interface for `found`.
 void expect_same(ph_barcode* found, const Barcode& expected) {
   ASSERT_EQ(ph_barcode_size(found), expected.size());
   const ph_bar* bars = ph_barcode_bars(found);

@@ -131,7 +131,7 @@ TEST(PartForecast, LongRowsAreSeen) {
   }
 }
 
-/// What the parts took in total or at most.
+/// The memory and the bytes that parts took.
 struct Taken {
   /// Memory and file of the largest part; messages of all parts together.
   double memory = 0, file = 0, sent = 0;

@@ -346,7 +346,7 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
   EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
   for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
-  // Other methods do not look through openings, and without a plane nothing is below the plane.
+  // Other methods do not look through openings, and if no plane was found, nothing can be below it.
   SceneTree tree = b.s.tree;
   tree.method = Method::supervoxels;
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);

@@ -224,8 +224,8 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
                        "from_correlation"));
 }
 
-// Differences count as rounding if they are small compared to the largest entry, even if the entry
-// itself is smaller.
+// Differences count as rounding if they are small compared to the largest entry of the matrix, even
+// if the entries that differ are small themselves.
 TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
   const char* correlations = "1,1e-17,0.5\n-2e-17,1,0.25\n0.5,0.25,1\n";
   EXPECT_TRUE(contains(bad_data([&] { any(correlations); }), "from_correlation"));
