@@ -20,8 +20,8 @@ def head_of(text):
 
 def grouped(text, group):
     begin = f"/** @addtogroup {group} */ /** @{{ */"
-    # Removes friends, the hashes of cells and the tables of names, which are of no interest to readers,
-    # and definitions of class members, which would repeat their declarations.
+    # Removes what is of no interest to readers: friends, hashes of cells and tables of names.
+    # Also removes definitions of class members, which would repeat their declarations.
     text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^template <>\ninline constexpr std::array names_of<.*?^\};$", "", text,

@@ -53,8 +53,8 @@ def matches(expected, printed):
 
 
 def why_left_out(command, path):
-    """The reason to skip a command: it writes a report but its program has none built in, or it
-    needs a program that is missing. Empty if it can run."""
+    """The reason to skip a command: it writes a report but its program has no report page built in,
+    or it needs a program that is missing. Empty if it can run."""
     if "--report" in command and not has_page(shutil.which(command.split()[0], path=path)):
         return "reports are not built in"
     if "| jq " in command and not shutil.which("jq", path=path):

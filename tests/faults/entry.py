@@ -99,7 +99,7 @@ class Entry:
     after: typing.Optional[typing.Callable] = None
     creates: tuple = ()                   # files that must exist only after the run
     unprivileged: bool = False            # run as another user, because root is exempt
-    # Held to the limits for false headers; None: depends on the row.
+    # True if the limits for false headers apply; None if this depends on the row.
     frugal: typing.Optional[bool] = None
 
 

@@ -52,7 +52,7 @@ class HostileStrings(ReportTest):
         json.loads(self.read_bytes("o.json").decode("utf-8"))
         if same_as is not None:
             self.assertEqual(elements.tags, same_as.tags)
-            # The script of the page.
+            # The script of the page is the same.
             self.assertEqual(elements.scripts[-1][1], same_as.scripts[-1][1])
         return elements
 

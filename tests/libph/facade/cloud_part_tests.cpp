@@ -97,7 +97,7 @@ Points random_cloud(Generator& random, Index most, bool ties) {
       random.points(random.integer(1, static_cast<int>(most)), random.integer(1, 4), ties);
   const Index n = points.rows(), d = points.cols();
   switch (random.integer(0, 6)) {
-    case 0:  // a lattice, some with gaps
+    case 0:  // a lattice, sometimes with gaps
       for (double& x : points.coordinates()) x = std::round(5 * x);
       break;
     case 1:  // clusters far apart, some of them clusters of clusters

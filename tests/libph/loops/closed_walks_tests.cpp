@@ -66,7 +66,7 @@ TEST(ClosedWalks, OfRandomCycles) {
     const auto walks = closed_walks(chain_of(numbers, coefficients), p);
     EXPECT_EQ(sum_of(walks, p), sum);
     check_form(walks, 1, p);
-    // The order of the edges does not matter.
+    // The result does not depend on the order of the edges.
     std::vector<Index> reversed;
     for (std::size_t i = coefficients.size(); i-- > 0;)
       reversed.insert(reversed.end(), {numbers[2 * i], numbers[2 * i + 1]});
