@@ -382,7 +382,7 @@ class Options(ProgramTest):
         tree = ("row.npy", "--plot", "t.svg", "--plot-kind", "tree")
         bars = ("--min-persistence", "5", "--max-dim", "0")
         run = self.expect(0, *tree, "--output-format", "none", *bars)
-        self.assertIn("nothing is done for --max-dim, --min-persistence: the merge tree",
+        self.assertIn("nothing is done for --max-dim, --min-persistence: only the merge tree",
                       run.stderr)
         for options in (bars, (*bars, "--output-format", "none", "--check"),
                         (*bars, "--output-format", "none", "--plot", "b.svg", "--plot-kind",

@@ -309,7 +309,7 @@ CALLS = [(room, *row) for room, rows in {
     "parts": [
         ("ph.CloudPart('x')", "UsageError", "data: found str, expected bytes"),
         ("ph.ImagePart(None)", "UsageError", "data: found NoneType, expected bytes"),
-        ("ph.CloudPart(b'')", "DataError", "0 bytes, expected \"ph part\" first"),
+        ("ph.CloudPart(b'')", "DataError", "0 bytes that do not begin with \"ph part\""),
         ("ph.CloudPart.from_bytes(cloud.to_bytes()[:-1])", "DataError", "it is incomplete"),
         ("ph.CloudPart.from_bytes(part.to_bytes())", "DataError", "kind"),
         ("ph.ImagePart.from_bytes(cloud.to_bytes())", "DataError", "kind"),

@@ -50,8 +50,7 @@ bool is_sealed_part(std::span<const std::byte> bytes) { return text_of(bytes).st
 
 std::string_view kind_of_part(std::span<const std::byte> bytes) {
   if (!is_sealed_part(bytes))
-    refuse(fmt::format("found {} bytes that begin differently, expected \"ph part\" first",
-                       bytes.size()));
+    refuse(fmt::format("found {} bytes that do not begin with \"ph part\"", bytes.size()));
   if (bytes.size() < kHeaderSize + kChecksumSize)
     refuse(fmt::format("found {} bytes, expected {} or more", bytes.size(),
                        kHeaderSize + kChecksumSize));
