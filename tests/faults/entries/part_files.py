@@ -68,10 +68,10 @@ def roots(items=((1., 0, 0, 0),), outside=(0, 0), before=(), after=(), bridges=(
 
 WHOLE_INPUTS = inputs()
 DAMAGED = [
-    ("nothing", b"", "found 0 bytes that begin differently"),
+    ("nothing", b"", "found 0 bytes that do not begin with"),
     ("the magic alone", b"ph part\n", "part"),
-    ("a barcode", b"dim,birth,death\n0,0,1\n", "that begin differently"),
-    ("another magic", b"PH PART\n" + WHOLE_INPUTS[8:], "that begin differently"),
+    ("a barcode", b"dim,birth,death\n0,0,1\n", "that do not begin with"),
+    ("another magic", b"PH PART\n" + WHOLE_INPUTS[8:], "that do not begin with"),
     ("an unknown kind", WHOLE_INPUTS[:8] + b"potato  " + WHOLE_INPUTS[16:], "damaged"),
     ("version 2", with_bytes(WHOLE_INPUTS, 16, b"\2"), "version"),
     ("without its last byte", WHOLE_INPUTS[:-1], "incomplete"),
@@ -169,8 +169,8 @@ MIXED = [
      {"a.ph": inputs(parts=2), "b.ph": inputs(part=1, parts=2, options=[b"--max-dim 2"])}, "other inputs"),
     ("inputs, one of two parts", {"a.ph": inputs(parts=2)}, "found 1 of 2 parts"),
     ("inputs, a part twice", {"a.ph": inputs(parts=2), "b.ph": inputs(parts=2)}, "twice"),
-    ("a part and a table", {"a.ph": cloud(), "b.ph": SQUARE}, "that begin differently"),
-    ("a part and nothing", {"a.ph": cloud(), "b.ph": b""}, "that begin differently"),
+    ("a part and a table", {"a.ph": cloud(), "b.ph": SQUARE}, "that do not begin with"),
+    ("a part and nothing", {"a.ph": cloud(), "b.ph": b""}, "that do not begin with"),
 ]
 
 
