@@ -220,7 +220,7 @@ TEST(VoxelSets, ThatExceedTheBudgetAreLeftOutAndCounted) {
   EXPECT_EQ(few_runs.start, (Places{0, 1, 3}));
   EXPECT_EQ(few_runs.runs, (Places{1, 3, 0, 1, 2, 1}));
   EXPECT_EQ(few_runs.left_out, 2U);
-  EXPECT_NE(few_runs.note().find("2 of 4 bars"), std::string::npos);
+  EXPECT_NE(few_runs.note().find("the 2 most persistent of 4 bars"), std::string::npos);
   const VoxelSets few_voxels = voxel_sets(barcode, {}, {.voxels = 6});
   EXPECT_EQ(few_voxels.bars, (Places{0, 2}));
   EXPECT_EQ(few_voxels.left_out, 2U);

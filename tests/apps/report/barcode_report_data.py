@@ -184,7 +184,7 @@ class Data(ReportTest):
         self.write("i.npy", files.array((rows, columns), values))
         report = self.report("i.npy", "--representatives", "voxels", "--max-dim", "0")
         note = report.meta["provenance"]["notes"]["Sets of voxels"]
-        self.assertRegex(note, r"^sets of \d+ of \d+ bars")
+        self.assertRegex(note, r"^sets of the \d+ most persistent of \d+ bars")
         runs = len(report.arrays["voxels/runs"].rows())
         self.assertTrue(300_000 < runs <= 400_000, runs)
         self.assertLess(os.path.getsize(self.path("r.html")), 12_000_000)
