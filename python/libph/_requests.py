@@ -86,7 +86,7 @@ class Request(NamedTuple):
         except (Cancelled, MemoryLimitError):
             return error
         if not ways:
-            return error
+            return reworded(error, f"{error}; ph.estimate says how much a computation takes")
         fit = "may fit" if self.meta["complex"] == "cubical" else "would fit"
         return reworded(error, f"{error}; what {fit}: {'; '.join(text for _, text in ways)}; or a "
                         "larger memory_limit", *ways[0][0])

@@ -132,9 +132,9 @@ TEST_F(Program, SaysWhyVoxelsAreLarger) {
   for (int i = 0; i < 1600; ++i) points << 0.009 * (i % 40) << ' ' << 0.009 * (i / 40) << " 0.7\n";
   points.close();
   EXPECT_EQ(run("sparse.xyz --plane off --verbose"), 0);
-  EXPECT_NE(err().find(" in place of 0.005 m"), std::string::npos) << err();
+  EXPECT_NE(err().find(" instead of 0.005 m"), std::string::npos) << err();
   EXPECT_EQ(run("scene.pcd --verbose"), 0);
-  EXPECT_EQ(err().find(" in place of "), std::string::npos) << err();
+  EXPECT_EQ(err().find(" instead of "), std::string::npos) << err();
 }
 
 TEST_F(Program, AStoredTreeIsAnInput) {

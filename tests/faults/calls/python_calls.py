@@ -77,7 +77,7 @@ def _said(value):
     return "=: " + repr(value).replace("\n", " ")[:2000]
 
 
-LESS = "a smaller max_dim or threshold"
+LESS = "more needed; ph.estimate says how much"
 CALLS = [(room, *row) for room, rows in {
     "arrays of other types": [
         ("ph.rips(POINTS.astype(complex))", "DataError", "X: found complex numbers, expected real"),
