@@ -179,7 +179,8 @@ class Run {
     take_facts(loaded, estimated.built);
     explain_slabs(loaded.built, estimated, job_, session_);
     const app::BarHold results_are_written(session_);
-    // If the edges were listed, they were not there before.
+    // If the estimate listed the edges, they are part of the memory as well, because nothing had
+    // listed them before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
     write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
     return {app::kOk, loaded.description};

@@ -36,7 +36,7 @@ std::string names_of(const std::vector<int>& dims) {
   return names;
 }
 
-/// The parts of a run that belong together.
+/// One run: opens the outputs, reads the barcodes, computes, and writes the results.
 class Run {
  public:
   Run(const Arguments& arguments, app::Session& session)
@@ -91,7 +91,7 @@ class Run {
                    files_);
     for (auto* output : {&table_, &matching_, &matrix_})
       if (*output) (*output)->commit();
-    if (matrix_)  // which has no room for it
+    if (matrix_)  // the file itself cannot state the distance and the dimension
       session_.note(fmt::format("{}: {} in H{}", printable(arguments_.matrix),
                                 app::words_of(arguments_.distance), dims[0]));
     session_.note(fmt::format("{}, {}: {}", app::count_of(files_.size(), "barcode"),
@@ -140,7 +140,7 @@ class Run {
     return distances;
   }
 
-  /// Text states this for each pair; in other formats it is a number that looks like any other.
+  /// Notes infinite distances, because only the text format states the reason beside each of them.
   void note_infinite(const PairDistances& distances) const {
     if (table_ && !matrix_ && arguments_.table_format() == OutputFormat::text) return;
     for (std::size_t d = 0; d < distances.dims().size(); ++d) {

@@ -62,7 +62,8 @@ void require_separate(const Arguments& a, app::Session& session) {
     session.explain("--force: not needed, no output is an input");
 }
 
-/// The library knows what is missing, and the program knows which of its options help.
+/// Segments the cloud. If memory does not suffice, adds the options that help to the error, because
+/// only the program knows them.
 Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
                                    const RunContext& context) {
   try {
@@ -78,7 +79,7 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
   }
 }
 
-/// Another cut of the stored tree.
+/// Cuts the stored tree anew.
 void cut_again(Segmentation& s, const CutOptions& options, const RunContext& context) {
   s.cut = cut(s.tree, options, context);
   s.tree.first_cut = options;

@@ -25,7 +25,7 @@ struct Remembered {
   LabelTracker tracker;
   SceneTree last = {};  ///< of the last frame with a plane: only its plane and its viewpoint
 };
-/// The requests of a stream for one of its frames.
+/// The data that a stream passes along with each frame.
 struct OfStream {
   Remembered* remembered = nullptr;  ///< null: each frame by itself
   bool json = false;                 ///< true if the summary is needed

@@ -77,7 +77,8 @@ class Stream {
  private:
   app::Written json() const { return {"--json", arguments_.files.json}; }
 
-  /// In the end the file of all frames would replace this one, so continuing is useless.
+  /// Refuses an input that is the file of --json: this file is written at the end and would replace
+  /// the input.
   void require_not_json(const std::string& input) {
     if (!json_) return;
     app::InputFiles frame;

@@ -21,7 +21,7 @@
 namespace ph::vectorise {
 namespace {
 
-/// The parts of a run that belong together.
+/// One run: opens the outputs, reads the inputs, fits, computes, and writes the table.
 class Run {
  public:
   Run(const Arguments& arguments, app::Session& session)

@@ -13,7 +13,7 @@
 namespace ph::barcode {
 namespace {
 
-/// "R=FILE", a file of triangles.
+/// Parses "R=FILE": the value R of the complex, and the file for the triangles of its surface.
 Surface surface_of(const std::string& option, const std::string& text, bool is_wrap) {
   const auto fail = [&] {
     throw Error(ErrorKind::usage,

@@ -4,38 +4,38 @@
 #include "apps/barcode/arguments/scopes.hpp"
 #include "apps/common/arguments/options.hpp"
 
-// The options of ph-barcode by topic, a file each. `add_…` registers them, and `arguments` must
-// outlive `options`. `check_…` looks at what no single one of them can see, sets what follows from
-// them, and throws Error (usage).
+// The options of ph-barcode, one source file per topic. Each `add_…` registers the options of a
+// topic; `job` must outlive `options`. Each `check_…` checks options that depend on one
+// another, derives settings from them, and throws Error (usage).
 namespace ph::barcode {
 
-/// What of a table or a picture is read: --columns, --channel.
+/// The options that select the data read from a table or a picture: --columns, --delay, --channel.
 void add_table_options(app::Options& options, Job& job);
-/// Decides what a table means where other options leave one reading only.
+/// Decides how a table is read if the other options leave only one way to read it.
 void check_table_arguments(Job& job);
 
-/// How an image lies in a file without a header.
+/// The options that describe an image in a file without a header: --raw-shape and others.
 void add_raw_options(app::Options& options, Job& job);
-/// Those that images and cubical complexes have.
+/// The options for images and cubical complexes.
 void add_cubical_options(app::Options& options, Job& job);
-/// Of both.
+/// Checks the options that describe an image without a header.
 void check_image_arguments(Job& job);
 
-/// Which complex is built.
+/// The options that select the complex.
 void add_complex_options(app::Options& options, Job& job);
-/// What is computed of it: dimensions, field, engine, representatives.
+/// The options that select the computation: dimensions, field, engine, representatives.
 void add_homology_options(app::Options& options, Job& job);
 
-/// Those that only Rips complexes have: collapse, samples, approximation, weights.
+/// The options for Rips complexes only: collapse, samples, approximation, weights.
 void add_rips_options(app::Options& options, Job& job);
-/// Weights come from one place, and exclude what makes sense for plain distances only.
+/// Checks that at most one option gives weights, and that no option excludes weights.
 void check_rips_arguments(Job& job);
 
-/// Those that only alpha complexes have.
+/// The options for alpha complexes only.
 void add_alpha_options(app::Options& options, Job& job);
 void check_alpha_arguments(Job& job);
 
-/// --part, --join and what goes with them.
+/// --part, --join and the options that apply to parts.
 void add_part_options(app::Options& options, Job& job);
 void check_part_arguments(const Job& job);
 

@@ -144,11 +144,12 @@ void add_picture_options(app::Options& options, app::PlotArguments& plots) {
       });
 }
 
-/// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
-/// @return whether the first of the plots is that of -o.
+/// Handles `ph-barcode plot BARS… -o FILE.svg`, which draws stored barcodes.
+/// @return true if the first plot is the file that -o names.
 bool take_word(Job& a, app::PlotArguments& plots) {
   if (a.inputs.empty() || a.inputs.front() != "plot") return false;
-  // A file of that name alone is an input; beside others it is ./plot.
+  // If `plot` is the only input and a file has this name, the file is meant; beside other inputs,
+  // such a file must be given as ./plot.
   if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
   a.stored = true;
   a.inputs.erase(a.inputs.begin());
@@ -170,7 +171,7 @@ bool take_word(Job& a, app::PlotArguments& plots) {
                 fmt::format("plot: found -o {}, expected FILE.svg or FILE.png; --output-format {} "
                             "writes the barcode there",
                             printable(a.places.output), barcode_format_name(*bars)));
-  // What is named like a barcode is one, converted.
+  // An output with the extension of a barcode format is a converted barcode.
   const bool is_picture = a.places.output != "-" && !wants_bars && !bars;
   if (is_picture) {
     plots.paths.insert(plots.paths.begin(), a.places.output);
@@ -184,7 +185,7 @@ bool take_word(Job& a, app::PlotArguments& plots) {
   return is_picture;
 }
 
-/// What no single option can see.
+/// Checks options that depend on one another.
 void check_together(Job& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.places.report == "-" && a.places.output == "-" &&

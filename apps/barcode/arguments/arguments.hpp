@@ -9,16 +9,16 @@
 namespace ph::barcode {
 
 /// Reads the command line; prints nothing.
-/// @return the answer to --help, --version or --formats, which is all that is left to do.
+/// @return the answer to --help, --version or --formats, if one was asked for.
 /// @throws Error (usage) that names the option; Error (not_built_in).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Job& job);
 
-/// What the program says of itself beside its options.
+/// The manual of ph-barcode.
 const app::Manual& manual();
-/// The same of ph-barcode-mpi.
+/// The manual of ph-barcode-mpi.
 const app::Manual& manual_of_ranks();
 
-/// The answer to --formats: what is read and what is written, a format each, with an example.
+/// The answer to --formats: all formats that are read or written, each with an example.
 std::string formats_table();
 
 }  // namespace ph::barcode

@@ -24,7 +24,7 @@ void take_part(Job& a, const std::string& text) {
       static_cast<int>(parts)};
 }
 
-/// Refuses what ranks, which join their parts themselves, do not do.
+/// Refuses options that ranks do not support; ranks join their parts themselves.
 void check_ranks(const Job& a) {
   const auto reject = [](std::string_view option, std::string_view why) {
     throw Error(ErrorKind::usage, fmt::format("{}: found on ranks{}", option, why));

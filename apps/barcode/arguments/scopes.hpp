@@ -7,21 +7,22 @@
 
 namespace ph::barcode {
 
-/// What was read, with what is made of it: options differ in where they do something.
+/// The kinds of input, each with the complex that is built from it. Each option has an effect for
+/// some of them only.
 enum Situation : app::Situations {
-  kPoints = 1 << 0,       ///< their Rips complex
-  kMatrix = 1 << 1,       ///< of all distances, a full square
-  kTriangle = 1 << 2,     ///< the same, half of it
+  kPoints = 1 << 0,       ///< points with their Rips complex
+  kMatrix = 1 << 1,       ///< a square matrix of all distances
+  kTriangle = 1 << 2,     ///< one triangle of such a matrix
   kSomePairs = 1 << 3,    ///< sparse distances
-  kImage = 1 << 4,        ///< with cubical complex
+  kImage = 1 << 4,        ///< an image with its cubical complex
   kVoxels = 1 << 5,       ///< points with --complex cubical
-  kSimplices = 1 << 6,    ///< with values of their own
+  kSimplices = 1 << 6,    ///< simplices that have their own values
   kLowerStar = 1 << 7,    ///< simplices with values of the vertices
   kBoundary = 1 << 8,     ///< a boundary matrix
-  kMesh = 1 << 9,         ///< with values of the vertices
+  kMesh = 1 << 9,         ///< a mesh with values of its vertices
   kOwn = 1 << 10,         ///< points with a complex that the program added
-  kBarcode = 1 << 11,     ///< a stored one, computed earlier
-  kComparison = 1 << 12,  ///< of two stored ones
+  kBarcode = 1 << 11,     ///< a stored barcode
+  kComparison = 1 << 12,  ///< two stored barcodes to compare
   kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
   kImagePart = 1 << 14,   ///< some layers of an image
   kParts = 1 << 15,       ///< parts to join
@@ -54,7 +55,7 @@ constexpr app::Scope kOffRanks{~(kRanks | kCloudRanks), "one process"};
 
 namespace ph {
 
-/// What a message calls a situation.
+/// The words for a situation in messages.
 template <>
 inline constexpr std::array names_of<barcode::Situation>{
     Named{barcode::kPoints, "points"},

@@ -72,7 +72,7 @@ void check_table_arguments(Job& a) {
   }
   if (a.reading.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
-  // An option that does something for one kind of input only says what the input is.
+  // An option that has an effect for only one kind of input tells which kind the input is.
   const auto is_only_for = [&](app::Situations kinds) {
     return std::ranges::any_of(a.given, [&](const app::GivenOption& option) {
       return (option.scope.where & ~kinds) == 0;

@@ -52,7 +52,8 @@ std::string_view why_no_nan(const ReadResult& read) {
   return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
 }
 
-/// True if every row may be dimension, birth and death: bars in a file that does not say so.
+/// True if every row may be the dimension, birth and death of a bar, although the file does not say
+/// that it holds a barcode.
 bool may_be_bars(const ReadResult& read) {
   constexpr double most = 9;  // dimensions
   const auto is_bar = [](double dim, double birth, double death) {

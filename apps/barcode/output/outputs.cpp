@@ -33,7 +33,8 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
     options.kind = kind.value_or(options.kind);
     plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
   }
-  // Pixels may exceed the memory: no file is completed before everything is drawn.
+  // A picture may not fit into memory; therefore no file is completed before all pictures are
+  // drawn.
   if (barcode_) {
     write_barcode(barcode_->file(), bars, places_.format, info);
     barcode_->commit();

@@ -50,8 +50,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
     session.explain(what);
   else
     session.note(what);
-  // Other formats have no room for the data that JSON holds beside the bars, and nobody expects
-  // them there.
+  // The other formats cannot hold the data that JSON stores beside the bars, and nobody expects
+  // these data there.
   const bool loses_p =
       job.places.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
   if (loses_p || (job.places.format == BarcodeFormat::json && !left_out.empty()))

@@ -55,7 +55,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The same for a missing or repeated value, in our own words and with all names of the option:
+/// The message for a missing or repeated value, in our own words and with all names of the option:
 /// "--threshold, --max-scale: the value is missing".
 std::string about_values(const CLI::App& app, const std::string& text) {
   std::string names = text.substr(0, text.find(':'));

@@ -30,7 +30,7 @@ struct CommonOptions {
   bool version = false;
 };
 
-/// Registers them.
+/// Registers the common options.
 void add_common_options(Options& options, CommonOptions& common);
 
 /// The command line as it was typed, under the program's own name.

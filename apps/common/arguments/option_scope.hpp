@@ -14,14 +14,14 @@ using Situations = std::uint32_t;
 /// The situations in which an option has an effect. In any other situation the option is refused as
 /// a misunderstanding: ignoring it would answer a question that nobody asked.
 struct Scope {
-  Situations where = ~Situations{0};  ///< it does something in any of them
-  std::string_view meant_for = {};    ///< what they are: "points"
+  Situations where = ~Situations{0};  ///< the option has an effect in any of these
+  std::string_view meant_for = {};    ///< the words for them: "points"
 
   /// The same words for more situations.
   constexpr Scope with(Situations more) const { return {where | more, meant_for}; }
 };
 
-/// An option that was given and that does nothing in some situations.
+/// A given option that has no effect in some situations.
 struct GivenOption {
   std::string name;  ///< "metric": the first long name, without dashes
   Scope scope;

@@ -15,7 +15,8 @@
 
 namespace ph::app {
 
-/// What an option is called, and where it does something: {"-o,--output", {kPoints, "points"}}.
+/// The names of an option, and the situations in which it has an effect: {"-o,--output", {kPoints,
+/// "points"}}.
 struct OptionName {
   OptionName(const char* all) : names(all) {}  // NOLINT(google-explicit-constructor)
   OptionName(std::string all, Scope where = {}) : names(std::move(all)), scope(where) {}
@@ -24,29 +25,30 @@ struct OptionName {
   Scope scope;
 };
 
-/// The options of a program, a row each: names, where it does something, a placeholder of its
-/// value, a sentence, and where the value goes, which outlives `cli`. Errors of the functions that
-/// read values pass unchanged. An option that is given twice is an error.
+/// Registers the options of a program. Each call states the names of an option, the situations in
+/// which it has an effect, a placeholder for its value, a sentence for --help, and the destination
+/// of the value, which must outlive `cli`. Errors of functions that read values are passed on
+/// unchanged. An option that is given twice is an error.
 class Options {
  public:
   explicit Options(CLI::App& cli) : cli_(cli) {}
   CLI::App& cli() const { return cli_; }
 
-  /// The topic of --help of the options that follow.
+  /// Begins a topic of --help, to which the options registered next belong.
   void topic(std::string_view name);
 
-  /// What stands on the command line without an option.
+  /// The inputs: the arguments that do not belong to an option.
   void inputs(const std::string& name, const std::string& description,
               std::vector<std::string>& to);
-  /// An option with a value that a function of yours reads.
+  /// An option with a value, which `take` reads.
   CLI::Option* value(const OptionName& name, const std::string& placeholder,
                      const std::string& description,
                      const std::function<void(const std::string& value)>& take);
-  /// The same if it may be given several times: `take` gets all values.
+  /// An option that may be given several times; `take` receives all values.
   CLI::Option* repeated(const OptionName& name, const std::string& placeholder,
                         const std::string& description,
                         const std::function<void(const std::vector<std::string>& values)>& take);
-  /// The same for a path, which is not empty.
+  /// An option whose value is a path that is not empty.
   CLI::Option* path(const OptionName& name, const std::string& placeholder,
                     const std::string& description, std::string& path);
   /// An option without a value.
@@ -54,7 +56,7 @@ class Options {
   CLI::Option* flag(const OptionName& name, const std::string& description,
                     const std::function<void()>& take);
 
-  /// A value that is one of some names: `take` gets the position of the one given.
+  /// An option whose value is one of several names; `take` receives the position of the given name.
   CLI::Option* choice(const OptionName& name, const std::vector<std::string_view>& choices,
                       const std::string& description, const std::function<void(std::size_t)>& take);
   /// The same for values of an enum.
@@ -66,7 +68,7 @@ class Options {
     for (const Named<Enum>& known : choices) words.push_back(known.name);
     return choice(name, words, description, [=](std::size_t i) { take(choices[i].value); });
   }
-  /// The same for all values of an enum. @param to an Enum or an optional one.
+  /// The same for all values of an enum. @param to receives the value: an Enum or an optional Enum.
   template <class Enum>
   requires std::is_enum_v<Enum> CLI::Option* choice(const OptionName& name,
                                                     const std::string& description, Enum& to) {
@@ -78,18 +80,17 @@ class Options {
     return choice<Enum>(name, description, [&to](Enum given) { to = given; });
   }
 
-  /// Leaves out of the help what does nothing in any of these situations.
+  /// Hides from --help the options that have no effect in any of these situations.
   void hide_outside(Situations situations);
-  /// Those of the options that were given and that do nothing in some situations, in the order of
-  /// --help.
+  /// The given options that have no effect in some situations, in the order of --help.
   std::vector<GivenOption> given() const;
 
-  /// Says where an option does something that was registered without a row.
+  /// Sets the situations in which an option has an effect that was registered directly with CLI11.
   CLI::Option* limit(CLI::Option* option, const Scope& scope);
 
  private:
   CLI::App& cli_;
-  std::map<const CLI::Option*, Scope> scopes_;  // of those that do nothing in some situations
+  std::map<const CLI::Option*, Scope> scopes_;  // of options that have no effect in some situations
 };
 
 }  // namespace ph::app

@@ -58,12 +58,13 @@ struct PlotArguments {
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers those that all programs have, as the first ones of the topic `pictures`. @param kinds
-/// outlives `options`, as `to` does.
+/// Registers the plot options that all programs have; they come first in the topic `pictures`.
+/// `kinds` and `to` must outlive `options`.
 void add_plot_options(Options& options, std::span<const std::string_view> kinds,
                       const std::string& description, PlotArguments& to);
 
-/// Registers one more option for the look. @param take stores the text of the option in `to.look`.
+/// Registers one more option for the look of plots. @param take stores the value of the option in
+/// `to.look`.
 void add_plot_look(Options& options, const PlotLook& look, const std::string& placeholder,
                    const std::string& what, PlotArguments& to,
                    std::function<void(const std::string& text)> take);

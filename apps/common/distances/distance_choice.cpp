@@ -22,7 +22,7 @@ std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   return counts;
 }
 
-/// Appends the bars without a pair: bars of both diagrams go to the diagonal.
+/// Appends the unpaired bars of both diagrams, each paired with the diagonal.
 void add_diagonal(std::vector<std::pair<std::int64_t, std::int64_t>>& pairs, std::size_t a,
                   std::size_t b) {
   std::vector<bool> has_pair[] = {std::vector<bool>(a), std::vector<bool>(b)};

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if there is something to lose: a pipe or a terminal has no contents, but it mixes the
-/// output of two writers.
+/// The harm that two uses of one file do: its contents are lost, or the output of two writers is
+/// mixed. A pipe or a terminal has no contents to lose, but it mixes output.
 enum class Harm { lost, mixed };
 
 bool is_null_device(const files::Status& status) {
@@ -104,7 +104,7 @@ void require_distinct(std::span<const Written> outputs) {
                     one.path == "-" ? "standard output" : printable(one.path), other.option));
   };
   for (const Written& output : outputs) {
-    // The destination does not matter.
+    // Two outputs on standard output are refused, whatever it is connected to.
     if (output.path == "-") {
       if (standard) reject(output, *standard);
       standard = &output;

@@ -18,7 +18,7 @@ constexpr std::size_t kWidth = 80;  // columns of a terminal
 constexpr std::size_t kText = 27;   // column of the text beside a name
 constexpr std::string_view kAll = "all";
 
-/// Topics for other programs to read.
+/// The topics whose text is for other programs instead of people.
 struct Page {
   std::string_view name;
   std::string (*text)(const Described& program);
@@ -49,7 +49,7 @@ std::string head_in_lines(const OptionText& option) {
   return fmt::format("{}", fmt::join(lines, fmt::format("\n{:{}}", "", kIndent)));
 }
 
-/// The same without alternatives, if they are too many for a line.
+/// The same on one line; alternatives that do not fit are left out.
 std::string short_head(const OptionText& option) {
   constexpr std::size_t kEnough = 40;
   const std::vector<std::string> lines = wrapped_list(option.head(), kEnough);

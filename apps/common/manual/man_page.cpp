@@ -65,7 +65,8 @@ std::string roff_lines(std::string_view text) {
   return lines;
 }
 
-/// The names of an option in bold and its value in italics; a list may be broken after its bars.
+/// The names of an option in bold and its value in italics; a list of alternatives may be broken
+/// after `|`.
 std::string roff_head(const OptionText& option) {
   std::string head;
   for (const std::string& name : option.names)

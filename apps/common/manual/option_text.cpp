@@ -93,7 +93,7 @@ std::string OptionText::text() const {
 }
 
 std::string OptionText::brief() const {
-  int open = 0;  // parentheses
+  int open = 0;  // number of open parentheses
   for (std::size_t i = 0; i < description.size(); ++i) {
     const std::string_view rest = std::string_view(description).substr(i);
     const bool ends = rest.starts_with("; ") || rest.starts_with(". ") ||

@@ -37,7 +37,7 @@ struct OptionText {
   const std::string& name() const;
   /// "-o,--output FILE"
   std::string head() const;
-  /// The description, with the options that it excludes.
+  /// The description, with the options that this option excludes.
   std::string text() const;
   /// The first part of the description, without its default.
   std::string brief() const;

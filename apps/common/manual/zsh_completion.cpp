@@ -33,7 +33,7 @@ std::string zsh_action(const Values& values) {
     files = fmt::format("_files -g \"*.({})\"", fmt::join(endings, "|"));
   }
   if (values.words.empty()) return values.is_file ? files : " ";
-  // After `minkowski:` the word continues.
+  // A word such as `minkowski:` is only the beginning of a value.
   std::string whole, begun;
   for (const std::string& word : values.words)
     (word.ends_with(':') ? begun : whole) += " " + with_backslashes(word, ":");

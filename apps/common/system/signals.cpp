@@ -27,7 +27,7 @@ constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 std::atomic<int> first_signal{0};
 std::atomic<int> wake_descriptor{-1};
 std::atomic<bool> must_wait{false};
-// There is one watch at a time, and one that waits.
+// At most one watch exists, and at most one object that makes signals wait.
 int pipe_ends[2] = {-1, -1};
 sigset_t before;
 

@@ -17,7 +17,7 @@ void print_without_memory(std::string_view prefix, std::string_view text);
 /// Shows a text on the last line of a terminal, in place of the previous one; it stays until
 /// something else is written.
 void show_status(std::string_view text);
-/// Wipes it.
+/// Erases the status line.
 void wipe_status();
 
 }  // namespace ph::app

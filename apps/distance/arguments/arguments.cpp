@@ -21,7 +21,7 @@ using app::DistanceKind;
 using app::parse_integer;
 using app::parse_number;
 
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest number of anything that is counted
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest accepted count
 
 [[noreturn]] void reject(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
@@ -165,7 +165,7 @@ void require_table_format(const Arguments& a) {
                     printable(*a.output)));
 }
 
-/// Standard output can have only one of them.
+/// Refuses two results on standard output.
 void require_one_on_standard_output(const Arguments& a) {
   std::string first = a.writes_table() && a.output_path() == "-" ? "--output" : "";
   for (const auto& [option, path] : {std::pair{"--matching", a.matching}, {"--matrix", a.matrix}})

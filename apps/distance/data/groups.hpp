@@ -10,9 +10,9 @@ namespace ph::distance_program {
 
 /// The groups that barcodes belong to.
 struct Groups {
-  std::vector<std::string> names;  // names in the order of their first appearance
+  std::vector<std::string> names;  // in the order of first appearance
   std::vector<std::size_t> sizes;
-  std::vector<std::int64_t> of;  // for each barcode, its index among the names
+  std::vector<std::int64_t> of;  // for each barcode, the index of its group in `names`
 };
 
 /// Reads one word per line; blank lines and comments, which start at #, are skipped.

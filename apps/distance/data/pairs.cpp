@@ -12,7 +12,7 @@ namespace {
 /// A distance to compute.
 struct Task {
   std::size_t bars;
-  std::uint32_t dim, a, b;  // places
+  std::uint32_t dim, a, b;  // indices of the dimension and of the two barcodes
 };
 
 std::pmr::vector<Task> tasks_of(const std::vector<Barcode>& barcodes,
@@ -26,7 +26,7 @@ std::pmr::vector<Task> tasks_of(const std::vector<Barcode>& barcodes,
     for (std::uint32_t a = 0; a < barcodes.size(); ++a)
       for (std::uint32_t b = 0; b < a; ++b) tasks.push_back({bars[a] + bars[b], d, a, b});
   }
-  // The longest first, so that no thread is left with a long one in the end.
+  // The longest task comes first, so that no thread starts a long one last.
   std::ranges::sort(tasks, std::ranges::greater(), &Task::bars);
   return tasks;
 }

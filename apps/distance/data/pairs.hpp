@@ -9,7 +9,7 @@
 
 namespace ph::distance_program {
 
-/// The distances of all pairs of barcodes, in each of some dimensions.
+/// The distance between each pair of barcodes, for each of several dimensions.
 class PairDistances {
  public:
   /// @param count number of barcodes, at least 2.
@@ -37,8 +37,8 @@ class PairDistances {
   std::pmr::vector<DistanceBounds> bounds_;  // by dimension, then by row of the lower triangle
 };
 
-/// Threads share the pairs, those with the most bars first. The result does not depend on the
-/// threads.
+/// Computes the distances of all pairs. Threads share the pairs, those with the most bars first;
+/// the result does not depend on the number of threads.
 /// @throws Error like the functions of ph/distances.hpp.
 PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int> dims,
                            const app::DistanceChoice& choice, const RunContext& context);

@@ -13,7 +13,8 @@
 namespace ph::distance_program {
 namespace {
 
-/// A pair of barcodes that are infinitely far apart; empty if there is none.
+/// Throws Error (bad_data) with the names of two barcodes that are infinitely far apart, if there
+/// are any.
 void require_finite(const PairDistances& distances, std::size_t d,
                     const std::vector<Barcode>& barcodes, const std::vector<std::string>& inputs) {
   const int dim = distances.dims()[d];

@@ -10,7 +10,7 @@
 #include "apps/segment/arguments/arguments.hpp"
 #include "apps/segment/arguments/scopes.hpp"
 
-// The options of ph-segment by topic. What they are put into must outlive `options`.
+// The options of ph-segment by topic. The objects that receive their values must outlive `options`.
 namespace ph::segment {
 
 /// A number that must be above zero (or, with `zero`, at least zero) and finite.

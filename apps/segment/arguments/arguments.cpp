@@ -78,13 +78,13 @@ void add_input_options(app::Options& options, Arguments& a) {
                a.stable_labels);
 }
 
-/// True if an input is a depth image by its name, where a camera is given.
+/// True if the name of an input is one that a depth image may have; a camera must be given as well.
 bool may_be_image(const std::string& path) {
   constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
                                                           ".PGM", ".npy", ".NPY"};
   return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
 }
-/// Without a camera, a NumPy array is a cloud.
+/// True if only a depth image has such a name; a NumPy array without a camera is a cloud.
 bool must_be_image(const std::string& path) {
   return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
 }

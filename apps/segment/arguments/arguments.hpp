@@ -37,7 +37,7 @@ struct CutArguments {
   std::optional<bool> objects;
   std::optional<double> min_seam;
 
-  /// The cut, with all other values from the tree.
+  /// The options of a cut: the given values, and all others from the tree.
   CutOptions over(const CutOptions& tree) const {
     return {value.value_or(tree.value), min_part.value_or(tree.min_part),
             min_size.value_or(tree.min_size), objects.value_or(tree.objects),
@@ -80,8 +80,8 @@ app::InputFiles inputs_of(const Arguments& arguments);
 /// @throws Error (usage); Error (not_built_in) on planned features.
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
-/// The options that do nothing beside the others, a line each: what is asked for has no use for
-/// them. Those that do nothing for an input or a method are refused, see scopes.hpp.
+/// One line for each given option that has no effect on any requested result. Options that have no
+/// effect for an input or a method are refused instead; see scopes.hpp.
 std::vector<std::string> idle_options(const Arguments& arguments);
 
 /// The manual of the program.

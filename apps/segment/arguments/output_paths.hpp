@@ -31,15 +31,16 @@ struct OutputPaths;
 struct OutputOption {
   OutputKind kind;
   std::string_view option;         ///< "--output"
-  std::string OutputPaths::*path;  ///< null: --plot, which may ask for several
-  std::string_view names, help;    ///< of the command line
-  app::Scope scope = {};           ///< where it does something
-  /// What its name may end in; a file in a folder of results ends in the first. Empty: in anything.
+  std::string OutputPaths::*path;  ///< null: --plot, which may request several files
+  std::string_view names, help;    ///< its names and description in --help
+  app::Scope scope = {};           ///< where it has an effect
+  /// The extensions that its file may have; in a folder of results, the file has the first one.
+  /// Empty: any extension.
   std::span<const std::string_view> extensions;
-  bool shows_labels = false, shows_colours = false;  ///< labels of segments, colours of points
+  bool shows_labels = false, shows_colours = false;  ///< the file depends on labels, on colours
 };
 
-/// All of them, in the order of --help.
+/// The options that request files, in the order of --help.
 std::span<const OutputOption> output_options();
 
 /// The files to write. An empty path: not requested.
@@ -53,8 +54,8 @@ struct OutputPaths {
   std::string coloured;          ///< the cloud with one colour per segment
   std::string picture;           ///< the image with one colour per segment
   std::string report;            ///< the interactive page
-  std::vector<app::Plot> plots;  ///< figures of its contents
-  PlotOptions look = {};         ///< look of the figures
+  std::vector<app::Plot> plots;  ///< pictures of the barcode, the tree or the cloud
+  PlotOptions look = {};         ///< look of the pictures
 
   /// Calls visit(option, path, plot) for each requested file; `plot` is null for all but plots.
   template <class Visit>
@@ -70,7 +71,7 @@ struct OutputPaths {
 
   bool any() const { return !written().empty(); }
   bool to_standard_output() const;
-  /// True if one of them has this property: &OutputOption::shows_labels.
+  /// True if a requested file has this property: &OutputOption::shows_labels.
   bool show(bool OutputOption::*what) const;
 
  private:

@@ -5,14 +5,14 @@
 
 namespace ph::segment {
 
-/// What is looked at, how, and whether a plane is removed: options differ in where they do
-/// something. One bit of each line applies to a run.
+/// The kind of input, the method, and whether a plane is removed. Each option has an effect in some
+/// of these situations only. Exactly one bit of each group applies to a run.
 enum Situation : app::Situations {
   kCloud = 1 << 0,       ///< a point cloud
-  kDepthImage = 1 << 1,  ///< with its camera
-  kStoredTree = 1 << 2,  ///< that --tree wrote
+  kDepthImage = 1 << 1,  ///< a depth image with its camera
+  kStoredTree = 1 << 2,  ///< a merge tree that --tree wrote
 
-  kPaper = 1 << 3,  ///< methods, of a tree that by which it was made
+  kPaper = 1 << 3,  ///< methods; a stored tree has the method that made it
   kSurface = 1 << 4,
   kSupervoxels = 1 << 5,
 
@@ -24,7 +24,7 @@ constexpr app::Situations kScene = kCloud | kDepthImage, kAnyInput = kScene | kS
                           kBySurface = kSurface | kSupervoxels, kAnyMethod = kPaper | kBySurface,
                           kAnyPlane = kPlane | kNoPlane;
 
-// Where input, method and plane each have a say, the words name the one that is rarest.
+// If an option depends on several of input, method and plane, its words name the rarest condition.
 constexpr app::Scope kOfScenes{kScene | kAnyMethod | kAnyPlane, "clouds and depth images"};
 constexpr app::Scope kOfDepth{kDepthImage | kAnyMethod | kAnyPlane, "depth images"};
 constexpr app::Scope kOfPaper{kScene | kPaper | kAnyPlane, "--method paper"};
@@ -32,11 +32,11 @@ constexpr app::Scope kOfSurface{kAnyInput | kSurface | kAnyPlane, "--method surf
 constexpr app::Scope kOfBoth{kAnyInput | kBySurface | kAnyPlane,
                              "--method surface and supervoxels"};
 
-/// @throws Error (usage) on an option that does nothing with such an input.
+/// @throws Error (usage) on an option that has no effect for this kind of input.
 void require_input(std::span<const app::GivenOption> given, Situation input);
-/// The same of a method.
+/// The same for a method.
 void require_method(std::span<const app::GivenOption> given, Method method);
-/// The same of the removal of the plane.
+/// The same for the removal of the plane.
 void require_plane(std::span<const app::GivenOption> given, bool plane);
 
 }  // namespace ph::segment

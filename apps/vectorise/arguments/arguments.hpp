@@ -12,7 +12,7 @@
 
 namespace ph::vectorise {
 
-/// LO,HI,N, or N alone: in that case the range is fitted.
+/// The value LO,HI,N, or N alone; in that case the range is fitted.
 struct AxisArgument {
   std::optional<std::array<double, 2>> range;
   std::size_t count = 0;

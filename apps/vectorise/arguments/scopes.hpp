@@ -9,11 +9,12 @@ namespace ph::vectorise {
 
 /// The bit of a kind of vectors.
 constexpr app::Situations situation_of(Kind kind) { return 1U << static_cast<unsigned>(kind); }
-/// Whether they are fitted, or were fitted before; and what an Euler curve is of.
+/// The situations besides the kind of vectors: whether parameters are fitted now or were fitted
+/// before, and whether an input is a barcode or an image.
 inline constexpr app::Situations kFitting = 1U << 20, kFitted = 1U << 21, kOfBarcode = 1U << 22,
                                  kOfImage = 1U << 23;
 
-/// What has to be fitted, of these kinds.
+/// The situations in which vectors of these kinds are fitted now.
 constexpr app::Situations of(std::initializer_list<Kind> kinds) {
   app::Situations all = kFitting | kOfBarcode | kOfImage;
   for (const Kind kind : kinds) all |= situation_of(kind);

@@ -37,10 +37,10 @@ struct InfiniteRule {
 
 /// The parameters for the bars of one dimension, or for an Euler curve of all of them.
 struct Block {
-  int dim = 0;       ///< not for an Euler curve
+  int dim = 0;       ///< unused for an Euler curve
   Grid grid;         ///< for curves and landscapes
-  ImageFrame frame;  ///< of images
-  double sigma = 0;  ///< the same
+  ImageFrame frame;  ///< for persistence images
+  double sigma = 0;  ///< for persistence images: the bandwidth
   Atol atol;
 };
 
@@ -62,7 +62,7 @@ std::size_t length_of(const Fit& fit);
 /// A name for each number: "H1_layer0_17".
 std::vector<std::string> names_of(const Fit& fit);
 
-/// The infinite bars that may be kept: these functions accept them.
+/// True if the function for this kind accepts infinite bars; then --infinite keep is allowed.
 bool may_keep_infinite(Kind kind);
 
 /// An error of a library function that received the bars of an input: it begins with the name of

@@ -25,7 +25,7 @@ namespace {
 using detail::JsonCursor;
 
 constexpr std::string_view kFormat = "ph-vectorise fit";
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest number of anything that is counted
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest accepted count
 
 std::string range_json(double lo, double hi, std::string_view name, std::size_t count) {
   return json::object(
