@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bundles the page into one template, build/report-template.html: script, style and their hashes in
-// the policy are fixed here, and the programs put a payload where the marker stands. Beside it,
-// report-template.inputs lists all files in the page, including files of npm packages. node
-// build.mjs [output folder]
+// Bundles the page into one template, build/report-template.html. It fixes the script, the style,
+// and their hashes in the content security policy; later the programs replace the marker by a
+// payload. Beside the template, report-template.inputs lists all files in the page, including files
+// of npm packages. Usage: node build.mjs [output folder]
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
@@ -45,7 +45,7 @@ const code = await bundle("src/page/main.ts", {
   target: "es2022",
   legalComments: "inline",
 });
-// The licences of the packages in the page: a copy of the page is a copy of these packages.
+// The licences of the packages in the page, which every copy of the page must include.
 const folders = [...inputs].map((path) => /^node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]);
 const notices = [...new Set(folders)].filter(Boolean).sort().map((folder) => {
   const { name, version } = JSON.parse(readFileSync(join(here, folder, "package.json"), "utf8"));
@@ -81,7 +81,7 @@ const policy = [
   "trusted-types 'none'",
 ].join("; ");
 
-// Replacements by function: the text of a bundle may contain `$&`.
+// The replacements are functions, because `$&` in a replacement text would have a special meaning.
 const page = readFileSync(join(here, "src/page/page.html"), "utf8")
   .replace("{{policy}}", () => policy)
   .replace("{{sources}}", digest(sources))

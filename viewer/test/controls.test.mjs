@@ -78,7 +78,7 @@ test("words and controls", { timeout: 200_000 }, async (t) => {
         const pen = document.createElement("canvas").getContext("2d");
         const { font, paddingLeft, paddingRight } = getComputedStyle(field);
         pen.font = font;
-        const kArrows = 16; // of a field of numbers, under the pointer
+        const kArrows = 16; // pixels of the arrows that a number field shows
         const padding = parseFloat(paddingLeft) + parseFloat(paddingRight);
         return [field.clientWidth - padding - kArrows, pen.measureText(digits).width];
       },

@@ -58,7 +58,7 @@ async function holes(page) {
     if (pixels[at] > 240 && pixels[at + 1] > 240 && pixels[at + 2] > 240) ++count;
   return count;
 }
-/// A scene that is made at once; its words are as long as those of a large one.
+/// A small scene, which is quick to make; its texts are as long as those of a large scene.
 function smallScene() {
   const report = scene(160, 134);
   report.meta.provenance.input.description = "343 040 points, PCD, 640 x 536";
@@ -164,7 +164,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     await page.evaluate(() => (location.hash = "colour=segment"));
     await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 1);
     await page.focus(".stage canvas");
-    for (let i = 0; i < 13; ++i) await page.keyboard.press("ArrowLeft"); // a quarter: both are seen
+    for (let i = 0; i < 13; ++i) await page.keyboard.press("ArrowLeft"); // a quarter turn shows both
     await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 2);
     await close();
   });
@@ -231,7 +231,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const cells = await page.$$eval(".diagram td", (all) => all.map((e) => e.textContent));
     assert.ok(cells.includes("250") && cells.includes("−∞") && cells.includes("60"), `${cells}`);
     assert.ok(!cells.some((text) => /−\d/.test(text)), `${cells}`);
-    // The corner that is not there is the background.
+    // The absent corner shows the background.
     const pixels = await pixelsOf(page, ".stage");
     const { width, height } = pixels;
     const at = (x, y) => {
@@ -294,7 +294,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const again = await open(browser, odd.singlePoint());
     const svg = (await downloaded(again.page, "Picture, SVG")).toString();
     assert.ok(!/NaN|>Merge tree<|>Persistence diagram</.test(svg) && />Barcode</.test(svg));
-    // An address with a cut shows it.
+    // An address that names a cut opens the panel of the cut.
     await again.page.evaluate(() => (location.hash = "cut=0.5"));
     await again.page.waitForSelector(".cut .chart", { state: "visible" });
     await again.close();

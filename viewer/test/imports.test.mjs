@@ -54,7 +54,8 @@ function cycle(imports) {
   return [];
 }
 
-/// @param imports of each module of src/, `rooms` the rooms that each may import.
+/// Violations of the table. @param imports the imports of each module of src/. @param rooms the
+/// rooms that each room may import.
 function faultsOf(imports, rooms, packages) {
   const faults = [];
   const order = [...rooms.keys()];

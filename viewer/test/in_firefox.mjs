@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports in headless Firefox, by hand: node --experimental-websocket in_firefox.mjs REPORT.html…
-// Prints when each report has drawn its first frame. Fails on errors and warnings in the console,
-// except those of three.js on a machine without WebGL, which the page itself reports.
+// Opens reports in headless Firefox, outside the test suite: node --experimental-websocket
+// in_firefox.mjs REPORT.html…. It prints when each report has drawn its first frame. Fails on errors and warnings in the console, except those of three.js on a machine without
+// WebGL, which the page itself reports.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -12,7 +12,7 @@ import { scene } from "./support/scene_fixture.mjs";
 
 const kWidths = [320, 390, 620, 761, 768, 809, 900, 1024, 1153, 1280, 2560];
 
-/// The values of a report of distances, and their negatives at the axes.
+/// A report whose values are mapped by `valueOf` and negated at the axes.
 function elsewhere({ meta, arrays }, valueOf) {
   const isValue = (name) => /\/(birth|death|leaf_birth|merge_value|merge_level)$/.test(name);
   const moved = Object.entries(arrays).map(([name, values]) => [

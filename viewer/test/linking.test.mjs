@@ -22,7 +22,7 @@ import {
 
 const reading = (page) => page.textContent(".status .reading");
 const selection = (page) => page.textContent(".status .selection");
-/// Pixels of a canvas that lies over a chart that are not empty.
+/// The number of pixels that are not empty on the canvas over a chart.
 const drawnOver = (page, chart) =>
   page.evaluate((name) => {
     const canvas = document.querySelector(`${name} canvas.over`);
@@ -274,7 +274,8 @@ async function cutOfAScene(t, browser) {
     const all = report.answer.points.reduce((a, b) => a + b, 0) + support + wall;
     assert.ok(all <= report.vertexOfPoint.length && all > 0.99 * report.vertexOfPoint.length);
     await page.mouse.move(2, 2);
-    // Paler than any segment: vivid pixels are subtracted as well.
+    // Surfaces are paler than segments; therefore the vivid pixels, which belong to segments, are
+    // subtracted.
     const tints = async () => {
       const pixels = await pixelsOf(page, ".stage");
       const pale = (colour) => vividPixels(pixels, 10, colour) - vividPixels(pixels, 40, colour);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports that the programs make, in headless Chromium: node programs.test.mjs PH_BARCODE
+// Opens reports of the programs in headless Chromium. Usage: node programs.test.mjs PH_BARCODE
 // PH_SEGMENT. The environment variable PH_TEST_DATA names the folder of the optional test data,
 // which has a real scene. Exit code 77: nothing could be tested.
 import assert from "node:assert/strict";

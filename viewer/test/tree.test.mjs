@@ -26,7 +26,7 @@ function pageTree(arrays, rule, minSize, more = {}) {
   });
 }
 
-/// A random graph on a grid, its values from few numbers if there are to be ties.
+/// A random graph on a grid. With `ties`, its values are taken from only a few numbers.
 function scene(seed, ties) {
   const next = random(seed),
     width = 3 + Math.floor(9 * next()),

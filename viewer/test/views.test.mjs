@@ -37,13 +37,13 @@ const cases = {
   extreme: [odd.extreme, [...kCharts, ".stage"]],
 };
 
-/// With axes that have names.
+/// A volume whose axes have names.
 function volume() {
   const { meta, arrays } = image([12, 20, 24]);
   return { meta: { ...meta, image: { ...meta.image, axes: ["x", "y", "z"] } }, arrays };
 }
 
-/// A chart shows something in colour; the data are not all of one colour.
+/// Asserts that a chart shows colours, and that the data have more than one colour.
 function assertShows(view, pixels) {
   if (view !== ".stage") return assert.ok(vividPixels(pixels, 25) > 30, `${view} is empty`);
   const counts = new Map();

@@ -33,7 +33,7 @@ export class Axis {
     high: number,
     readonly from: number,
     readonly to: number,
-    private readonly negated = false, // its labels show minus the values
+    private readonly negated = false, // the labels show the negated values
   ) {
     const largest = Math.max(Math.abs(low), Math.abs(high));
     if (largest > 0) {

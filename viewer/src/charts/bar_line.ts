@@ -57,7 +57,7 @@ export function closeTogether(items: Item[]): Item[][] {
   return groups;
 }
 
-/// "2, 3, 4" or, with less room, "2, 3, …". @param room in letters.
+/// "2, 3, 4" or, with less room, "2, 3, …". @param room for the text, in letters.
 export function asManyAsFit(numbers: number[], room: number): string {
   for (let count = numbers.length; count > 0; --count) {
     const text = [...numbers.slice(0, count), ...(count < numbers.length ? ["…"] : [])].join(", ");

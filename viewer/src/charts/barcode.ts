@@ -122,8 +122,9 @@ export class Barcode extends BarChart {
       if (colour) drawLine(pen, item, Math.max(1.5, thicknessOf(item.row)), colour);
     }
   }
-  /// Drawn after all bars, so that no bar covers them. Neighbours whose rows are lower than a
-  /// number share one text, at the end of the longest bar.
+  /// Draws the numbers of bars; this follows all bars, so that no bar covers a number. Neighbouring
+  /// bars whose rows are lower than a number share one text, at the end of the longest of these
+  /// bars.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers();
     const numbered = this.items.filter((item) => numbers.has(item.bar));
@@ -157,8 +158,8 @@ export class Barcode extends BarChart {
     const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
-    // Components without information leave the room to the others; coloured components carry
-    // information.
+    // If the finding is not about components, their bars leave the room to other dimensions, except
+    // for coloured bars.
     const few = this.session.finding.dim !== 0;
     const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));

@@ -29,13 +29,13 @@ const kMostMarkers = 3000,
 
 export class Diagram extends BarChart {
   protected redrawsOn: Change[] = ["dims", "colour"];
-  x: Float32Array; // of each bar, pixels
+  x: Float32Array; // position of each bar, pixels
   y: Float32Array;
   births = new Axis(0, 1, 0, 1);
   deaths = new Axis(0, 1, 0, 1);
   private readonly hint: string;
   private lasso: number[] = [];
-  private left = 0; // of the axis of deaths
+  private left = 0; // position of the axis of deaths
 
   constructor(session: Session) {
     const [first, second] = session.report.meta.barcodes;
@@ -101,7 +101,8 @@ export class Diagram extends BarChart {
     this.drawCounts(pen, crowds);
   }
 
-  /// The largest come first; a number that would overlap another is left out.
+  /// Writes how many bars each crowd has, the largest crowd first; a number that would overlap
+  /// another one is left out.
   private drawCounts(pen: Pen, crowds: Crowd[]): void {
     const { theme } = this.session,
       labelPlaces = new LabelPlaces(10);
@@ -176,8 +177,8 @@ export class Diagram extends BarChart {
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
   }
 
-  /// A selected bar, or the one under the pointer. A bar of a second barcode stays hollow: its
-  /// outline surrounds a ring of its colour.
+  /// Draws a selected bar or the one under the pointer. A bar of the second barcode stays hollow:
+  /// its outline surrounds a ring in the colour of the bar.
   private drawChosen(pen: Pen, bar: number, r: number, edge: string, width: number): void {
     const { bars } = this.session.report;
     const colour = this.session.colourOfBar(bar);
@@ -281,7 +282,7 @@ export class Diagram extends BarChart {
     }
   }
 
-  /// Bars of dimension 0 above this line stay apart.
+  /// Draws the line of the cut: components whose bars lie above it stay separate.
   private drawCut(pen: Pen): void {
     const {
       report: { tree, bars },
@@ -289,7 +290,7 @@ export class Diagram extends BarChart {
       cutValue,
     } = this.session;
     if (!tree || !this.session.isShown(0) || bars.dim[0] !== 0 || cutValue <= 0) return;
-    if (this.session.tintedBars().size === 0) return; // nothing visible is cut off
+    if (this.session.tintedBars().size === 0) return; // no visible colour depends on the cut
     const low = this.births.value(this.births.from),
       high = this.deaths.value(this.deaths.to);
     if (cutValue > high) return;

@@ -5,7 +5,7 @@ import type { Session } from "../model/session";
 
 const kCell = 3; // pixels
 
-/// @param x, y of each bar, pixels.
+/// @param x, y position of each bar, pixels.
 export function drawDensity(
   pen: Pen,
   session: Session,

@@ -31,7 +31,7 @@ type Rect = [
 type Paint = [fill: string, opacity?: number, stroke?: string, strokeWidth?: number];
 type Circle = [x: number, y: number, r: number, ...paint: Paint];
 
-/// Filled closed shapes or open strokes are lists of x, y.
+/// Draws shapes and texts. The points of a polygon or an open stroke are a list x, y, x, y, …
 export interface Pen {
   line(...line: Line): void;
   rect(...rect: Rect): void;
@@ -191,7 +191,7 @@ export class SvgPen implements Pen {
   image(x: number, y: number, width: number, height: number, url: string): void {
     this.add("image", { x, y, width, height, href: url });
   }
-  /// Everything that `draw` draws is moved.
+  /// Moves everything that `draw` draws.
   at(x: number, y: number, draw: () => void): void {
     this.elements.push(`<g transform="translate(${coordinate(x)} ${coordinate(y)})">`);
     draw();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The merge tree: one vertical line per branch, from its birth up to the value at which it merges
-// into an elder one. If there are many branches, only the most persistent ones are shown.
+// into an older branch. If there are many branches, only the most persistent ones are shown.
 import { Axis, kLabelSize, kLeastLeft, leftOf, type Tick } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart } from "./chart";
@@ -31,7 +31,7 @@ interface Drawn {
 export class TreeChart extends Chart {
   protected redrawsOn: Change[] = ["cut", "colour"];
   private drawn: Drawn[] = [];
-  private left = 0; // of the axis
+  private left = 0; // position of the axis
   private current = -1;
   private readonly tree: MergeTree;
   private readonly byLevel: Uint32Array;
@@ -42,8 +42,8 @@ export class TreeChart extends Chart {
     const { tree } = this;
     const level = Float64Array.from({ length: tree.leaves }, (_, b) => tree.level(b));
     const size = tree.sizes();
-    // At equal levels, the larger one or the one that dies later comes first, so that a branch
-    // follows the one that it merges into.
+    // Of two branches with equal levels, the larger one or, if they are equally large, the one that
+    // dies later comes first; then a branch always follows the branch that it merges into.
     this.byLevel = new Uint32Array(tree.leaves)
       .map((_, i) => i)
       .sort((a, b) =>
@@ -79,7 +79,7 @@ export class TreeChart extends Chart {
       pen.line(left, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    // The title of the barcode's axis, which has the same values.
+    // The same title as that of the barcode's axis, which shows the same values.
     const label = clipped(meta.value.label.toLowerCase(), 24);
     pen.text(12, size.height / 2, unit ? `${label} (${unit})` : label, {
       ...small,
@@ -213,7 +213,7 @@ export class TreeChart extends Chart {
     });
     return { axis, ticks };
   }
-  /// The largest trees, and their most persistent branches.
+  /// The trunks of the largest trees, and the most persistent of all other branches.
   private prominent(most: number): number[] {
     const { tree, byLevel } = this;
     let roots = 0;

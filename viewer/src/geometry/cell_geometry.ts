@@ -3,9 +3,9 @@
 import type { Report } from "../model/report";
 
 export interface Geometry {
-  points: number[]; // x, y, z of each
-  segments: number[]; // of each end
-  triangles: number[]; // of each corner
+  points: number[]; // x, y, z of each point
+  segments: number[]; // x, y, z of each end
+  triangles: number[]; // x, y, z of each corner
 }
 
 export const emptyGeometry = (): Geometry => ({ points: [], segments: [], triangles: [] });

@@ -3,7 +3,7 @@
 // no holes.
 
 const kSampled = 800,
-  kMostCompared = 4000, // points around one
+  kMostCompared = 4000, // number of points compared with one point
   kOutermost = 0.01, // share of the points at each end of an axis that may be outliers
   kNeighbours = 4; // in a grid, the four nearest points are one spacing away
 

@@ -104,12 +104,14 @@ export class ShownComplex {
   }
 }
 
-/// True if cells are missing from some value on, and the other value is not below it.
+/// True if cells may be missing at `value`: it is not below `missingFrom`, the first value at which
+/// cells are missing.
 function reaches(value: number, missingFrom = Infinity): boolean {
   return missingFrom < Infinity && value >= missingFrom;
 }
 
-/// The number of ascending values up to another value. Values and positions are float32.
+/// The number of ascending `values` that are at most `value`, with a tolerance because they are
+/// float32.
 function countUpTo(values: ArrayLike<number>, value: number): number {
   const limit = value + 1e-6 * Math.abs(value);
   let low = 0,

@@ -16,7 +16,8 @@ const kMostFaces = 150_000,
 
 const kMostKept = 32;
 
-/// Cached surfaces around the sets of bars, because the pointer returns to the same bars.
+/// The surface around the set of a bar. Surfaces are cached, because the pointer returns to the
+/// same bars.
 export function surfaceOfBar(sets: VoxelSets, bar: number, shape: number[]): Float32Array {
   const surface = sets.surfaces.get(bar) ?? surfaceOf(runsOf(sets, bar), shape);
   if (sets.surfaces.size >= kMostKept) sets.surfaces.clear();
@@ -93,7 +94,8 @@ class Blocks {
         ] = 1;
   }
 
-  /// Faces in a line along the columns form one rectangle.
+  /// The faces between the set and the rest. Adjacent faces in a line along the columns form one
+  /// rectangle.
   surface(): number[] {
     const corners: number[] = [];
     const [planes, rows, columns] = this.sizes as [number, number, number];

@@ -74,8 +74,8 @@ export class Bars {
   of(dim: number, barcode: number): Uint32Array {
     return this.groups[barcode]?.get(dim) ?? new Uint32Array();
   }
-  /// The most persistent of bars in this order. Infinite bars take at most half of the room if
-  /// there are others.
+  /// The first `most` of bars that are sorted by persistence. Infinite bars take more than half of
+  /// these places only if there are too few finite bars.
   prominent(sorted: Uint32Array, most: number): Uint32Array {
     let infinite = 0;
     while (infinite < sorted.length && this.isInfinite(sorted[infinite]!)) ++infinite;

@@ -5,8 +5,8 @@ import { DisjointSets, numbered } from "./disjoint_sets";
 import { FlatSets } from "./flat_sets";
 import type { MergeTree } from "./merge_tree";
 
-/// Share of the longest level: shorter ones cannot be the upper end of a gap. Neither can levels
-/// after this many.
+/// The upper end of a gap is at least this share of the largest level, and is one of the
+/// `kMostAbove` largest levels.
 export const kLeastShare = 0.1,
   kMostAbove = 64;
 
@@ -62,7 +62,8 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
 
 /// A cut between the two neighbouring levels with the largest ratio, the upper of which is among
 /// the largest levels: levels above are much more persistent than levels below. If no ratio is
-/// wide, the two levels with the largest difference, for basins.
+/// large enough and the cut is by persistence, the cut lies between the two levels with the largest
+/// difference.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
   const levels = levelsOf(tree)
     .filter((v) => v > 0 && Number.isFinite(v))

@@ -26,7 +26,7 @@ const kLeastRatio = 2, // ratio of a gap that makes bars stand out
   kWideAmongFew = 4, // ratio of a gap that separates so few bars that all may stand out
   kLeastAlone = 1 / 3, // share of the longest bar of H1 and higher that lone bars must reach
   kHardly = 1.05,
-  kMostKnown = 4 * kMostAbove, // bars of a dimension
+  kMostKnown = 4 * kMostAbove, // number of bars of a dimension that are examined
   kMostSelected = 1000,
   kFew = 4; // number of bars; among so few, wide gaps occur by chance
 
@@ -48,12 +48,12 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
   return gap;
 }
 
-/// The bars of one dimension of a barcode, by the knowledge about their lengths.
+/// The bars of one dimension of a barcode, grouped by what is known about their lengths.
 interface Lengths {
   dim: number;
   endless: number[]; // the bars of infinite length
   reach: number; // the longest of all; infinite bars count up to the end of the values
-  isEndless: boolean; // true if one of them never ends; others have no beginning
+  isEndless: boolean; // true if a bar never ends; infinite bars may also have no beginning
   finite: number[]; // finite bars, the longest first
   lengths: number[]; // their lengths; for a bar that is alive at the threshold, its known part
   alive: number; // this many of `finite`, the first ones, are alive at the threshold
@@ -100,7 +100,7 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
 /// The bars of a dimension that stand out.
 /// @param scale length below which a few bars count as noise.
 function outstanding(found: Lengths, scale: number, range: number): { bars: number[]; gap: Gap } {
-  // A few points have as many components at the start.
+  // Every point is a component at first, so a few components are not evidence of structure.
   const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew, found.alive);
   const shortest = found.lengths[gap.count - 1] ?? 0;
   const few = found.finite.length <= kFew && shortest < kLeastShare * range;
@@ -184,7 +184,8 @@ function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   return `are apart ${meta.value.negated ? "down" : "up"} to ${short(shownValue(meta, threshold))}`;
 }
 
-/// Nothing is selected. If the sentence mentions components, the page still suggests a cut.
+/// A finding that selects no bar. If its sentence mentions components, the page still suggests a
+/// cut.
 function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
   const sentence = nothing(found, report);
   const gap = toldOf(found, report).some((f) => f.dim === 0) ? gapOfCuts(report) : "";
@@ -251,12 +252,12 @@ function lengthsInWords({ dim, lengths, alive, endless }: Lengths, named: boolea
     : `${subject} is ${least}${times(ratio)} as long as the next`;
 }
 
-/// Nothing is selected.
+/// A finding that selects no bar.
 function plain(dim: number, sentence: string): Finding {
   return { dim, bars: [], sentence, components: false };
 }
 
-/// A result of ph-segment is not a single bar.
+/// The finding of a report of ph-segment, whose result is a number of segments instead of bars.
 function segmentsOf({ tree, meta, bars }: Report): Finding {
   const { cut: at } = meta.tree!,
     what = kindOfSegment(meta);

@@ -3,8 +3,8 @@
 import type { Numbers } from "./payload";
 
 /// The data that distinguish the walls and boards of a scene from its segments: how many vertices
-/// of each leaf lie on each plane. A set with a share of `least` on a plane is surface `first`, or
-/// one of the following.
+/// of each leaf lie on each plane. If at least the share `least` of a set lies on plane p, the set
+/// is surface `first` + p.
 export interface FlatLeaves {
   on: Numbers; // leaf by leaf, `planes` numbers each
   planes: number;
@@ -14,9 +14,9 @@ export interface FlatLeaves {
 
 /// Counts the vertices of sets of leaves on each plane.
 export class FlatSets {
-  private readonly on: Float64Array; // of each root
+  private readonly on: Float64Array; // for each root, its number of vertices on each plane
 
-  /// @param flat of a tree without planes: no set is a surface.
+  /// @param flat undefined for a tree without planes, in which no set is a surface.
   constructor(
     private readonly flat: FlatLeaves | undefined,
     leaves: number,
@@ -29,7 +29,7 @@ export class FlatSets {
     for (let p = 0; p < (flat?.planes ?? 0); ++p)
       this.on[root * flat!.planes + p]! += flat!.on[leaf * flat!.planes + p]!;
   }
-  /// Makes one of two sets.
+  /// Joins two sets.
   join(from: number, to: number): void {
     const planes = this.flat?.planes ?? 0;
     for (let p = 0; p < planes; ++p) this.on[to * planes + p]! += this.on[from * planes + p]!;

@@ -14,7 +14,7 @@ export class Matching {
       this.partners.set(pairs[i + 1]!, pairs[i]!);
     }
   }
-  /// undefined if a bar goes to the diagonal.
+  /// The bar with which a bar is paired; undefined if the bar goes to the diagonal.
   partnerOf(bar: number): number | undefined {
     return this.partners.get(bar);
   }

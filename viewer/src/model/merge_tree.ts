@@ -135,9 +135,9 @@ export class MergeTree {
       r = apart ? this.end[b]! : r + 1;
     }
   }
-  /// Calls `mark` on the leaves of a branch like markBranch. @return the value up to which their
-  /// vertices form the component born in it: there it dies, or meets a part that the cut keeps
-  /// apart.
+  /// Calls `mark` on the leaves that markBranch marks. @return the value up to which the vertices
+  /// of these leaves form the component that is born in the branch. At this value, the component
+  /// dies or meets a part that the cut keeps separate.
   markBasin(branch: number, cut: number, mark: (leaf: number) => void): number {
     let limit = this.death(branch);
     for (let r = this.rank[branch]!; r < this.end[branch]!;) {
@@ -152,8 +152,8 @@ export class MergeTree {
   branchOf(bar: number): number | undefined {
     return this.branchOfBar.get(bar);
   }
-  /// The segments of the program's own cut, unchanged; for a tree without them, the segments of
-  /// `at`.
+  /// The segments of the program's own cut, unchanged; for a tree that does not state them, the
+  /// segments of the cut `at`.
   answer(at: number): Cut {
     const { answer, points, vertices, births } = this.arrays;
     if (!answer) return this.cut(at);

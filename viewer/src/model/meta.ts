@@ -31,7 +31,7 @@ export interface SegmentMeta {
   number: number; // the number by which it is called
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  role: "object" | "unknown" | "support" | "wall"; // the last two: only from earlier frames
+  role: "object" | "unknown" | "support" | "wall"; // the last two: from earlier frames only
   on_surface?: number;
   on_segment?: number; // by its number
 }
@@ -42,8 +42,8 @@ export interface SceneMeta {
   surfaces: { role: "support" | "wall" }[]; // by number, from 1
   removed: number; // how many of these have no leaf on them
   flat: number; // least share of a surface's vertices on its plane
-  min_seam: number; // if > 0, the answer joins over weak seams,
-  objects: boolean; // and parts of an object
+  min_seam: number; // if above 0, the answer joins parts over weak seams
+  objects: boolean; // true if the answer joins the parts of an object
 }
 
 export interface Meta {

@@ -21,9 +21,9 @@ export interface Elements {
 export interface Cloud {
   dims: number;
   origin: number[];
-  positions: Float32Array; // x, y, z of each from the origin, in the units of the input
-  index: Numbers | undefined; // number in the input of each; ascending
-  extent: number; // the farthest from the origin along an axis
+  positions: Float32Array; // x, y, z of each point from the origin, in units of the input
+  index: Numbers | undefined; // number of each point in the input; ascending
+  extent: number; // largest distance from the origin along an axis
 }
 
 export interface Image {
@@ -46,7 +46,7 @@ export interface VoxelSets {
   ofBar: Map<number, number>;
   start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
   runs: Numbers; // first place and length of each
-  surfaces: Map<number, Float32Array>; // by bar, of the bars seen last
+  surfaces: Map<number, Float32Array>; // the surfaces of the bars seen last, by bar
 }
 
 export interface Report {

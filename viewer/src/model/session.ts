@@ -334,7 +334,8 @@ export class Session {
   }
 
   private through: Map<number, number> | undefined;
-  /// By the vertex numbers of the input; some vertices may not be shown.
+  /// For each vertex, by its number in the input, the most persistent bar whose representative
+  /// contains it; the vertex need not be shown.
   private barsThrough(): Map<number, number> {
     if (this.through) return this.through;
     this.through = new Map();

@@ -6,7 +6,7 @@ import { prefersDark, themeOf } from "../common/palette";
 import type { ColourMode } from "../model/colour_modes";
 import type { Session } from "../model/session";
 
-const kMostRuns = 400; // of selected bars
+const kMostRuns = 400; // number of runs of selected bars
 
 /// "1-3,7" of 1, 2, 3, 7.
 function inRuns(ascending: number[]): string[] {

@@ -98,7 +98,7 @@ function drawLegend(
   }
 }
 
-/// The same in pixels, two per unit.
+/// The picture as a PNG with two pixels per unit of the SVG.
 export async function picturePng(svgText: string): Promise<Blob> {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText)}`;

@@ -4,7 +4,7 @@
 import { button } from "../common/dom";
 import type { Session } from "../model/session";
 
-/// Adds the button. @param folded true if the panel starts folded.
+/// Adds the button that folds and opens a panel. @param folded true if the panel starts folded.
 /// @return a function that opens the panel, unless the reader has decided.
 export function foldable(panel: HTMLElement, title: string, folded: boolean): () => void {
   let isDecided = false;
@@ -26,8 +26,8 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): ()
   };
 }
 
-/// True if a cut of the tree is informative: some components stand out, or the data start with the
-/// colours of several segments and another cut has different ones.
+/// True if the cut of the tree is informative: components stand out, or different cuts have
+/// different numbers of segments and the page shows several colours of segments or no data.
 /// @param counts numbers of segments at cuts along the slider.
 export function cutSays(session: Session, counts: number[]): boolean {
   const { tree } = session.report;

@@ -45,7 +45,8 @@ async function start(app: HTMLElement): Promise<void> {
       foldable(cut.panel, "Cut", folded),
       foldable(tree.panel, "Merge tree", folded),
     ];
-    // A reader who asks for the colours of a cut, or for another cut, wants to see it.
+    // A reader who asks for the colours of segments, or for another cut, wants to see the cut and
+    // the tree.
     session.onChange((changes) => {
       const ofCut = session.colour === "segment" || session.colour === "persistence";
       const other = session.cutValue !== report.meta.tree!.cut;

@@ -87,8 +87,8 @@ export class Colouring {
     }
   }
 
-  /// Basins of the bars in view, up to the value at which they meet parts that the cut keeps
-  /// separate.
+  /// Colours the basins of the bars in view, each up to the value at which it meets a part that the
+  /// cut keeps separate.
   private tintBasins(): void {
     const { session } = this;
     const { elements, tree, voxels } = session.report;
@@ -105,7 +105,7 @@ export class Colouring {
       const leaves: number[] = [];
       if (branch === undefined) continue;
       const limit = tree.markBasin(branch, session.cutValue, (b) => leaves.push(b));
-      if (limit === Infinity) continue; // the only basin: the whole picture is not a part
+      if (limit === Infinity) continue; // the only basin is the whole picture
       any = true;
       for (const b of leaves) {
         colours[b] = packed(session.segmentColours[session.cut!.labelOfLeaf[b]! - 1] ?? [0, 0, 0]);
@@ -118,7 +118,8 @@ export class Colouring {
         this.shown[i] = mixed(colours[leaf[i]!]!, this.base[i]!, 144);
   }
 
-  /// The voxels of the bars in view; less persistent bars are drawn over the others.
+  /// Colours the sets of voxels of the bars in view; less persistent bars are drawn over the
+  /// others.
   private tintSets(): void {
     const { session } = this;
     const { voxels, bars } = session.report;
@@ -176,7 +177,7 @@ export class Colouring {
       case "normal":
         return (i) => colourOfNormal(normals![2 * i]!, normals![2 * i + 1]!) ?? none;
       case "plain": {
-        // A surface is shaded, dots need contrast.
+        // Light colours suit a surface, which is shaded; dots need contrast.
         const light = session.theme.dark || (this.rgba.length > 12000 && session.report.cloud?.dims === 3);
         const colour = packed(light ? [178, 187, 198] : [92, 102, 115]);
         return () => colour;
@@ -223,7 +224,7 @@ export class Colouring {
     }
     return ofLeaf;
   }
-  /// By number; 0 is the colour of elements on no surface.
+  /// The colours of the surfaces by number; number 0 stands for elements on no surface.
   private surfaceColours(none: number): number[] {
     const surfaces = this.session.report.meta.scene?.surfaces ?? [];
     return [none, ...surfaces.map(({ role }) => packed(fromHex(kSurfaces[role] ?? kSurfaces.support)))];
@@ -270,7 +271,8 @@ export class Colouring {
   }
 }
 
-/// Half a percent of the values at each end are outliers, which would take most of the greys.
+/// The share of the values at each end that count as outliers; without this, outliers would use up
+/// most of the greys.
 export const kOutermost = 0.005;
 
 function withoutOutermost(values: Numbers, whole: Range): Range {

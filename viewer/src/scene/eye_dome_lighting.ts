@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Makes the points of a surface look like one: pinholes between their marks are filled, a pixel is
-// the darker the farther it lies behind its surroundings (after the eye-dome lighting of Christian
+// darker the farther it lies behind its surroundings (after the eye-dome lighting of Christian
 // Boucheny, 2009), and the surface is lit from the eye.
 import {
   DepthTexture,
@@ -30,7 +30,7 @@ uniform vec2 texel;
 uniform vec2 planes; // near, far
 uniform bool lamp;
 uniform float pixel; // an angle
-uniform vec3 reach; // pixels: least; of a mark at depth 1; whether that is so at every depth
+uniform vec3 reach; // pixels: the least; of a mark at depth 1; 1 if the same at any depth
 varying vec2 at;
 float depthAt(vec2 place) { return texture2D(depths, place).x; }
 float away(float depth) {
@@ -61,9 +61,9 @@ void main() {
   float here = away(depth);
   bool isCamera = reach.z > 0.5;
   float wide = clamp(reach.y * (isCamera ? 1.0 : exp2(-here)), reach.x, 8.0 * reach.x);
-  // A camera is rough, and marks are steps.
+  // Depths from a camera are noisy, and the edges of marks are steps.
   float noise = isCamera ? 0.004 : 1.5 * wide * pixel;
-  // How far it is behind the middle of what lies on both sides of it: nothing on a plane.
+  // How far the pixel lies behind the mean of the depths on opposite sides of it; 0 on a plane.
   float behind = 0.0;
   vec2 slope = vec2(0.0);
   for (int i = 0; i < 4; ++i) {
@@ -71,7 +71,7 @@ void main() {
     vec2 towards = vec2(cos(angle), sin(angle));
     float one = beside(at + wide * texel * towards, here), other = beside(at - wide * texel * towards, here);
     behind += clamp(here - 0.5 * (one + other) - noise, 0.0, 0.05);
-    // Where the surface ends the nearer side goes on.
+    // The smaller difference is the slope: the larger one may cross the edge of the surface.
     float up = one - here, down = here - other;
     if (i == 0) slope.x = abs(up) < abs(down) ? up : down;
     if (i == 2) slope.y = abs(up) < abs(down) ? up : down;

@@ -60,8 +60,7 @@ export class ImageSlice {
     this.object.geometry.computeBoundingSphere();
     this.recolour();
   }
-  /// The positions of its corners: at the first pixel, at the last column, at the last pixel, at
-  /// the last row.
+  /// The corners of the slice, in the order first pixel, last column, last pixel, last row.
   corners(): number[] {
     const [v, u] = this.sides();
     const corner = (i: number, j: number) => {

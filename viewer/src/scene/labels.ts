@@ -10,9 +10,9 @@ import type { Report } from "../model/report";
 import type { Session } from "../model/session";
 import type { Stage } from "./stage";
 
-const kPatience = 60, // milliseconds after the last change
+const kPatience = 60, // milliseconds of waiting after the last change
   kSize = 12, // text size in pixels
-  kBehind = 1.02, // share of the distance of the hiding point
+  kBehind = 1.02, // a place is hidden if it is more than this factor farther than the nearest point
   kPlaces = 48; // candidate places of a segment, for when its middle is hidden
 
 type Place = [number, number, number];
@@ -44,7 +44,7 @@ export class Labels {
     this.find();
   }
 
-  /// Moving a cut does not wait for this.
+  /// Finds the labels anew after a delay, so that moving a cut does not wait for them.
   private find(): void {
     clearTimeout(this.finding);
     this.finding = window.setTimeout(() => {

@@ -60,7 +60,8 @@ export class Overlay {
   }
 }
 
-/// Many lines must not turn solid black: they get as much ink as `some` of them.
+/// The opacity of `count` lines. Beyond `some` lines it falls, because many lines would otherwise
+/// merge into solid black.
 function faintest(opacity: number, count: number, some: number): number {
   return Math.max(0.015, opacity * Math.min(1, (some / count) ** 0.75));
 }
@@ -137,7 +138,7 @@ function shaded(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[
       depthWrite,
       depthTest: order > 0,
       colorWrite: part > 0,
-      polygonOffset: true, // its edges lie in front of it
+      polygonOffset: true, // the edges of the surface lie in front of it
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
     });

@@ -16,7 +16,7 @@ import { spacingOf } from "../geometry/point_spacing";
 import type { Pose } from "./pose";
 import type { Stage } from "./stage";
 
-const kReach = 6, // pixels
+const kReach = 6, // distance in pixels at which the pointer finds a point
   kCell = 6,
   kSurface = 3000, // number of points; fewer do not form a surface
   kCover = 1.5; // spacings that a mark covers, so that neighbours in any direction touch
@@ -28,8 +28,8 @@ uniform float spacing;
 uniform bool seen;
 uniform vec3 eye;
 uniform vec2 limits;
-uniform vec4 haze; // middle, and how far what is around it reaches
-uniform vec4 air; // its colour, and how much of it there is at the far end
+uniform vec4 haze; // centre and radius of the cloud
+uniform vec4 air; // colour of the air, and its share at the far end
 varying vec3 colour;
 varying float size;
 void main() {
@@ -44,7 +44,7 @@ void main() {
 }`;
 const kFragment = `
 uniform bool round;
-uniform bool soft; // nothing lies behind it: its edge is smooth
+uniform bool soft; // true if nothing lies behind a mark: then the edge of the mark is smooth
 varying vec3 colour;
 varying float size;
 void main() {

@@ -15,13 +15,13 @@ export interface Pose {
   /// Half the visible extent: to the side, upwards, towards the eye.
   half: { width: number; height: number; depth: number };
   radius: number;
-  /// Position of the sensor relative to the centre: the view has its angle.
+  /// Distance of the sensor from the centre; undefined if there is no sensor.
   distance: number | undefined;
 }
 
 const kSampled = 20000;
 
-/// @param axis of the slice of a volume.
+/// @param axis the axis of a volume that the slice is perpendicular to.
 export function firstPose(report: Report, axis = 0): Pose {
   const { image, cloud, meta } = report;
   if (image) {
@@ -126,7 +126,8 @@ function extentAlong(sample: number[], axis: Vector3): number {
   return high - low;
 }
 
-/// The sensor looks at the middle of its view; sizes refer to the distance of the centre.
+/// The pose of the sensor, which looks at the middle of what it sees; sizes are measured at the
+/// distance of the centre.
 function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pose {
   const distance = sensor.distanceTo(around.centre);
   const towards = sensor.clone().sub(around.centre).normalize();
@@ -155,7 +156,8 @@ function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pos
   };
 }
 
-/// All points except a few outermost ones: a distant speck must not make the rest small.
+/// The range of a coordinate without a few outermost points, because a distant speck must not make
+/// the other points small.
 function ends(
   coordinates: number[],
   value: (x: number, y: number, z: number) => number,
@@ -176,7 +178,7 @@ function sampled(positions: Float32Array): number[] {
   return sample;
 }
 
-/// The box along the axes of the picture.
+/// The pose whose extent is the box of the points along the axes of the picture.
 function poseOf(coordinates: number[], towards: Vector3, up: Vector3, flat: boolean): Pose {
   const forward = towards.clone().normalize();
   const right = new Vector3().crossVectors(up, forward);

@@ -17,7 +17,7 @@ export interface Shape {
 
 const kMostChains = 100,
   kMostCells = 400_000,
-  kMostCorners = 1_200_000, // opacity of the surfaces around voxels
+  kMostCorners = 1_200_000, // number of corners of the surfaces around voxels
   kMostOutlined = 4000; // number of cells of a surface; the edges of more would be a tangle
 
 // No other colour of the page is close to the colour of births: neither the colours of values,

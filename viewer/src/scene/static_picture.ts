@@ -83,7 +83,7 @@ export class StaticPicture {
   // If there are very many triangles or lines, only every n-th is drawn, which is enough to show
   // the shape.
 
-  /// The farthest first.
+  /// The triangles of a shape, the farthest first.
   private triangles(shape: Shape): SVGElement[] {
     const { triangles } = shape.geometry;
     const step = 9 * Math.max(1, Math.ceil(triangles.length / 9 / kMostMarks));

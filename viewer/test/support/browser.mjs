@@ -10,7 +10,7 @@ import { reportHtml } from "./write_report.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const executable = process.env.CHROMIUM ?? "/usr/bin/chromium";
-/// Two million points take a software renderer seconds.
+/// The longest wait, in milliseconds; a software renderer takes seconds to draw two million points.
 const kPatient = 120_000;
 
 let read;
@@ -205,11 +205,11 @@ export async function picture(page, name) {
   await page.screenshot({ path: join(process.env.PICTURES, `${name}.png`), timeout: kPatient });
 }
 
-/// Limits are for an idle machine.
+/// A factor for time limits, which are stated for an idle machine.
 export const kPatience = Number(process.env.PATIENCE ?? 4);
 export const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 
-/// Input waits for the next frame.
+/// Waits until the next frame is drawn, because the page handles input once per frame.
 export const frame = (page) =>
   page.evaluate(
     () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { inflateSync } from "node:zlib";
 
-/// Four bytes each, with their `width` and `height`.
+/// The pixels of a PNG, four bytes each, with their `width` and `height`.
 export function decodedPng(png) {
   const width = png.readUInt32BE(16),
     height = png.readUInt32BE(20),

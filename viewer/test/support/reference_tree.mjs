@@ -16,7 +16,9 @@ class DisjointSets {
   }
 }
 
-/// @param births by vertex. @param edges [u, v, value] each. Elder rule; ties by vertex.
+/// The merge tree of a graph by the elder rule; among equal births, the vertex with the smaller
+/// number is older. @param births the birth of each vertex. @param edges [u, v, value] for each
+/// edge.
 export function mergeTree(births, edges) {
   const values = Float64Array.from(edges, (e) => e[2]);
   const order = Uint32Array.from(edges, (_, i) => i).sort((i, j) => values[i] - values[j] || i - j);
@@ -47,7 +49,7 @@ export function mergeTree(births, edges) {
   return { births, merges };
 }
 
-/// Points of each vertex, and a vertex of each point (0xffffffff: none).
+/// The segments of a cut. @param vertexOfPoint the vertex of each point; 0xffffffff: none.
 /// @param flat a component with a share of `least` of its vertices `on` a plane is not a segment.
 export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1, flat }) {
   const n = tree.births.length,
@@ -81,7 +83,7 @@ export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1
 }
 
 /// The tree of a report: merges that some cut leaves undone stay, and all others are contracted.
-/// @param from least cut. @param barOf the bar that a merge kills.
+/// @param from the least cut. @param barOf returns the bar that a merge kills.
 export function contracted(
   tree,
   vertexOfPoint,

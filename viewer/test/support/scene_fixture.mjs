@@ -19,7 +19,7 @@ function twoNearest(spots, x, y) {
 /// The program's result for the parts of its cut: two pairs of them form one object each, and the
 /// second largest part is a wall. The table is the first surface.
 function answerOf(tree, vertexOfPoint, parts, leafOf, arrays) {
-  const joined = new Map([[7, 3], [5, 10]]), // parts, by place
+  const joined = new Map([[7, 3], [5, 10]]), // part 7 joins part 3, part 5 joins part 10
     wall = 1;
   const leaves = arrays["tree/leaf_birth"].length;
   const partOfLeaf = new Int32Array(leaves).fill(-1);
