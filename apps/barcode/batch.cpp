@@ -201,7 +201,7 @@ BarcodeFormat output_format(const Job& job, app::Session& session) {
       picture.is_svg() || picture.is_png())
     throw Error(ErrorKind::usage,
                 fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
-                            "--output-format says what else it is",
+                            "--output-format NAME writes another format there",
                             printable(job.places.output)));
   // Pictures of several inputs do not need barcodes beside them.
   const bool has_others =

@@ -123,7 +123,7 @@ class Run {
     const std::vector<int>& dims = arguments_.dims.empty() ? there : arguments_.dims;
     if (matrix_ && dims.size() != 1)  // mutant: matrix-dimensions
       throw Error(ErrorKind::usage,
-                  fmt::format("--matrix: found {}, expected one dimension; --dim D",
+                  fmt::format("--matrix: found {}, expected one dimension; --dim D selects one",
                               dims.empty() ? "no bars" : names_of(dims)));
     return dims;
   }

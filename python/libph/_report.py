@@ -125,7 +125,7 @@ def _source_of(data: Any, complex: str | None, options: dict[str, Any]) -> _Sour
     if not isinstance(data, (Mesh, Simplices, Boundary)):
         return _Source(request_of(data, complex, options), None, isinstance(data, PointImage))
     if complex is not None:
-        raise UsageError(f"complex: found {complex!r}, but a {type(data).__name__} is one")
+        raise UsageError(f"complex: found {complex!r}, but a {type(data).__name__} is itself a complex")
     if not isinstance(data, Mesh):
         function, request = _LISTED[type(data)]
         given = arguments_of(function, data[0], {**dict(zip(data._fields[1:], data[1:])), **options})
@@ -169,7 +169,7 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
         found, expected = source.request.meta.get(name), meta.get(name)
         if expected is not None and found != expected:
             raise DataError(f"X: found {found} {'' if name == 'shape' else name}".rstrip() +
-                            f", expected {expected}, as the bars are of")
+                            f", expected {expected}, as stored with the bars")
     return _page(bars, source, title)
 
 

@@ -162,7 +162,7 @@ bool take_word(Job& a, app::PlotArguments& plots) {
     throw Error(
         ErrorKind::usage,
         fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
-                    "for it and -o for the barcode",
+                    "for the picture and -o for the barcode",
                     barcode_format_name(*a.results.output_format), a.places.output));
   const auto bars = barcode_format_of_path(a.places.output);
   const bool has_others = !plots.paths.empty() || !a.places.report.empty();
@@ -216,9 +216,9 @@ void check_together(Job& a) {
   const bool has_cycles = a.question.options.representatives == Representatives::cycles ||
                           a.question.options.representatives == Representatives::voxels;
   if (a.results.loops && !has_cycles)
-    reject("--loops: found without --representatives cycles or voxels, of which loops are made");
+    reject("--loops: found without --representatives cycles or voxels, from which loops are made");
   if (a.results.loops && (a.question.options.max_dim == 0 || a.question.options.min_dim > 1))
-    reject("--loops: found without dimension 1, the only one of which there are loops");
+    reject("--loops: found without dimension 1, the only dimension with loops");
   if (a.question.options.collapse == Collapse::on && a.question.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
@@ -226,8 +226,8 @@ void check_together(Job& a) {
   if (a.question.options.collapse == Collapse::on &&
       a.question.options.representatives == Representatives::cocycles)
     reject(
-        "--collapse: found on, expected off or auto with --representatives cocycles: they are "
-        "of all edges");
+        "--collapse: found on, expected off or auto with --representatives cocycles: they need "
+        "all edges");
   check_rips_arguments(a);
   check_alpha_arguments(a);
   check_image_arguments(a);
@@ -270,10 +270,11 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Jo
   if (job.sharing.part) job.sharing.typed_options = app::given_options(options, kNotOfResults);
   if (job.compare.empty() && !job.is_batch() && !job.sharing.part && !job.sharing.joins &&
       app::is_folder(job.inputs[0]))
-    throw Error(ErrorKind::no_input,
-                fmt::format("{}: it is a directory, a batch: give a folder for its results, -o "
-                            "FOLDER/, --plot FOLDER/ or --report FOLDER/",
-                            printable(job.inputs[0])));
+    throw Error(
+        ErrorKind::no_input,
+        fmt::format("{}: it is a directory, a batch of inputs: give a folder for the results, -o "
+                    "FOLDER/, --plot FOLDER/ or --report FOLDER/",
+                    printable(job.inputs[0])));
   if (!job.places.report.empty()) job.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;
 }

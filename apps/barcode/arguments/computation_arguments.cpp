@@ -50,7 +50,7 @@ void take_complex(Job& a, const std::string& text) {
   if (is_triangulated(a.question.complex) && alpha_support().empty())
     throw Error(ErrorKind::not_built_in,
                 fmt::format("--complex {}: not built in: it needs CGAL (Debian: libcgal-dev), and "
-                            "what has it falls under the GPL",
+                            "a build with CGAL falls under the GPL",
                             text));
   a.question.own_complex = place < own ? nullptr : &own_complexes()[place - own];
 }

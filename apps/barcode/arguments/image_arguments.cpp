@@ -110,8 +110,9 @@ void check_image_arguments(Job& a) {
     throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
   if (a.reading.options.raw && a.reading.options.raw->big_endian &&
       a.reading.options.raw->type.ends_with('1'))
-    throw Error(ErrorKind::usage,
-                "--raw-big-endian: found numbers of one byte, expected --raw-type with more");
+    throw Error(
+        ErrorKind::usage,
+        "--raw-big-endian: found numbers of one byte, expected a --raw-type of several bytes");
 }
 
 }  // namespace ph::barcode

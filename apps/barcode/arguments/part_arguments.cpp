@@ -29,7 +29,7 @@ void check_ranks(const Job& a) {
   const auto reject = [](std::string_view option, std::string_view why) {
     throw Error(ErrorKind::usage, fmt::format("{}: found on ranks{}", option, why));
   };
-  if (a.sharing.keeps_cells) reject("--keep-cells", "; JSON has them");
+  if (a.sharing.keeps_cells) reject("--keep-cells", "; JSON has the cells");
   if (!a.places.report.empty()) reject("--report", "; `ph-barcode plot BARS --report` makes one");
   if (!a.compare.empty()) reject("--compare", "");
   if (a.stored) reject("plot", "");
@@ -76,7 +76,7 @@ void check_part_arguments(const Job& a) {
     return;
   }
   if (!a.sharing.part && !a.sharing.joins) {
-    if (a.sharing.resumes) reject("--resume: found without --part, whose output it looks at");
+    if (a.sharing.resumes) reject("--resume: found without --part, whose output it keeps");
     if (a.sharing.keeps_cells) reject("--keep-cells: found without --part");
     return;
   }
@@ -91,17 +91,19 @@ void check_part_arguments(const Job& a) {
                     "the bars",
                     option));
   if (a.sharing.keeps_cells && a.wants_part_of_one() && !a.wants_image_part())
-    reject("--keep-cells: makes sense for images; parts of points have them");
+    reject("--keep-cells: makes sense for images; parts of points have the cells");
   if (a.sharing.joins && a.sharing.resumes) reject("--resume: makes sense with --part only");
   if (a.question.options.min_persistence < 0 && (a.sharing.joins || a.wants_part_of_one()))
     reject(
-        fmt::format("--min-persistence: found a negative one beside {}: parts keep no bars of "
+        fmt::format("--min-persistence: found a negative number beside {}: parts keep no bars of "
                     "length 0",
                     option));
   if (a.sharing.joins && a.sharing.keeps_cells)
     reject("--keep-cells: makes sense with --part only");
   if (a.sharing.part && a.results.output_format)
-    reject("--output-format: found beside --part, which writes a part file; --join has formats");
+    reject(
+        "--output-format: found beside --part, which writes a part file; --join writes other "
+        "formats");
   for (const app::Plot& plot : a.places.plots)
     if (!plot.shows_bars())
       reject(fmt::format("--plot-kind: found {} beside {}, expected a plot of bars", plot.kind,

@@ -169,7 +169,8 @@ class Builder {
                                                 *options.threshold));
     if (!wanted.max_dim && wanted.min_dim > 1)
       throw Error(ErrorKind::usage, fmt::format("--min-dim: found {}, expected at most 1, the "
-                                                "highest of a Rips complex without --max-dim",
+                                                "highest dimension computed for a Rips complex "
+                                                "unless --max-dim is given",
                                                 wanted.min_dim));
     const Index size = size_of(data);
     if (options.dtm_neighbours && size > 0 && *options.dtm_neighbours > size)

@@ -20,7 +20,7 @@ void require_significance(BarcodeFormat format, const Job& job) {
                        barcode_format_name(format)));
   if (job.question.options.min_persistence > 0)
     reject(
-        "--min-persistence, expected all bars: p compares each with the others; leave out those "
+        "--min-persistence, expected all bars: p compares each bar with the others; leave out bars "
         "with a large p afterwards");
   if (job.question.complex == ComplexKind::delaunay_rips)
     reject(
@@ -28,8 +28,8 @@ void require_significance(BarcodeFormat format, const Job& job) {
   if (job.question.rips.dtm_neighbours || !job.question.vertex_weights.empty() ||
       !job.question.weights.empty())
     reject(
-        "vertices with weights, expected ones that are there from 0 on: ratios of death and "
-        "birth are compared");
+        "vertices with weights, expected vertices that enter at 0: ratios of death and birth "
+        "are compared");
   if (job.question.options.max_dim == 0)
     reject("--max-dim 0, expected dimension 1 or above: components are born at 0");
 }

@@ -53,7 +53,7 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
   } catch (const std::system_error& error) {
     // Thrown by threads if the system has no room for another one.
     if (error.code() == std::errc::resource_unavailable_try_again)
-      return report("cannot create a thread; use fewer (--threads)", kResource);
+      return report("cannot create a thread; use fewer threads (--threads)", kResource);
     return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
   } catch (const std::exception& error) {
     return report(fmt::format("internal error: {}; please report", error.what()), kInternal);

@@ -171,8 +171,8 @@ void require_one_on_standard_output(const Arguments& a) {
   for (const auto& [option, path] : {std::pair{"--matching", a.matching}, {"--matrix", a.matrix}})
     if (path == "-") {
       if (!first.empty())
-        reject(fmt::format("{0}: standard output has that of {1}; {0} FILE, or {1} FILE", option,
-                           first));
+        reject(fmt::format("{0}: standard output has the result of {1}; {0} FILE, or {1} FILE",
+                           option, first));
       first = option;
     }
 }

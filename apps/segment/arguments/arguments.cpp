@@ -30,7 +30,7 @@ double depth_scale(const std::string& text) {
   const double scale = length("--depth-scale", text);
   if (scale < 1)
     throw Error(ErrorKind::usage,
-                fmt::format("--depth-scale: found {0}, expected units a metre, at least 1; if a "
+                fmt::format("--depth-scale: found {0}, expected units per metre, at least 1; if a "
                             "unit is {0} m: 1 / {0} = {1:.6g}",
                             text, 1 / scale));
   return scale;
@@ -117,7 +117,8 @@ void require_consistent(const Arguments& a) {
     throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
   }
   if (a.explain && a.files.to_standard_output()) {
-    throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
+    throw Error(ErrorKind::usage,
+                "--explain: found a second result for standard output, expected a file for it");
   }
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
@@ -125,7 +126,7 @@ void require_consistent(const Arguments& a) {
   if (!depth && !a.is_stream() && app::is_folder(a.inputs.front()))
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: it is a directory, a stream of frames: give an output for each of "
-                            "them, such as -o FOLDER/, or --json FILE with a line a frame",
+                            "them, such as -o FOLDER/, or --json FILE with a line per frame",
                             printable(a.inputs.front())));
   if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
     if (a.image.has_camera())

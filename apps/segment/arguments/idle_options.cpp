@@ -10,7 +10,7 @@ namespace ph::segment {
 std::vector<std::string> idle_options(const Arguments& a) {
   std::vector<std::string> texts;
   if (a.common.threads > 0 && !a.signatures)  // mutant: idle-threads
-    texts.emplace_back("--threads does nothing: all but --signatures runs on one thread");
+    texts.emplace_back("--threads does nothing: everything but --signatures runs on one thread");
   if (!a.image.colour.empty() && !a.files.show(&OutputOption::shows_colours)) {
     texts.emplace_back(
         "--color does nothing: no output shows colours; --output, --coloured, --picture, --report "
@@ -24,7 +24,7 @@ std::vector<std::string> idle_options(const Arguments& a) {
   if (has_noise && o.noise_floor() < o.plane_noise) {
     texts.push_back(
         fmt::format("--plane-noise does nothing: --plane-distance {} is smaller and "
-                    "goes before it",
+                    "replaces it",
                     *o.plane_distance));
   }
   return texts;

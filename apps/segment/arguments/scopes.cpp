@@ -12,7 +12,7 @@ void require_input(std::span<const app::GivenOption> given, Situation input) {
                         input == kCloud ? "a cloud"
                         : input == kDepthImage
                             ? "a depth image"
-                            : "a stored tree, which was made with what it was made with; --cut, "
+                            : "a stored tree, which keeps the options it was made with; --cut, "
                               "--min-part, --min-size, --min-seam, --objects and --parts cut it "
                               "anew, --labels writes the labels of its points");
 }

@@ -52,7 +52,7 @@ std::optional<std::string> FrameList::read_name() {
     if (line->ends_with('\r')) line->pop_back();
     if (const std::size_t nul = line->find('\0'); nul != std::string::npos)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("--frames-from: found a NUL behind '{}', expected one name per line",
+                  fmt::format("--frames-from: found a NUL after '{}', expected one name per line",
                               printable(line->substr(0, nul))));
     if (!line->empty()) return line;
   }

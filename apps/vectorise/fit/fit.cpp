@@ -103,11 +103,12 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
   if (fit.infinite.rule == Rule::error)
     for (const Bar& bar : bars)
       if (!std::isfinite(bar.birth) || !std::isfinite(bar.death))
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("{}: found a bar [{}, {}) of H{}, expected finite ones; --infinite "
-                                "drop leaves others out, --infinite T gives an end to those that "
-                                "never die",
-                                name, bar.birth, bar.death, bar.dim));
+        throw Error(
+            ErrorKind::bad_data,
+            fmt::format("{}: found a bar [{}, {}) of H{}, expected finite bars; --infinite "
+                        "drop leaves all others out, --infinite T gives an end to bars that "
+                        "never die",
+                        name, bar.birth, bar.death, bar.dim));
   try {
     if (fit.infinite.rule == Rule::keep) {
       for (const Bar& bar : bars) vectors::check_bar(bar, "bars");

@@ -87,8 +87,8 @@ class VoxelValues(CellValues):
         image = _arrays.as_array(X.image if isinstance(X, PointImage) else X, "X")
         self._shape = tuple(meta["shape"])
         if image.shape != self._shape:
-            raise UsageError(f"X: found an image of shape {image.shape}, expected {self._shape} as of "
-                             "the barcode")
+            raise UsageError(f"X: found an image of shape {image.shape}, expected {self._shape}, as "
+                             "stored in the barcode")
         self.width = len(self._shape)
         self._sign = -1.0 if meta["superlevel"] else 1.0
         self._image = image

@@ -74,7 +74,8 @@ SparseDistances MetricSpace::sparse_distances(const Pairs& pairs) const {
 namespace {
 
 [[noreturn]] void fail_incomplete() {
-  throw Error(ErrorKind::usage, "distances: found some of them (a sparse matrix), expected all");
+  throw Error(ErrorKind::usage,
+              "distances: found a sparse matrix, expected the distances of all pairs");
 }
 
 py::tuple farthest_points(const MetricSpace& space, Index points, double radius,

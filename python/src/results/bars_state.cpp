@@ -171,7 +171,7 @@ Bars selected(const Bars& bars, const std::vector<std::int64_t>& places) {
   chosen.barcode.store_voxels(voxels);
   for (const std::int64_t place : places) {
     if (place < 0 || static_cast<std::size_t>(place) >= all.size())
-      throw Error(ErrorKind::usage, "places of bars: found one that is not there");
+      throw Error(ErrorKind::usage, "places of bars: found an index out of range");
     const auto i = static_cast<std::size_t>(place);
     append(chosen.barcode, all[i], parts_of(all, i, voxels), all.representatives());
     if (!bars.loops.empty()) chosen.loops.push_back(bars.loops[i]);

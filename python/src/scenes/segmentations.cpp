@@ -218,7 +218,7 @@ std::string file_of(const SegmentedScene& scene, const std::string& format) {
   if (format == "tree") return segment::tree_bytes(s.tree);
   if (format == "json") return segment::tree_json(s.tree);
   if (!scene.cloud() || (format != "pcd" && format != "ply"))
-    throw Error(ErrorKind::internal, "a format that is none reached _core");
+    throw Error(ErrorKind::internal, "an unknown format reached _core");
   return segment::cloud_bytes(
       segment::with_labels(*scene.cloud(), s.cut.labels),
       format == "pcd" ? segment::CloudFormat::pcd : segment::CloudFormat::ply);
@@ -282,7 +282,7 @@ void bind_segmentations(py::module_& m) {
              SegmentOptions o;
              const auto named = std::ranges::find(segment::kMethodNames, method);
              if (named == segment::kMethodNames.end())
-               throw Error(ErrorKind::internal, "a method that is none reached _core");
+               throw Error(ErrorKind::internal, "an unknown method reached _core");
              o.method = static_cast<segment::Method>(named - segment::kMethodNames.begin());
              o.voxel = voxel;
              o.min_size = min_size;

@@ -54,7 +54,7 @@ export abstract class BarChart extends Chart {
     const counts = bars.dims.map(
       (dim) => `${counted(bars.count(dim, 0), "bar")} in dimension ${dim}`,
     );
-    return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects, with Shift arrow keys select what they pass.`;
+    return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects; with Shift, arrow keys select the bars that they pass.`;
   }
   protected step(by: number, extend: boolean): void {
     const shown = this.shownBars(this.session.report.bars.size);

@@ -118,7 +118,7 @@ export function helpDialog(): HTMLDialogElement {
     el(
       "p",
       {},
-      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. All views show the same bars; the address of the page keeps what you see.",
+      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. A dot far above the diagonal, or a long bar, is a persistent hole. All views show the same bars; the address of the page keeps what you see.",
     ),
     el("dl", {}, ...rows.flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)])),
     button("close", () => dialog.close(), { class: "close" }),
