@@ -148,11 +148,12 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     Parameters
     ----------
     X : array_like
-        Points of R^1, R^2 or R^3, one a row. Duplicates, and points in a common plane or on a
+        Points of R^1, R^2 or R^3, one per row. Duplicates, and points in a common plane or on a
         common line, are accepted.
     values : {"alpha", "delaunay-cech", "delaunay-rips"}
-        When a simplex enters. "alpha": as above. "delaunay-cech": when all its balls meet, which
-        gives the same bars. "delaunay-rips": when its balls meet in pairs.
+        When a simplex enters. "alpha": as above. "delaunay-cech": when the balls around all its
+        vertices have a common point, which gives the same bars. "delaunay-rips": when the balls
+        around its vertices meet in pairs.
     squared : bool, optional
         If True, values are squares of radii, as in GUDHI. Default: True only for points with
         weights.

@@ -18,15 +18,15 @@ class Error(Exception):
     ----------
     remedies : tuple of (str, str)
         Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty if
-        several values help. The keywords of a `MemoryLimitError` are to be set together: they are
-        the first of the ways out that the message names.
+        several values help. The keywords of a `MemoryLimitError` must be set together: they are the
+        first of the solutions that the message names.
     """
 
     remedies: tuple[tuple[str, str], ...] = ()
     _place: str = ""            # the place of the error
     _found: str = ""            # what was found there
-    _input: int | None = None   # the input, if there are several
-    _cause: Error | None = None  # the problem with it
+    _input: int | None = None   # index of the input, if there are several
+    _cause: Error | None = None  # the problem with this input
 
 
 class UsageError(Error, ValueError):
@@ -54,7 +54,7 @@ class Cancelled(Error):
 
 
 class Timeout(Cancelled, TimeoutError):
-    """The computation was stopped because its `timeout` was over."""
+    """The computation was stopped because it exceeded its `timeout`."""
 
 
 class NotBuiltIn(Error, NotImplementedError):

@@ -18,9 +18,9 @@ class Estimate(NamedTuple):
     Attributes
     ----------
     bytes_low : float
-        Predicted memory of the complex and the computation in bytes, at least.
+        The least predicted memory of the complex and the computation, in bytes.
     bytes_high : float
-        The same, at most.
+        The largest predicted memory, in bytes.
     cells : tuple of float
         Number of cells per dimension, as far as the engine lists them.
     counted_dims : int

@@ -65,14 +65,15 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
          raw_skip: int = 0, **run: Unpack[RunOptions]) -> Any:
     """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
 
-    Assumptions about the file go to the logger "libph", level INFO.
+    What libph assumed about the file is reported to the logger "libph", level INFO.
 
     Parameters
     ----------
     path : path
         The file, which may be compressed with gzip.
     format : str, optional
-        A name of ``--format`` of the program ph-barcode. Default: by content and extension.
+        A name that the option ``--format`` of the program ph-barcode accepts. Default: the format
+        is detected from content and extension.
     values : path, optional
         Values of the cells of a boundary matrix, or of the vertices of a mesh or of simplices.
     nan : {"error", "drop"}
@@ -208,7 +209,8 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     path : path
         The file. JSON restores cells and chains, but not loops, sets of voxels and p-values.
     format : str, optional
-        "csv", "json", "ripser", "pers", "dipha" or "npy". Default: by content and extension.
+        "csv", "json", "ripser", "pers", "dipha" or "npy". Default: the format is detected from
+        content and extension.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

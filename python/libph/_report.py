@@ -113,7 +113,7 @@ class _Source(NamedTuple):
     """The data from which bars are computed, and the data that a page shows with them."""
 
     request: Request
-    vertices: Any = None  # their positions
+    vertices: Any = None  # positions of the vertices
     has_axes: bool = False
 
 

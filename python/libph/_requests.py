@@ -254,7 +254,7 @@ def alpha_request(o: dict[str, Any]) -> Request:
 
 def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
                  threshold: float | None = None) -> tuple[_core.AlphaRecipe, bool, list[float]]:
-    """Returns also whether values are squares, and the lengths of periodic axes."""
+    """Returns the recipe, True if values are squares, and the lengths of periodic axes."""
     if not _core.alpha_support():
         raise NotBuiltIn("alpha: this build of libph has no alpha complexes, because CGAL was "
                          "missing. Install it (Debian: apt install libcgal-dev), then install "

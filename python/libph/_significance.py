@@ -28,7 +28,7 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
     For loops, voids and holes of higher dimension of point sets. log log (death / birth), shifted
     to the mean that it has for noise, follows one law whatever the points are drawn from
     [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few bars the test is
-    weak, because the shift is their mean.
+    weak, because the shift is computed from the mean of these bars.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class Band(NamedTuple):
     Attributes
     ----------
     mean : ndarray
-        The mean, in the shape of one function, as are the others.
+        The mean, in the shape of one function. `lower` and `upper` have the same shape.
     lower : ndarray
         The lower end of the band.
     upper : ndarray

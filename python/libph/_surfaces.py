@@ -97,9 +97,9 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     Parameters
     ----------
     X : array_like
-        Points of R^1, R^2 or R^3, one a row.
+        Points of R^1, R^2 or R^3, one per row.
     value : float
-        The radius, or its square if `squared`.
+        The radius of the balls, or its square if `squared` is True.
     wrap : bool
         If True, use the wrap complex instead: the critical simplices up to the value with
         everything below them in the gradient. It has the same holes without frayed edges

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The module libph._core: functions that take buffers and plain numbers and return blocks of their
-// own. Shapes, names, words and defaults are the business of the Python around it.
+// own. The Python modules around it handle shapes, names, words and defaults.
 #include "python/src/calls/bindings.hpp"
 
 PYBIND11_MODULE(_core, m) {

@@ -184,7 +184,7 @@ std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offse
       threshold, cells);
 }
 
-/// What a keyword has to be: "'cpu' or 'gpu'".
+/// The words for the values that a keyword accepts: "'cpu' or 'gpu'".
 template <class Value>
 std::string expected_of(const Value*) {
   if constexpr (std::is_enum_v<Value>)
@@ -199,7 +199,7 @@ std::string expected_of(const std::optional<Value>*) {
   return expected_of(static_cast<const Value*>(nullptr));
 }
 
-/// Options with the members that keywords set; other keywords are passed over.
+/// Options whose members are set by keywords; other keywords are ignored.
 template <class Options>
 Options taken(const py::dict& keywords) {
   Options options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pages that show a barcode or a segmentation, with what it is of.
+// Pages that show a barcode or a segmentation with the data from which it was computed.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -47,7 +47,8 @@ report::Provenance provenance_of(const py::dict& meta,
   return provenance;
 }
 
-/// A tree that lacks some of the bars belongs to other data. @throws Error (bad_data).
+/// Refuses a tree that lacks some of the bars, because it belongs to other data. @throws Error
+/// (bad_data).
 void require_bars(const report::ShownTree& tree, const Barcode& barcode) {
   std::vector<bool> is_linked(barcode.bars(0).size());
   for (const auto* bars : {&tree.bars.of_merge, &tree.bars.of_vertex})

@@ -113,7 +113,7 @@ def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:
     """A corner without bars in a picture of bars from the bottom up; None if there is none.
 
-    matplotlib's own choice does not see their lines.
+    matplotlib's own choice of a corner ignores the lines of the bars.
     """
     height = np.linspace(0, 1, len(ends)) if len(ends) > 1 else np.array([0.5])
     for side, is_there in (("right", ends[:, 1] > middle), ("left", ends[:, 0] < middle)):

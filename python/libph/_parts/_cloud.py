@@ -78,7 +78,7 @@ def cloud_part(points: ArrayLike, part: int, parts: int, *, threshold: float | N
     Parameters
     ----------
     points : array_like
-        Points of at most 8 coordinates, one a row. Distances are Euclidean.
+        Points of at most 8 coordinates, one per row. Distances are Euclidean.
     part : int
         Index of this part, from 0.
     parts : int

@@ -48,7 +48,8 @@ class ImagePart(Part):
         self.has_loops: bool = facts["has_loops"]
 
     def told_to_loops(self, **run: Unpack[RunOptions]) -> list[bytes]:
-        """The messages from which the loops of each part start, as the joins determined them.
+        """For each part, the message with which the search for its loops starts; joining the parts
+        determined these messages.
 
         Raises
         ------

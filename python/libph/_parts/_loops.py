@@ -37,8 +37,8 @@ class ImageLoops:
     field : int
         Coefficients are in Z/p for this prime p. It must be the same for all parts.
     **run
-        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. The first two apply
-        to the whole work.
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. `threads` and
+        `memory_limit` apply to the whole work.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class ImageLoops:
         return self._loops.is_idle
 
     def work(self, most: int | None = None, **run: Unpack[RunOptions]) -> None:
-        """Works until everything is done or waits for other parts; on at most `most` columns, if
+        """Works until all work is done or waits for other parts; stops after `most` columns, if
         given."""
         _run.check_names("work", run, ["most"])
         count = None if most is None else _options.whole("most", most, 1)

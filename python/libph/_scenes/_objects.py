@@ -187,7 +187,8 @@ def _numbers(values: Iterable[float]) -> str:
 
 
 def standing_on(surface: int, label: int) -> tuple[str, int] | None:
-    """Converts _core's number of a surface, from 1, or a label."""
+    """What an object stands on: the surface with this number, counted from 1, or the object with
+    this label. 0 means none."""
     return ("surface", surface - 1) if surface else ("object", label) if label else None
 
 

@@ -65,8 +65,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         concave the free supporting plane looks, default 1; for "supervoxels" a length, default 0.
     min_part : int, optional
         The fewest voxels of a part; a smaller part joins a neighbour. Default: 200; for
-        "supervoxels"
-        8. Not for "paper".
+        "supervoxels" 8. Not for "paper".
     min_size : int, optional
         The fewest voxels of an object. Default: 32; for "supervoxels" 1.
     min_seam : float, optional
@@ -87,7 +86,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         Default: 0.005. Not for "paper".
     previous : Segmentation, optional
         The segmentation of the frame before, from the same camera. The search for the supporting
-        plane starts where it was, so that it does not jump.
+        plane starts at the plane of that frame, so that the plane does not jump.
     viewpoint : sequence of float, optional
         The position of the sensor. Default: as the file or the rays of the pixels tell, else the
         origin.
@@ -230,7 +229,7 @@ def _length(name: str, value: Any) -> float:
 
 
 def _steps(name: str, value: Any) -> int:
-    """0: exact."""
+    """The number of steps; 0 stands for 'exact'."""
     if isinstance(value, str):
         if value != "exact":
             raise _options.refuse(name, value, "a whole number of at least 1, or 'exact'")
@@ -246,7 +245,7 @@ def _point(name: str, value: Any) -> list[float]:
 
 
 def _box(name: str, value: Any) -> list[list[float]]:
-    """Its two corners."""
+    """The two corners of a box."""
     numbers = _arrays.as_float64(_arrays.as_array(value, name), name)
     expected = "xmin, xmax, ymin, ymax, zmin, zmax, each minimum before its maximum"
     if numbers.shape not in ((6,), (3, 2)):

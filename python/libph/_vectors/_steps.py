@@ -24,7 +24,7 @@ class StepFunction:
     at : ndarray
         The values at which it changes, ascending.
     value : ndarray
-        The value from there on.
+        The value from each of these points on.
 
     Examples
     --------
@@ -78,7 +78,7 @@ class PiecewiseLinear:
     at : ndarray
         The critical points, ascending.
     value : ndarray
-        The values there.
+        The values at the critical points.
 
     Examples
     --------
@@ -118,7 +118,7 @@ def _places(name: str, t: Any) -> NDArray[np.float64]:
 
 
 def refuse_nan(name: str, numbers: NDArray[np.float64]) -> None:
-    """Names the first one."""
+    """Raises a DataError with the place of the first NaN, if there is one."""
     wrong = np.isnan(numbers)
     if wrong.any():
         place = "" if not numbers.ndim else _arrays.place_of(

@@ -148,7 +148,7 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     latest = float(births.max(initial=0.0))
     edges = _count(array, limit) if limit < np.inf or births.any() else None
     if limit == np.inf:
-        # Beyond it, all points are joined to one of them, and there is one component.
+        # Beyond this radius, all points are joined to one point, and there is a single component.
         limit = max(radius, latest) if latest < np.inf else np.inf
         limit = last_rounded_to(limit, dtype)
     n = len(array)

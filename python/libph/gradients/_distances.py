@@ -96,7 +96,7 @@ def _norm(x: Numbers, p: float) -> Numbers:
 
 
 def _gradient_of_norm(x: Numbers, p: float) -> Numbers:
-    """0 at 0."""
+    """The gradient of the norm; 0 for the zero vector."""
     if p == math.inf:
         first = np.argmax(np.abs(x), axis=1)[:, None]
         gradient: Numbers = np.zeros_like(x)

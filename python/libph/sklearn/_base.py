@@ -62,7 +62,7 @@ class MakesTables:
         kind = _get_output_config("transform", self)["dense"]
         if kind == "default":
             return rows
-        if kind != "pandas":  # of set_config
+        if kind != "pandas":  # the choice of set_config
             raise _options.refuse("transform_output", kind, "'default' or 'pandas'")
         import pandas
         index = X.index if hasattr(X, "iloc") else None

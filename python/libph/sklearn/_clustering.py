@@ -31,7 +31,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     """Clusters are the peaks of a density that rise high above the passes to higher peaks.
 
     The algorithm is ToMATo [Chazal, Guibas, Oudot & Skraba 2013]. Each point is joined to its k
-    nearest points, and follows the densest of the points that it is joined to, up to a peak. The
+    nearest points, and follows the densest of the points to which it is joined, up to a peak. The
     sublevel sets of f = -log(density) have one bar for each peak: it is born at the peak and dies
     at the pass to a denser peak. Its length is the logarithm of the ratio of the densities of peak
     and pass. Clusters with short bars are merged into the denser cluster.
@@ -58,8 +58,8 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     Attributes
     ----------
     labels_ : ndarray
-        The cluster the hill of each point; clusters are numbered by the density of their peaks, the
-        densest being 0.
+        The cluster of each point; clusters are numbered by the density of their peaks, the densest
+        being 0.
     n_clusters_ : int
     peaks_ : ndarray
         The densest point of each cluster.
@@ -197,7 +197,7 @@ class _Hills(NamedTuple):
     passes: _Integers   # (passes, 2): the hills that meet where two components merge
     lower: _Integers    # for each pass, the hill of the lower peak of the two components
     heights: _Numbers   # for each pass, the value of the function
-    lengths: _Numbers   # length of the bar that dies there
+    lengths: _Numbers   # for each pass, the length of the bar that dies there
 
 
 def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
@@ -209,7 +209,7 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
     ends = np.repeat(rank, neighbours.shape[1]), rank[neighbours.ravel()]
     low, high = np.minimum(*ends), np.maximum(*ends)
 
-    up = np.arange(n)  # the densest point that each is joined to
+    up = np.arange(n)  # for each point, the densest point that it is joined to
     np.minimum.at(up, high, low)
     while True:
         farther = up[up]
@@ -218,7 +218,7 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
         up = farther
     tops, hill_of_rank = np.unique(up, return_inverse=True)
 
-    # The first edge between each two hills that meet.
+    # The first edge between any two hills that meet.
     one, other = hill_of_rank[low], hill_of_rank[high]
     meet = one != other
     one, other, high = one[meet], other[meet], high[meet]

@@ -109,7 +109,7 @@ def _of_differences(name: str) -> str:
 
 
 def _in_metric(distances: _Numbers, name: str) -> _Numbers:
-    """For directions x and y, 1 - cos equals |x - y|² / 2, which keeps its digits."""
+    """For unit vectors x and y, 1 - cos equals |x - y|² / 2, which keeps its digits."""
     return distances**2 / 2 if name == "cosine" else distances
 
 

@@ -44,7 +44,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         Parameters
         ----------
         X : list
-            An entry for each sample, as of `PersistenceImage.transform`.
+            An entry for each sample, as for `PersistenceImage.transform`.
 
         Returns
         -------
@@ -68,7 +68,7 @@ class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
         Returns
         -------
         ndarray or DataFrame
-            Square.
+            One row and one column per fitted sample.
         """
         self.fit(X, y)
         return self._in_table(X, self._all(self._fitted, None))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is thrown here becomes an exception of the classes in libph/_errors.py, and no other.
+// Translates exceptions of C++ into the exception classes of libph/_errors.py.
 #include <exception>
 #include <new>
 #include <string_view>

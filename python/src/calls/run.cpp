@@ -105,10 +105,10 @@ class Computation {
 
   std::stop_source& stop() { return stop_; }
 
-  /// Waits until it is done.
+  /// Runs the computation and waits until it is done.
   void run() {
     if (!options_.memory_limit) context_->memory.set_limit(memory_left());
-    look(std::nullopt);  // it may have been stopped before it began, and finish soon
+    look(std::nullopt);  // a stop may have been requested before a short computation begins
     context_->poll();
     std::jthread worker;
     try {
@@ -147,7 +147,7 @@ class Computation {
   }
 
   // Called on the caller's thread.
-  /// An exception from a signal handler or a callback stops the computation.
+  /// Calls `look`; an exception from a signal handler or a callback stops the computation.
   void unless_it_throws(const std::function<void()>& look) {
     try {
       if (!of_caller_) look();

@@ -14,7 +14,7 @@ bool is_placeholder(std::string_view value) { return value[0] >= 'A' && value[0]
 std::string in_keywords(Setting setting, std::string_view value) {
   const auto [name, given] = keyword_of(setting, value);
   if (name.empty() || given.empty()) return name;
-  // A camera is named in messages about it.
+  // A camera and a placeholder stand without quotes.
   if (setting == Setting::camera || is_placeholder(given)) return name + ' ' + given;
   if (setting == Setting::columns) return name + "=['" + given + "']";
   if (is_number(given)) return name + '=' + given;
@@ -32,7 +32,7 @@ Keyword keyword_of(Setting setting, std::string_view value) {
   };
   switch (setting) {
     case Setting::allow_empty:  // this option is always on
-    case Setting::labels:       // for a file, which is not written
+    case Setting::labels:       // for a label file, which Python does not write
     case Setting::plane_guess:
     case Setting::report:
       return {};
@@ -40,7 +40,7 @@ Keyword keyword_of(Setting setting, std::string_view value) {
       return {"array", value == "cubical" ? "image" : std::string(value)};
     case Setting::diagonal:
       return {"diagonal", value == "zero" ? "any" : std::string(value)};
-    case Setting::cut:  // of Segmentation.cut
+    case Setting::cut:  // the first parameter of Segmentation.cut
       return named("value");
     case Setting::infinite:
       return named("infinity");

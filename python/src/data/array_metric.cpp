@@ -15,7 +15,7 @@ namespace ph::python {
 namespace {
 
 constexpr double kRounding = 1e-6;
-constexpr Index kTile = 64;  // rows and columns that are processed together, and columns across
+constexpr Index kTile = 64;  // number of rows, and of columns, of a tile that is processed at once
 
 struct Place {
   Index i = 0, j = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Arrays that go in and out, through the buffer protocol alone: the module works with any NumPy.
+// Arrays from and for Python. They use the buffer protocol alone; therefore the module works with
+// any version of NumPy.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -48,9 +49,9 @@ class Block {
   static Block copy_of(std::span<const T> numbers) {
     return of(std::vector<T>(numbers.begin(), numbers.end()));
   }
-  /// No copy.
+  /// Takes the points without a copy.
   static Block of(Points&& points);
-  /// No copy: numbers that stay in a file cannot be written.
+  /// Shares the numbers of the image without a copy; numbers that stay in a file are read-only.
   /// @param context in which the image was made, if the image may count in its budget.
   static Block of(const Image& image, std::shared_ptr<const RunContext> context = nullptr);
 

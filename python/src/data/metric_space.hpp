@@ -38,8 +38,9 @@ inline std::vector<double> distance_to_measure(const PointSet& set, Index neighb
   return ph::distance_to_measure(set.points, neighbours, set.distance, set.p, context);
 }
 
-/// A finite set with distances, whose numbers are in Python arrays that it keeps alive: points, all
-/// distances, or some of them. Nobody may change the arrays during a computation.
+/// A finite set with distances. Its numbers are points, all distances, or the distances of some
+/// pairs; they are in Python arrays, which this object keeps alive. The arrays must not change
+/// during a computation.
 class MetricSpace {
  public:
   /// @param points float64, one point per row.

@@ -24,7 +24,7 @@ using Diagram = std::span<const Bar>;
 struct DiagramMetric {
   enum class Kind { bottleneck, wasserstein, sliced } kind = Kind::bottleneck;
   WassersteinOptions options = {};  ///< for bottleneck, only the limits count
-  int directions = 50;              ///< of sliced
+  int directions = 50;              ///< for the sliced distance
 
   DistanceBounds bounds(Diagram a, Diagram b, const RunContext& context) const {
     switch (kind) {

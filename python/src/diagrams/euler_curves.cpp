@@ -17,15 +17,15 @@
 namespace ph::python {
 namespace {
 
-/// The values at which it changes, and the values from there on.
+/// The points at which a curve changes, and its values from these points on.
 using Steps = std::pair<Block, Block>;
 
 Steps steps_of(StepFunction&& curve) {
   return {Block::of(std::move(curve.at)), Block::of(std::move(curve.value))};
 }
 
-/// @param dims of the bars; none: all bars have dimension 0, and the curve is that of Betti
-///     numbers.
+/// @param dims the dimension of each bar; none: all bars have dimension 0, and the curve shows
+/// Betti numbers.
 Steps curve_of_bars(const py::buffer& rows, const std::optional<py::buffer>& dims,
                     const RunOptions& options) {
   std::vector<Bar> bars = bars_of(rows);

@@ -18,8 +18,8 @@ namespace {
 /// The kernel and its width.
 struct KernelChoice {
   bool is_scale_space = true;
-  double sigma = 1;                ///< of the scale-space kernel
-  WeightedGaussian weighted = {};  ///< of the other kernel
+  double sigma = 1;                ///< for the scale-space kernel
+  WeightedGaussian weighted = {};  ///< for the weighted Gaussian kernel
 
   DiagramKernel function() const {
     return [choice = *this](std::span<const Bar> a, std::span<const Bar> b,
@@ -47,7 +47,8 @@ Block kernels(const std::vector<py::buffer>& diagrams,
                          }),
                      {size, size});
   const Diagrams columns(*others);
-  // It shares the pairs among threads, whatever the function of two diagrams is.
+  // diagram_distances accepts any function of two diagrams, not only distances, and shares the
+  // pairs among threads.
   return Block::of(run(options, false,
                        [&](const RunContext& context) {
                          return diagram_distances(rows.spans(), columns.spans(), choice.function(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors of diagrams. They go to arrays that Python has made, of one axis.
+// Vectors of diagrams. Python creates the arrays of one axis to which they are written.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -98,7 +98,7 @@ void put_silhouette(const py::buffer& rows, const Ends& ends, double power, cons
   });
 }
 
-/// @param to layers × points.
+/// @param to receives layers × points numbers.
 void put_landscape(const py::buffer& rows, const Ends& ends, std::size_t layers,
                    const py::buffer& to, const RunOptions& options) {
   const std::vector<Bar> bars = bars_of(rows);

@@ -110,10 +110,10 @@ std::span<const std::uint32_t> all_voxels(const Barcode& bars) {
 
 /// Loops as lists of numbers.
 struct LoopLists {
-  Lists vertices;                       // of a loop
-  Lists facts;                          // for each loop: its bar, its coefficient
+  Lists vertices;                       // the vertices of each loop
+  Lists facts;                          // for each loop, its bar and its coefficient
   std::vector<double> lengths;          // NaN: unknown
-  std::vector<std::int64_t> tightness;  // of a bar
+  std::vector<std::int64_t> tightness;  // for each bar
 
   explicit LoopLists(const std::vector<BarLoops>& all) {
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -39,8 +39,8 @@ void add_field(Cloud& cloud, const char* name, FieldType type) {
   cloud.stride += size_of(type);
 }
 
-/// @param xyz float64 in C order: a row of points, or rows and columns of them.
-/// @param colours of each point, bytes; none: the cloud has no colours.
+/// @param xyz float64 in C order: one row of points, or rows and columns of points.
+/// @param colours the colour of each point, as bytes; none: the cloud has no colours.
 std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
                                             const std::optional<py::buffer>& colours,
                                             const RunOptions& options) {
@@ -81,7 +81,7 @@ Cloud cloud_of(const DepthImage& depth, const std::optional<Raster>& colour,
                                  scale, note_into(scene.notes));
 }
 
-/// @param image two axes, with a voxel type, in C order.
+/// @param image an array of two axes in C order, with one of the voxel types.
 std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
                                            const std::optional<py::buffer>& colours,
                                            std::shared_ptr<NamedCamera> camera, double scale,

@@ -58,7 +58,7 @@ Cloud cloud_of_state(const py::dict& state) {
 /// The content of a state. The arrays live as long as it does.
 struct Members {
   py::buffer_info tree_array, data_array;
-  Bytes tree, data;  // of these
+  Bytes tree, data;  // the bytes of these arrays
   std::shared_ptr<SceneCloud> cloud;
   bool is_checked = false;
   std::string plane_note;

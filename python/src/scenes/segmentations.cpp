@@ -76,7 +76,7 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
   return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
 }
 
-/// Another cut; values that are not given do not change.
+/// Cuts the tree anew; values that are not given do not change.
 SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
                    std::optional<bool> objects, std::optional<double> min_seam,
