@@ -37,8 +37,9 @@ int run_part(const Job& job, app::Session& session) {
                               : run_batch_part(with_files_of_folders(job), job, session);
   session.note(outcome.summary);
   if (barcode_format_of_path(job.places.output))
-    session.note(fmt::format("{}: a part, whatever its name says; --join makes bars from parts",
-                             printable(job.places.output)));
+    session.note(
+        fmt::format("{}: contains a part, whatever its name says;  --join makes bars from parts",
+                    printable(job.places.output)));
   return outcome.code;
 }
 

@@ -9,7 +9,7 @@ namespace ph::distance_program {
 inline constexpr app::Program kProgram{"ph-distance",
                                        "take fewer barcodes or bars, or raise --memory-limit"};
 
-/// The whole program after parsing its command line. @return its exit code. @throws Error.
+/// Runs ph-distance after its command line was parsed. @return the exit code. @throws Error.
 int run(const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::distance_program

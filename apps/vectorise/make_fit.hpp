@@ -14,7 +14,7 @@ namespace ph::vectorise {
 /// The fit that the arguments describe, without blocks.
 Fit fit_of(const Arguments& arguments);
 
-/// Adds a block for each dimension, fitted to all barcodes. @param names of inputs.
+/// Adds a block for each dimension, fitted to all barcodes. @param names the names of the inputs.
 /// @param dropped receives the number of bars that were left out. @throws Error like the functions
 ///     that fit.
 void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,

@@ -10,7 +10,7 @@ inline constexpr app::Program kProgram{
     "ph-vectorise",
     "take fewer inputs, a coarser --grid or fewer --layers, or raise --memory-limit"};
 
-/// The whole program after parsing its command line. @return its exit code. @throws Error.
+/// Runs ph-vectorise after its command line was parsed. @return the exit code. @throws Error.
 int run(const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::vectorise

@@ -64,7 +64,8 @@ MergeTree restored(const py::buffer& births, const py::buffer& values, const py:
   return tree;
 }
 
-/// SciPy's form: two clusters, the value at which they join, and their number of vertices.
+/// The merges in SciPy's form: each row has two clusters, the value at which they join, and the
+/// number of vertices of both together.
 Block linkage_of(const MergeTree& tree) {
   const std::vector<LinkageRow> rows = linkage(tree);
   std::vector<double> numbers;

@@ -22,7 +22,8 @@ namespace ph::python {
 namespace {
 
 // The number of cells that the chosen engine processes in milliseconds, whatever the input:
-// starting a thread takes a tenth of one, more on a busy machine. 215 points up to H1, 80 up to H2.
+// starting a thread takes a tenth of a millisecond, more on a busy machine. The number corresponds
+// to 215 points up to H1, or to 80 points up to H2.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
 

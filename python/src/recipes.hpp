@@ -45,14 +45,14 @@ class Recipe {
   // For a page that shows the data.
   /// The points, if the complex is built from points.
   virtual std::optional<PointsView> points() const { return std::nullopt; }
-  /// True if the edges at a distance are all pairs of points within it.
+  /// True if the edges up to a value are exactly the pairs of points within this distance.
   virtual bool is_euclidean() const { return false; }
 };
 
 class RipsRecipe final : public Recipe {
  public:
-  /// @param options except the metric, which the space has. @param ids of the points in the input;
-  /// empty: their own numbers.
+  /// @param options all options except the metric, which belongs to the space.
+  /// @param ids the numbers of the points in the input; empty: they are the indices of the points.
   RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options, std::vector<Index> ids);
 
   Built build(const RunContext& context) const override;

@@ -180,7 +180,7 @@ test("numbers keep apart, larger ones more", () => {
   assert.ok(!small.take(3, 0, "7"));
 });
 
-/// Marks that a diagram or a barcode draws over its bars. @param fields of the chart.
+/// Marks that a diagram or a barcode draws over its bars. @param fields the fields of the chart.
 async function drawnOver(module, name, fields) {
   const { [name]: Chart } = await importSource(module);
   const marks = [];

@@ -38,7 +38,7 @@ test("the widest gap", () => {
   assert.deepEqual(widestGap([10, 9, 8, 7, 6, 0.9, 1e-9]), { count: 5, ratio: 6 / 0.9 });
   assert.deepEqual(widestGap([3]), { count: 1, ratio: Infinity });
   assert.deepEqual(widestGap([3, 3]), { count: 2, ratio: Infinity });
-  // Of so few bars, all may stand out, unless the gap is much wider than chance.
+  // If there are so few bars, all of them may stand out, unless the gap is much wider than chance.
   assert.deepEqual(widestGap([3, 1]), { count: 2, ratio: Infinity });
   assert.deepEqual(widestGap([3, 0.5]), { count: 1, ratio: 6 });
   assert.deepEqual(widestGap([3, 1], 1), { count: 1, ratio: 3 });

@@ -268,7 +268,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const rows = await page.$$eval(".legend button.row .name", (all) => all.map((e) => e.textContent));
     assert.ok(rows.length > 2);
     assert.deepEqual(numbers.sort(), rows.slice(0, 30).sort());
-    // All of them are in a picture, with the sentence.
+    // All these numbers are in an exported picture, with the sentence.
     const svg = (await downloaded(page, "Picture, SVG")).toString();
     const words = [...svg.matchAll(/<text [^>]*>([^<]*)</g)].map(([, text]) => text);
     assert.ok(words.includes(await page.textContent(".finding span")));

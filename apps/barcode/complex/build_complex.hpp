@@ -23,7 +23,7 @@ struct BuiltComplex {
   std::string metric = {};
   std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
-  std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
+  std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< for points as voxels
   std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
   /// The same image listed cube by cube, for the oracle of --check; null: the oracle uses the
   /// complex itself.
@@ -57,8 +57,8 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
 
 /// Chooses the complex that the arguments ask for, or the one that suits the data. A Rips complex
 /// refers to the points of the input, which must live as long as the complex.
-/// @param name of the input, for messages. @param dropped how many points of the input were left
-///     out.
+/// @param name the name of the input, for messages. @param dropped the number of points of the
+/// input that were left out.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Job& job, const RunContext& context);
@@ -67,8 +67,8 @@ BuiltComplex build_complex(const ReadResult& input, const std::string& name, std
                            const Job& job, const RunContext& context);
 
 /// The alpha complex of points, or another complex of their Delaunay triangulation.
-/// @param weights one per point, or none. @param ids of the points in the input; empty: their own
-///     numbers.
+/// @param weights one per point, or none. @param ids the numbers of the points in the input; empty:
+/// they are the indices of the points.
 /// @throws Error (usage) if an option does not fit the points; Error (bad_data).
 BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
                          const std::vector<Index>& ids, const std::string& name, const Job& job,

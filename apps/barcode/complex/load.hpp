@@ -33,7 +33,7 @@ class Stopwatch {
 /// Everything that is kept of an input: the complex, and the facts that results state about it.
 struct Loaded {
   BuiltComplex built;
-  std::string name;  ///< of the input, printable
+  std::string name;  ///< name of the input, printable
   std::string description;
   std::vector<Index> point_ids;
   // The data that the complex refers to or that a report shows; counted in the budget.

@@ -9,7 +9,7 @@ namespace ph::barcode {
 
 /// An input as it was read.
 struct NamedData {
-  std::string name;  ///< of the input, printable
+  std::string name;  ///< name of the input, printable
   ReadResult read;
   std::size_t dropped = 0;  ///< number of points that were left out
   std::string sha256 = {};  ///< hash of the bytes that were read; empty: not needed

@@ -85,7 +85,7 @@ struct Results {
 struct Surface {
   double value = 0;
   std::string path;
-  bool is_wrap = false;  ///< of its wrap complex
+  bool is_wrap = false;  ///< true for the surface of the wrap complex
   std::string option() const { return is_wrap ? "--wrap" : "--alpha-shape"; }
 };
 

@@ -13,8 +13,8 @@ namespace ph::barcode {
 struct OwnComplex {
   std::string_view name;  ///< as in --complex NAME
   std::string_view what;  ///< one phrase, for --help
-  /// Builds the whole complex; a threshold is applied to its bars. Its vertices are the points, by
-  /// number.
+  /// Builds the whole complex; a threshold is applied to its bars. Vertex i of the complex is point
+  /// i.
   std::function<ExplicitComplex(PointsView points, const RunContext& context)> of_points;
 };
 

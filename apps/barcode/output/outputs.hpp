@@ -16,11 +16,11 @@ class Outputs {
   /// @throws Error (cannot_create).
   explicit Outputs(const Places& places);
   /// Writes and completes all files except the report.
-  /// @param look of the plots. @param trees plots of merge trees, in their order.
+  /// @param look the look of the plots. @param trees the plots of merge trees, in their order.
   void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
              std::span<const std::string> trees, const RunContext& context);
   /// Writes the surfaces of an alpha complex; they are completed with the other files.
-  /// @param ids the numbers of the points in the input; empty: their own numbers.
+  /// @param ids the numbers of the points in the input; empty: they are the indices of the points.
   void write_surfaces(const Alpha& alpha, PointsView points, std::span<const Index> ids,
                       const RunContext& context);
   /// Precondition: the job has a report.

@@ -43,8 +43,8 @@ bool has_axes_of_space(const ReadResult& read) {
          std::holds_alternative<Points>(read.data);
 }
 
-/// True if the edges at a distance are all pairs within it: all points are vertices and enter
-/// together.
+/// True if the edges up to a value are exactly the pairs of points within this distance, because
+/// all points are vertices and enter together.
 bool is_euclidean(const Shown& shown, const Job& job) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
          job.question.rips.distance == PointDistance::euclidean &&

@@ -18,7 +18,7 @@ struct Shown {
   const NamedData& data;
   const BuiltComplex& built;
   std::optional<RipsForm> form;        ///< for a Rips complex
-  std::optional<std::string> promise;  ///< as promise_of
+  std::optional<std::string> promise;  ///< the result of promise_of
   std::vector<std::string> warnings;
 };
 

@@ -13,7 +13,7 @@ namespace ph::barcode {
 /// A point cloud of which some blocks are to be processed, and the requested results.
 struct CloudInput {
   NamedData data;
-  PointsView points;  ///< of the data
+  PointsView points;  ///< the points of `data`
   CloudPartOptions options;
 };
 

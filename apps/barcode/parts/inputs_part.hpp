@@ -21,7 +21,7 @@ class InputsPart {
     friend bool operator==(const Whole&, const Whole&) = default;
   };
   struct Result {
-    std::size_t input = 0;  ///< its number
+    std::size_t input = 0;  ///< number of the input
     int code = 0;           ///< exit code of the program for this input
     std::string failure;    ///< why there are no bars; empty: the bars are there
     Barcode bars;

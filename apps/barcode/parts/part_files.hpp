@@ -25,7 +25,7 @@ bool is_part_path(const std::string& path);
 
 /// The path of part I of P of an input: for a folder, which is created, a file named after the
 /// part.
-/// @param part from 0 on. @throws Error (cannot_create).
+/// @param part the number of the part, from 0. @throws Error (cannot_create).
 std::string part_path(const std::string& output, const std::string& name, int part, int parts);
 
 /// The whole content of a part file. @throws Error like Input::open.

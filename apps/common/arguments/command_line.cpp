@@ -75,7 +75,8 @@ std::string name_of(const CLI::Option& option) {
   return names.empty() ? option.get_name() : "--" + names.front();
 }
 
-/// Options that do not affect the result: how it is computed, and which messages appear meanwhile.
+/// True if an option does not affect the result, but only how it is computed and which messages
+/// appear.
 bool is_common(const CLI::Option& option) {
   return option.get_group() == kLimitsTopic.name || option.get_group() == kMessagesTopic.name;
 }

@@ -59,7 +59,7 @@ class Options {
   /// An option whose value is one of several names; `take` receives the position of the given name.
   CLI::Option* choice(const OptionName& name, const std::vector<std::string_view>& choices,
                       const std::string& description, const std::function<void(std::size_t)>& take);
-  /// The same for values of an enum.
+  /// An option whose value is one of an enum's names; `take` receives the value of the enum.
   template <class Enum>
   CLI::Option* choice(const OptionName& name, const std::string& description,
                       const std::function<void(Enum)>& take,
@@ -68,7 +68,8 @@ class Options {
     for (const Named<Enum>& known : choices) words.push_back(known.name);
     return choice(name, words, description, [=](std::size_t i) { take(choices[i].value); });
   }
-  /// The same for all values of an enum. @param to receives the value: an Enum or an optional Enum.
+  /// An option for all values of an enum. @param to receives the value: an Enum or an optional
+  /// Enum.
   template <class Enum>
   requires std::is_enum_v<Enum> CLI::Option* choice(const OptionName& name,
                                                     const std::string& description, Enum& to) {

@@ -21,7 +21,7 @@ struct Plot {
 
   /// True if its name ends in .png; an unknown ending means SVG.
   bool is_png() const;
-  bool is_svg() const;  ///< by its name
+  bool is_svg() const;  ///< true if its name ends in .svg
   /// True if it shows bars: a barcode, a diagram, Betti curves.
   bool shows_bars() const { return plot_kind_named(kind).has_value(); }
 };

@@ -57,8 +57,8 @@ DistanceBounds distance_of(std::span<const Bar> a, std::span<const Bar> b,
 /// A distance, and the bars that it pairs.
 struct DiagramMatching {
   DistanceBounds distance;  ///< infinite: then there are no pairs
-  /// Indices into `a` and into `b`, ascending; -1 is the diagonal and comes last. Each bar of both
-  /// is in one pair.
+  /// Indices into `a` and into `b`, ascending; -1 is the diagonal and comes last. Each bar of
+  /// either diagram is in exactly one pair.
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
 };
 /// @param choice not the sliced distance, which pairs nothing. The bottleneck distance is exact,

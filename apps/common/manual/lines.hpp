@@ -7,7 +7,7 @@
 
 namespace ph::app {
 
-/// The words of a text, at its blanks.
+/// Splits a text at its blanks into words.
 std::vector<std::string_view> words_of(std::string_view text);
 
 /// Breaks a text at its blanks into lines of at most this many characters, unless a word is longer.

@@ -33,7 +33,7 @@ struct OptionText {
   bool is_input = false;
   bool is_repeatable = false;
 
-  /// Its first long name, or the name of the inputs.
+  /// The first long name of the option, or the name of the inputs.
   const std::string& name() const;
   /// "-o,--output FILE"
   std::string head() const;
@@ -47,7 +47,7 @@ struct OptionText {
 struct Described {
   const Manual& manual;
   std::string command;              ///< the name under which it was started
-  std::vector<OptionText> options;  ///< by topic
+  std::vector<OptionText> options;  ///< sorted by topic
 
   /// The options of a topic, in the order in which they were registered.
   std::vector<const OptionText*> of(const Topic& topic) const;

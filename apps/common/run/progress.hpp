@@ -20,7 +20,7 @@ namespace ph::app {
 /// second. Lines of JSON do this from the start, and are never held back.
 class ProgressReporter {
  public:
-  /// @param rank of this process, if several compute together.
+  /// @param rank the rank of this process, if several compute together.
   ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank = std::nullopt);
   ~ProgressReporter();
 

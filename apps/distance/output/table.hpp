@@ -14,7 +14,7 @@ namespace ph::distance_program {
 inline constexpr std::string_view kChoiceColumns = "distance,order,ground,directions";
 std::string choice_cells(const app::DistanceChoice& choice);
 /// Members of a document that state its format and distance; without braces.
-/// @param format its name.
+/// @param format the name of the format.
 std::string document_members(std::string_view format, const app::DistanceChoice& choice,
                              const std::vector<std::string>& inputs);
 /// The first line of text: "bottleneck distance (…) of a.csv and b.csv".

@@ -66,7 +66,7 @@ struct OutputPaths {
   std::vector<app::Written> written() const;
   /// Of these files, the ones that a stream writes for each of its frames.
   std::vector<app::Written> of_each_frame() const;
-  /// The files of one frame. @param name of the frame in the names of its files.
+  /// The files of one frame. @param name stands for the frame in the names of its files.
   OutputPaths filled(const std::string& name) const;
 
   bool any() const { return !written().empty(); }

@@ -47,8 +47,8 @@ struct Block {
 struct Fit {
   Kind kind = Kind::statistics;
   InfiniteRule infinite;
-  std::size_t layers = 5;   ///< of landscapes
-  std::size_t count = 5;    ///< of lengths
+  std::size_t layers = 5;   ///< number of layers of landscapes
+  std::size_t count = 5;    ///< number of lengths
   double power = 1;         ///< for silhouettes and images
   bool normalised = false;  ///< for the entropy
   CubicalOptions cubical;   ///< for images whose Euler curves are requested
@@ -69,13 +69,13 @@ bool may_keep_infinite(Kind kind);
 /// the input instead of the function's, and suggests the option.
 Error about_input(const Error& error, std::string_view name);
 
-/// The bars of a block in the form that its function expects. @param name of the input, for
-/// messages.
+/// The bars of a block in the form that its function expects. @param name the name of the input,
+/// for messages.
 /// @param dropped grows by the number of bars that were left out.
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,
                          std::size_t& dropped);
 
-/// The vector of a block. Not for an Euler curve.
+/// Writes the vector of a block. Must not be called for an Euler curve.
 void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
                  std::span<double> out, const RunContext& context);
 

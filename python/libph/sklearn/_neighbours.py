@@ -25,7 +25,7 @@ _ROOM = 400  # rows may be 2**400 times as far from 0 as points: the square of t
 
 
 class Neighbours:
-    """Finds the nearest of some points.
+    """Finds the nearest neighbours of rows among some points.
 
     Parameters
     ----------

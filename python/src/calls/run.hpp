@@ -52,7 +52,7 @@ using SharedContext = std::shared_ptr<const RunContext>;
 void run_task(const RunOptions& options, bool is_short,
               const std::function<void(const SharedContext&)>& task);
 
-/// The same for tasks with a result, which must not hold Python objects.
+/// The same for tasks with a result. The result must not hold Python objects.
 template <class Compute>
 auto run(const RunOptions& options, bool is_short, const Compute& compute) {
   std::optional<std::invoke_result_t<Compute, const RunContext&>> result;

@@ -18,7 +18,7 @@ struct Facts {
   std::optional<double> threshold;  ///< threshold of the values
   std::optional<Index> vertices;    ///< for a Rips complex
   std::optional<std::size_t> edges;
-  std::optional<double> covering_radius;  ///< of a subsample
+  std::optional<double> covering_radius;  ///< covering radius of a subsample
   std::vector<Index> hidden = {};         ///< points that are not part of an alpha complex
 };
 

@@ -12,8 +12,8 @@ namespace ph::python {
 /// The tree and its cut, as bytes of a file: equal for equal trees and cuts.
 Block tree_file(const SegmentedScene& scene);
 
-/// The same with the cloud. The segments are recomputed from the tree; the times of stages are not
-/// kept.
+/// The tree, its cut and the cloud, as plain values and arrays. The segments are recomputed from
+/// the tree; the times of stages are not kept.
 pybind11::dict state_of(const SegmentedScene& scene);
 /// @throws Error (bad_data) on an invalid state.
 SegmentedScene scene_of_state(const pybind11::dict& state, const RunOptions& options);

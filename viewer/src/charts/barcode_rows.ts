@@ -35,7 +35,8 @@ export function layOut(
   return even.row >= kRowOfFew || needed > room / 2 ? even : share(isFew, needed);
 }
 
-/// The bars with a row; the last of them are replaced by at most `most` bars that need one.
+/// The bars that get a row: `bars`, of which the last ones are replaced by at most `most` of the
+/// `wanted` bars that are missing.
 export function withRows(bars: Uint32Array, wanted: number[], most: number): Uint32Array {
   const present = new Set(bars),
     wants = new Set(wanted);

@@ -45,7 +45,7 @@ export abstract class Chart {
   protected abstract step(by: number, extend: boolean): void;
   protected abstract choose(how: "replace" | "toggle"): void;
 
-  /// Also draws selected and focused items, for pictures.
+  /// Draws the chart with its selected and focused items, for pictures.
   drawAll(pen: Pen, size: Size): void {
     this.draw(pen, size);
     this.drawOver(pen);

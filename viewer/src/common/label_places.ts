@@ -4,7 +4,7 @@
 export class LabelPlaces {
   private readonly taken: [x: number, y: number, halfWidth: number][] = [];
 
-  /// @param size of the text, pixels.
+  /// @param size the size of the text, pixels.
   constructor(private readonly size = 9.5) {}
 
   /// True if there is room for a text centred here; reserves the room.

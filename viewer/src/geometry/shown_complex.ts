@@ -44,7 +44,7 @@ export class ShownComplex {
       moreTriangles: reaches(value, this.report.meta.cloud?.triangles_below),
     };
   }
-  /// x, y, z of each point.
+  /// The coordinates x, y, z of each of these elements.
   places(elements: Uint32Array): Float32Array {
     const to = new Float32Array(3 * elements.length);
     const { positions } = this.report.cloud!;

@@ -174,7 +174,8 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, report: Report): st
     : `${subject} ${verb}: the ${shorter}, ${of(last)}, is ${ratio}`;
 }
 
-/// A remark on bars of infinite length: nothing is known beyond the threshold.
+/// The end of a sentence about bars of infinite length; nothing is known about them beyond the
+/// threshold.
 function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   const { threshold } = meta.provenance;
   if (!found.isEndless) return many === 1 ? "has no beginning" : "have no beginning";

@@ -254,7 +254,7 @@ export class MergeTree {
   private linkBranches(): void {
     const a = this.arrays;
     const sets = new DisjointSets(this.leaves);
-    const branch = numbered(this.leaves); // of each root
+    const branch = numbered(this.leaves); // the branch of each root
     for (let k = 0; k < this.merges; ++k) {
       const younger = sets.find(a.younger[k]!),
         elder = sets.find(a.elder[k]!);

@@ -33,7 +33,7 @@ export interface SegmentMeta {
   persistence: number | null; // null: infinite
   role: "object" | "unknown" | "support" | "wall"; // the last two: from earlier frames only
   on_surface?: number;
-  on_segment?: number; // by its number
+  on_segment?: number; // the number of the segment that it stands on
 }
 
 /// The properties of a segmentation beside its labels.

@@ -181,7 +181,7 @@ export class Session {
     this.cutMilliseconds = performance.now() - start;
   }
   private coloursOf(cut: Cut): Rgb[] {
-    if (this.cutValue === this.report.meta.tree!.cut) this.leafColours = []; // as at first
+    if (this.cutValue === this.report.meta.tree!.cut) this.leafColours = []; // as at the start
     if (this.isAnswer) {
       const colours = this.report.meta.scene!.segments.map((s) => fromHex(s.colour));
       cut.segments.forEach((s, i) => (this.leafColours[s.oldestLeaf] = numberOfColour(colours[i]!)));

@@ -14,7 +14,7 @@ export function holes(dim: number, count = 1): string {
 
 const kWords = "No One Two Three Four Five Six Seven Eight Nine Ten Eleven Twelve".split(" ");
 
-/// "Two", at the beginning of a sentence; "13".
+/// A count at the beginning of a sentence: "Two", "13".
 export function inWords(count: number): string {
   return kWords[count] ?? grouped(count);
 }

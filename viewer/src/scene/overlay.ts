@@ -66,7 +66,7 @@ function faintest(opacity: number, count: number, some: number): number {
   return Math.max(0.015, opacity * Math.min(1, (some / count) ** 0.75));
 }
 
-/// Edges of the complex, or an outline: many and thin.
+/// Many thin lines: the edges of the complex, or an outline.
 export function thinLines(ends: Float32Array, colour: string): LineSegments {
   const lines = new LineSegments(
     flat(ends),

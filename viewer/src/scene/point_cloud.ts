@@ -123,7 +123,7 @@ export class PointCloud {
     const { r, g, b } = new Color(colour);
     this.material.uniforms["air"]!.value = [r, g, b, part];
   }
-  /// @param largest size of a mark that the graphics card draws, device pixels.
+  /// @param largest the largest size of a mark that the graphics card draws, device pixels.
   resize(height: number, pixelRatio: number, largest: number): void {
     const { scale, limits } = this.material.uniforms;
     // Near the eye, the marks of a surface are as large as possible, because smaller ones would

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page of a report in headless Chromium, opened as a file, with a list of its problems.
+// Opens reports as files in headless Chromium, and lists the problems of each page.
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -149,7 +149,7 @@ export async function openZoomable({ meta, arrays }) {
 }
 
 /// The pixels of an element, four bytes each, with their `width` and `height`.
-/// @param part of it, as fractions of its sides: [left, top, right, bottom].
+/// @param part the part of the element, as fractions of its sides: [left, top, right, bottom].
 export async function pixelsOf(page, selector, part = [0, 0, 1, 1]) {
   const box = await page.locator(selector).first().boundingBox();
   const clip = {

@@ -56,7 +56,7 @@ export function arrayBlock(
   return `<script type="application/x-ph-array"${text}>${deflateSync(bytes).toString("base64")}</script>`;
 }
 
-/// @param arrays from a name to numbers, or to [numbers, more].
+/// @param arrays maps a name to numbers, or to [numbers, more].
 export function reportHtml(template, meta, arrays) {
   const json = JSON.stringify(meta).replace(/</g, "\\u003c");
   const blocks = Object.entries(arrays).map(([name, value]) =>
@@ -93,7 +93,7 @@ export function quantised(values, dims) {
   ];
 }
 
-/// A unit vector as two numbers of an octahedron; NaN: -128, -128.
+/// A unit vector in octahedral encoding, which has two numbers; NaN becomes -128, -128.
 export function octahedral([x, y, z]) {
   if (!(Math.abs(x) + Math.abs(y) + Math.abs(z) > 0)) return [-128, -128];
   const sum = Math.abs(x) + Math.abs(y) + Math.abs(z);
