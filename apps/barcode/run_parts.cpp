@@ -38,7 +38,7 @@ int run_part(const Job& job, app::Session& session) {
   session.note(outcome.summary);
   if (barcode_format_of_path(job.places.output))
     session.note(
-        fmt::format("{}: contains a part, whatever its name says;  --join makes bars from parts",
+        fmt::format("{}: contains a part, whatever its name says; --join makes bars from parts",
                     printable(job.places.output)));
   return outcome.code;
 }

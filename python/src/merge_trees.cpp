@@ -48,7 +48,7 @@ MergeTree restored(const py::buffer& births, const py::buffer& values, const py:
       std::ranges::all_of(end, [&](Index v) { return v >= 0 && v < tree.size(); });
   if (end.size() != 4 * value.size() || size.size() != 2 * value.size() || !are_there)
     throw Error(ErrorKind::bad_data,
-                "merge tree: found arrays of different trees, expected those of one");
+                "merge tree: found arrays of different trees, expected the arrays of one tree");
   for (std::size_t i = 0; i < value.size(); ++i) {
     Merge merge{.value = value[i],
                 .u = end[4 * i],

@@ -200,7 +200,7 @@ test("beyond the threshold nobody has looked", () => {
 });
 
 test("the page cuts where the sentence has its gap", () => {
-  // The widest ratio is far below the longest bar, and chance.
+  // The widest ratio is far below the longest bar, where ratios are due to chance.
   const levels = [0.0001, 0.009, 0.01, 0.5, 1];
   const cut = suggestedCut({ arrays: { rule: "value", levels: Float64Array.from(levels) } }, 0, Infinity);
   const bars = [[0, 0, kNever], ...[...levels].reverse().map((death) => [0, 0, death])];

@@ -136,7 +136,7 @@ test("linked views", { timeout: 300_000 }, async (t) => {
     assert.equal(await again.page.inputValue(".data select"), "plain");
     assert.equal(await again.page.getAttribute("html", "data-theme"), "dark");
     assert.match(await selection(again.page), /^3 bars selected/);
-    // State that another address does not name has its default.
+    // State that the new address does not name returns to its default.
     await again.page.evaluate(() => (location.hash = "bars=2-4,7&hide=0"));
     await again.page.waitForFunction(() => document.documentElement.dataset.theme === "light");
     assert.match(await selection(again.page), /^4 bars selected/);

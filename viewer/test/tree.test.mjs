@@ -105,7 +105,7 @@ test("branches nest, and no drawing crosses", () => {
       if (parent === 0xffffffff) continue;
       assert.ok(page.rank[parent] < page.rank[branch] && page.end[branch] <= page.end[parent]);
       assert.ok(page.death(parent) >= page.death(branch));
-      // Branches between a branch and the one it merges into merge no later.
+      // Every branch between a branch and its parent merges no later than this branch.
       for (let r = page.rank[parent] + 1; r < page.rank[branch]; ++r)
         assert.ok(page.death(page.order[r]) <= page.death(branch));
     }

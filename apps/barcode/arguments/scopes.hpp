@@ -23,7 +23,7 @@ enum Situation : app::Situations {
   kOwn = 1 << 10,         ///< points with a complex that the program added
   kBarcode = 1 << 11,     ///< a stored barcode
   kComparison = 1 << 12,  ///< two stored barcodes to compare
-  kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
+  kAlpha = 1 << 13,       ///< points with a complex of their triangulation, such as alpha
   kImagePart = 1 << 14,   ///< some layers of an image
   kParts = 1 << 15,       ///< parts to join
   kRanks = 1 << 16,       ///< an image on several ranks

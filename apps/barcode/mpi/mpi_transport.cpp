@@ -79,7 +79,7 @@ void MpiTransport::wait_for_all() {
 
 int MpiTransport::finish(int code) {
   if (code != 0) {
-    // Output goes through MPICH's own pipes, which an abort cuts.
+    // Waits until output has left MPICH's own pipes, which an abort cuts off.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     MPI_Abort(MPI_COMM_WORLD, code);
   }

@@ -86,7 +86,7 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
   return std::nullopt;
 }
 
-/// The distances of two barcodes, one per dimension that either has.
+/// Adds the distances of two barcodes, one for each dimension in which either has bars.
 /// @param matched receives the numbers of the bars that are paired.
 /// @return the dimensions that would take long: "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,

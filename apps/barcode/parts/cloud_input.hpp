@@ -17,7 +17,7 @@ struct CloudInput {
   CloudPartOptions options;
 };
 
-/// @param input stays in its file if the file has the layout of memory.
+/// @param input a path; the data stay in the file if it has the layout of memory.
 /// @throws Error (usage) on anything but points, and if more than components is requested.
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 

@@ -91,7 +91,7 @@ InputsPart InputsPart::of_bytes(std::span<const std::byte> bytes) {
       if (bar.dim < 0 || !(bar.birth <= bar.death)) from.refuse("bar");
       result.bars.add(bar);
     }
-    constexpr int most_code = 255;  // the code that the system passes on
+    constexpr int most_code = 255;  // largest exit code that the system passes on
     const bool failed = result.code != 0;
     if (result.code < 0 || result.code > most_code || failed == result.failure.empty() ||
         (failed && result.bars.size() > 0))

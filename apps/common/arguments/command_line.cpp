@@ -160,7 +160,8 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
     return program_and_version(app.get_name()) + "\n" +
            (common.verbose ? build_information() + manual.built_in() : "");
   }
-  // For all options: nothing that takes a path accepts one of these.
+  // Checks the values of all options, because no path may stand for a descriptor that was not
+  // given.
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results()) require_given(name_of(*option), value);
   return std::nullopt;

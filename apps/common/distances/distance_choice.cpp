@@ -12,7 +12,7 @@
 namespace ph::app {
 namespace {
 
-/// Counts of bars by their infinite ends: the death, the birth, both.
+/// The numbers of bars whose death is infinite, whose birth is infinite, and for which both are.
 std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   std::array<std::size_t, 3> counts{};
   for (const Bar& bar : bars) {

@@ -104,7 +104,7 @@ void require_distinct(std::span<const Written> outputs) {
                     one.path == "-" ? "standard output" : printable(one.path), other.option));
   };
   for (const Written& output : outputs) {
-    // Two outputs on standard output are refused, whatever it is connected to.
+    // Two outputs on standard output are refused, whatever standard output is connected to.
     if (output.path == "-") {
       if (standard) reject(output, *standard);
       standard = &output;

@@ -115,7 +115,7 @@ const OptionText& Described::named(std::string_view name) const {
   const auto found =
       std::ranges::find_if(options, [&](const OptionText& o) { return o.name() == name; });
   if (found == options.end())
-    throw Error(ErrorKind::internal, fmt::format("the manual names {}, no option", name));
+    throw Error(ErrorKind::internal, fmt::format("the manual names {}, which is no option", name));
   return *found;
 }
 

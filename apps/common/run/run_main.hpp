@@ -26,7 +26,7 @@ int run_main(const Program& program, int argc, const char* const* argv,
     Session session(program.name, arguments.common, std::move(stop));
     return run(arguments, session);
   };
-  return run_program(program, std::ref(body));  // a separate function would need memory
+  return run_program(program, std::ref(body));  // a copy of the body would need memory
 }
 
 }  // namespace ph::app

@@ -13,7 +13,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names);
 
 /// The position of a word in a list of choices.
-/// @throws Error (usage): `option: "word" is none of a, b, c; did you mean "b"?`
+/// @throws Error (usage): `option: found 'word', expected one of a, b, c; did you mean 'b'?`
 std::size_t choose(std::string_view option, std::string_view word,
                    std::span<const std::string_view> choices);
 

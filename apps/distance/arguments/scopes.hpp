@@ -5,7 +5,7 @@
 
 namespace ph::distance_program {
 
-/// The bit of a distance.
+/// The bit for a kind of distance.
 constexpr app::Situations situation_of(app::DistanceKind kind) {
   return 1U << static_cast<unsigned>(kind);
 }

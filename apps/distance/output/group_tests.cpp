@@ -23,7 +23,7 @@ void require_finite(const PairDistances& distances, std::size_t d,
       if (std::isinf(distances.at(d, a, b).value))  // mutant: group-infinite
         throw Error(ErrorKind::bad_data,
                     fmt::format("--groups: {} and {}: found an infinite distance in H{} ({}), "
-                                "expected finite ones; leave such bars out",
+                                "expected finite distances; leave such bars out",
                                 printable(inputs[b]), printable(inputs[a]), dim,
                                 app::why_infinite(barcodes[b].bars(dim), barcodes[a].bars(dim))));
 }

@@ -35,8 +35,8 @@ struct RunInfo {
 /// Where the barcode of a segmentation came from.
 BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
 
-/// The files that the command line requests: opened before the computation; they end up complete or
-/// absent.
+/// The files that the command line requests. They are opened before the computation; at the end,
+/// each file is complete or absent.
 class Outputs {
  public:
   /// @throws Error (usage) on an unknown extension; Error (cannot_create).

@@ -7,7 +7,7 @@
 
 namespace ph::vectorise {
 
-/// The bit of a kind of vectors.
+/// The bit for a kind of vectors.
 constexpr app::Situations situation_of(Kind kind) { return 1U << static_cast<unsigned>(kind); }
 /// The situations besides the kind of vectors: whether parameters are fitted now or were fitted
 /// before, and whether an input is a barcode or an image.

@@ -69,7 +69,8 @@ export function numberOfColour([r, g, b]: Rgb): number {
   return kSegments.indexOf((r << 16) | (g << 8) | b);
 }
 
-/// The seven colours, then lighter and darker ones, so that there is always one more.
+/// The seven colours, then lighter and darker ones, so that there are colours for any number of
+/// segments.
 export function segmentColour(i: number): Rgb {
   const base = kSegments[i % kSegments.length]!;
   const rgb: Rgb = [base >> 16, (base >> 8) & 255, base & 255];
@@ -113,7 +114,7 @@ const kViridis: Rgb[] = [
   [253, 231, 37],
 ];
 
-/// @param part 0 … 1
+/// @param part from 0 to 1
 export function ramp(part: number): Rgb {
   const at = Math.min(1, Math.max(0, part)) * (kViridis.length - 1);
   const i = Math.min(kViridis.length - 2, Math.floor(at));
@@ -122,7 +123,7 @@ export function ramp(part: number): Rgb {
   return [0, 1, 2].map((k) => Math.round(low[k]! + (at - i) * (high[k]! - low[k]!))) as Rgb;
 }
 
-/// @param part 0 … 1
+/// @param part from 0 to 1
 export function greyOf(part: number): Rgb {
   const level = Math.round(255 * Math.min(1, Math.max(0, part)));
   return [level, level, level];

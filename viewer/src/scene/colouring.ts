@@ -191,7 +191,7 @@ export class Colouring {
         const { low, high } = this.range(mode)!,
           span = high - low || 1,
           map = mode === "grey" ? greyOf : ramp;
-        // Absent voxels are not drawn as a value.
+        // Absent voxels must not have the colour of a value.
         const absent = session.report.image ? 0 : none;
         return (i) => (Number.isFinite(value(i)) ? packed(map((value(i) - low) / span)) : absent);
       }

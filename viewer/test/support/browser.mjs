@@ -124,7 +124,7 @@ export async function open(
 }
 
 /// Opens a report in a separate browser, which can zoom like a reader, because an emulated screen
-/// reports less to the page. `zoom` returns true if the browser could.
+/// reports less to the page. `zoom` returns true if the browser was able to zoom.
 export async function openZoomable({ meta, arrays }) {
   const options = { ...optionsOf(true), viewport: null };
   const context = await chromium.launchPersistentContext(join(folder, "profile"), options);

@@ -75,7 +75,7 @@ function defaultFilter(values) {
   return values.BYTES_PER_ELEMENT > 1 ? "delta planes" : "";
 }
 
-/// Positions as 16-bit numbers over their box.
+/// Positions as 16-bit numbers relative to their bounding box.
 export function quantised(values, dims) {
   const low = new Array(dims).fill(Infinity),
     high = new Array(dims).fill(-Infinity);
