@@ -27,7 +27,7 @@ struct Remembered {
 };
 /// The data that a stream passes along with each frame.
 struct OfStream {
-  Remembered* remembered = nullptr;  ///< null: each frame by itself
+  Remembered* remembered = nullptr;  ///< null: frames do not influence one another
   bool json = false;                 ///< true if the summary is needed
 };
 /// The outcome of one input.

@@ -52,7 +52,7 @@ struct PlotArguments {
   std::vector<PlotLook> looks;  ///< the options that set the look
 
   /// Pairs each picture with its kind, in turn; the last kind applies to the rest.
-  /// @param usual kind of all pictures if none is given.
+  /// @param usual the kind of all pictures if none is given.
   /// @throws Error (usage) if there are more kinds than pictures, two pictures in one file, or a
   /// look that applies to none of them.
   std::vector<Plot> together(std::string_view usual) const;

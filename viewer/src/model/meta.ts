@@ -28,7 +28,7 @@ export interface Provenance {
 
 /// A segment of the program's own answer; its index in the list is its label minus one.
 export interface SegmentMeta {
-  number: number; // the number by which it is called
+  number: number; // the number that names the segment in the files of the program
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
   role: "object" | "unknown" | "support" | "wall"; // the last two: from earlier frames only
