@@ -5,8 +5,8 @@
 #include "apps/common/arguments/options.hpp"
 
 // The options of ph-barcode, one source file per topic. Each `add_…` registers the options of a
-// topic; `job` must outlive `options`. Each `check_…` checks options that depend on one
-// another, derives settings from them, and throws Error (usage).
+// topic; `job` must outlive `options`. Each `check_…` checks options that depend on one another,
+// derives settings from them, and throws Error (usage).
 namespace ph::barcode {
 
 /// The options that select the data read from a table or a picture: --columns, --delay, --channel.

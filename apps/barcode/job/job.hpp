@@ -21,7 +21,8 @@
 
 namespace ph::barcode {
 
-/// In the order of complex_names(); `own`: a complex that the program has added.
+/// The kinds of complexes, in the order of complex_names(). `own` is a complex that a program has
+/// added; see OwnComplex.
 enum class ComplexKind {
   automatic,
   rips,
@@ -39,7 +40,7 @@ constexpr bool is_triangulated(ComplexKind kind) {
   return kind >= ComplexKind::alpha && kind <= ComplexKind::delaunay_rips;
 }
 
-/// The loops to compute for bars of H1 that come with cycles.
+/// The loops to compute for each cycle of H1: shortened, as they are found, or none.
 enum class LoopChoice { tight, plain, none };
 
 /// The delay embedding of a time series, whose windows are the points.
@@ -66,19 +67,19 @@ struct Question {
   std::string weights;         ///< path; empty: none
   std::vector<double> period;  ///< one for all axes, or one per axis; empty: no axis closes up
   CubicalOptions cubical;
-  std::optional<double> voxel;  ///< in the unit of the points
+  std::optional<double> voxel;  ///< edge of a voxel, in the unit of the points
   VoxelValue voxel_value = VoxelValue::distance;
   Options options;
 };
 
-/// The results beside the bars, and their form.
+/// The results to compute besides the bars, and the form of all results.
 struct Results {
-  std::optional<LoopChoice> loops;  ///< empty: not given, which means tight
+  std::optional<LoopChoice> loops;  ///< empty: not given; tight is the default
   bool check = false;
   bool significance = false;  ///< a p-value per bar
   bool dry_run = false;
   std::optional<BarcodeFormat> output_format;  ///< as given
-  PlotOptions look;                            ///< of the plots
+  PlotOptions look;                            ///< look of the plots
 };
 
 /// The surface of an alpha complex at a value, as a file of triangles.
@@ -90,7 +91,7 @@ struct Surface {
 };
 
 /// One input and the destinations of its results. For several inputs, the command line has folders
-/// or patterns here, and each input gets places of its own.
+/// or patterns here, and each input gets its own places.
 struct Places {
   std::string input = {};  ///< empty: the inputs of the job
   std::string output = "-";
@@ -104,18 +105,18 @@ struct Places {
 /// The share of the work that this process does.
 struct Sharing {
   struct Part {
-    int number, of;  // numbers start at 0
+    int number, of;  // `number` counts from 0
   };
   std::optional<Part> part;
   bool on_ranks = false;     ///< the program has several processes
   bool joins = false;        ///< the inputs are parts
   bool resumes = false;      ///< a part that exists already is kept
-  bool keeps_cells = false;  ///< of bars, in a part
+  bool keeps_cells = false;  ///< parts store the cells of bars
   /// With --part: the options that affect results, as typed.
   std::vector<std::string> typed_options;
 };
 
-/// All that the command line asks for.
+/// Everything that the command line requests.
 struct Job {
   app::CommonOptions common;
   std::vector<std::string> inputs;
@@ -126,21 +127,22 @@ struct Job {
   Sharing sharing;
   bool stored = false;               ///< the inputs are barcodes: `ph-barcode plot BARS…`
   std::vector<std::string> compare;  ///< two barcode files; empty: a barcode is computed
-  std::vector<std::string> notes;    ///< on the command line itself, to be printed once
+  std::vector<std::string> notes;    ///< notes about the command line, to be printed once
   std::vector<std::string> command;  ///< as typed, for the report
   /// The given options that have no effect for some inputs.
   std::vector<app::GivenOption> given;
-  bool of_batch = false;  ///< the places are those of one input of a batch
+  bool of_batch = false;  ///< `places` belongs to one input of a batch
 
   /// True if the command line asks for a plot of the merge tree.
   bool draws_tree() const;
-  /// True if one part of a single input is asked for, or all parts on ranks; else the part is one
-  /// of several inputs. The input is an image unless --complex rips declares points.
+  /// True if a single input is computed in parts: one part with --part, or all parts on ranks.
+  /// False if --part selects some of several inputs. The input is an image, unless --complex rips
+  /// says that it consists of points.
   bool wants_part_of_one() const;
   bool wants_image_part() const {
     return wants_part_of_one() && question.complex != ComplexKind::rips;
   }
-  /// True if each input has files of its own, in folders.
+  /// True if the run is a batch: each input has its own output files.
   bool is_batch() const;
 };
 
