@@ -418,7 +418,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
   });
 });
 
-/// In a window of 390 pixels.
+/// Asserts that no text or control is cut off in a window of 390 pixels.
 async function assertNothingIsCutOff(page, name) {
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wide <= 0, `${name} is ${wide} pixels too wide`);

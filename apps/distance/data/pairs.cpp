@@ -47,7 +47,7 @@ PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int
   const std::pmr::vector<Task> tasks = tasks_of(barcodes, distances, context);
   const auto find = [&](const Task& task, const RunContext& its_context) {
     const int dim = distances.dims()[task.dim];
-    // In the order of the inputs, so that an error names the first faulty one.
+    // Diagrams are passed in the order of the inputs, so that an error names the first faulty one.
     // mutant: pair-order
     distances.at(task.dim, task.a, task.b) = app::distance_of(
         barcodes[task.b].bars(dim), barcodes[task.a].bars(dim), choice, its_context);

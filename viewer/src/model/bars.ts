@@ -85,7 +85,7 @@ export class Bars {
     result.set(sorted.subarray(infinite, infinite + result.length - kept), kept);
     return result;
   }
-  /// The count of numbers that name a cell of the dimension of a bar, or of the next dimension.
+  /// The count of numbers that name a cell, of the dimension of a bar or of the next dimension.
   arity(bar: number, above: 0 | 1): number {
     const kind = this.meta[this.barcodeOf(bar)]?.cells ?? "vertices";
     if (kind === "row") return 1;
