@@ -125,7 +125,8 @@ def _source_of(data: Any, complex: str | None, options: dict[str, Any]) -> _Sour
     if not isinstance(data, (Mesh, Simplices, Boundary)):
         return _Source(request_of(data, complex, options), None, isinstance(data, PointImage))
     if complex is not None:
-        raise UsageError(f"complex: found {complex!r}, but a {type(data).__name__} is itself a complex")
+        raise UsageError(f"complex: found {complex!r}, but a {type(data).__name__} is itself a "
+                         "complex")
     if not isinstance(data, Mesh):
         function, request = _LISTED[type(data)]
         given = arguments_of(function, data[0], {**dict(zip(data._fields[1:], data[1:])), **options})
