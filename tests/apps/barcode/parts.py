@@ -121,7 +121,7 @@ class Parts(PartsTest):
             "other options": ([p[0], self.parts(image, 4, "--superlevel", prefix="s")[1], *p[2:]],
                               "options"),
             "other parts": ([p[0], *self.parts(image, 2, prefix="t")], "of other extents|options"),
-            "no part": ([*p, "image.npy"], "expected \"ph part\""),
+            "no part": ([*p, "image.npy"], "begin with \"ph part\""),
         }
         for what, (names, word) in refused.items():
             with self.subTest(what):
@@ -250,7 +250,7 @@ class Clouds(PartsTest):
         o = self.parts(other, 3, prefix="o")
         for names, word in ((p[:2], "missing is part 3"), ([p[0], p[0], p[2]], "twice"),
                             ([p[0], o[1], p[2]], "other points or options"),
-                            ([*p, "cloud.csv"], 'expected "ph part"')):
+                            ([*p, "cloud.csv"], 'begin with "ph part"')):
             self.refused(names, word)
         for options, word in ((("--complex", "rips"), "--max-dim 0"),
                               ((*self.OPTIONS, "--metric", "manhattan"), "euclidean"),

@@ -102,7 +102,7 @@ def not_square():
 def diagonal():
     yield refused(22, "distance", "not zero", "0 1\n1 3\n", ":2:3: non-zero diagonal, found 3")
     yield taken(22, "distance", "rounding", "1e-9 1\n1 0\n", bars("0,0,1", "0,0,inf"),
-                note="0 but for rounding")
+                note="0 except for rounding")
     yield refused(22, "distance", "more than rounding", "1e-5 1\n1 0\n", ":1:1: non-zero diagonal")
     yield refused(22, "npy-distance", "not zero", square([0, 1, 1, 3]), "diagonal at row 1, column 1")
     yield refused(22, "dipha", "not zero", dipha(7, 2, 0., 1., 1., 3.), "diagonal")
