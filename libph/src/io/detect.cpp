@@ -9,7 +9,7 @@
 namespace ph {
 namespace {
 
-// Formats with a magic number, and formats that only their name identifies.
+// The format whose magic number the input has.
 std::optional<Format> by_magic(const Input& input) {
   if (detail::is_npy(input)) return Format::npy;
   if (detail::is_png(input)) return Format::png;
@@ -34,7 +34,8 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".pts" && detail::is_counted(input)) return Format::pts;
   if (extension == ".npz") return Format::npz;
   if (extension == ".nii" || extension == ".hdr") return Format::nifti;
-  // Damaged at the start: the reader of that format will report the problem.
+  // These formats have a magic number. Without it, the file is damaged at the start, which the
+  // reader of the format will report.
   if (extension == ".pcd") return Format::pcd;
   if (extension == ".ply") return Format::ply;
   if (extension == ".off") return Format::off;

@@ -56,8 +56,8 @@ constexpr std::size_t kProbe = 4096;
 // Any text may begin with a few letters; longer magic numbers are safe.
 constexpr std::size_t kFewLetters = 4;
 
-// Such a picture has letters and a line with two sizes, after comments, because a column may also
-// have these letters as its name.
+// True for two letters such as P6, then comments and a line with two sizes. The letters alone are
+// not enough, because a column of a table may have them as its name.
 bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters) {
   if (bytes.size() < 3 || bytes[2] != '\n' || std::ranges::count(letters, bytes.substr(0, 2)) == 0)
     return false;
@@ -119,7 +119,7 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
   if (is_picture(bytes, {"P1", "P4"})) return ForeignKind{"a PBM picture", kToPng};
   if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};
   if (is_stl(bytes, size)) return ForeignKind{"an STL mesh", kToMesh};
-  // A bitmap has its own length after its two letters.
+  // A bitmap has its length after the two letters, then four bytes of zero.
   if (bytes.starts_with("BM") && bytes.size() > 14 && bytes.substr(6, 4) == "\0\0\0\0"sv)
     return ForeignKind{"a BMP picture", kToPng};
   return std::nullopt;

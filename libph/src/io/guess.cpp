@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What text and arrays hold that do not say it themselves. Where two readings make sense, one of
-// them is taken with a note, or none: never one in silence.
+// Guesses what a text or an array holds if it does not say so. If two readings make sense, one is
+// taken with a note, or the input is refused; none is taken silently.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ namespace ph::detail {
 namespace {
 
 constexpr Index kMostCoordinates = 16;  // coordinates per point in an array that may be an image
-constexpr Index kSlender = 4;           // it then has this many times more rows than columns
+// Such an array has points if it has this many times as many rows as columns.
+constexpr Index kSlender = 4;
 
 // Decides by the lengths of the first rows: only a triangle of a matrix may be ragged.
 std::optional<Format> triangle_of(const Input& input) {
@@ -62,7 +63,8 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   guess.columns = n;
   guess.table = shape_of(input, layout);
   const SquareKind square = guess.table.square;
-  // Two rows are not enough: two points of the plane may happen to be symmetric.
+  // Two rows are not enough: the coordinates of two points of the plane may happen to form a
+  // symmetric matrix.
   if (n > 2 && (square == SquareKind::distances || square == SquareKind::zeros))
     guess.format = Format::distance;
   return guess;
@@ -124,7 +126,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                           is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
-    // Pictures may be black and label maps empty; points and distances are not.
+    // Pictures may be black and label maps empty; points and distances are not all zero.
     const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
                                      (kind == SquareKind::distances || npy.kind == 'f'));
     if (has_zeros && is_sure) {  // mutant: guess-damaged
@@ -157,7 +159,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   if (is_rips) return otherwise;
   // mutant: guess-slender
   const bool is_slender = columns <= kMostCoordinates && rows >= kSlender * columns;
-  // Pictures and label maps have small integers; coordinates hardly ever do.
+  // Pictures and label maps have small integers; coordinates are hardly ever small integers.
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
   if (!is_slender) {
     if (is_of_pixels || rows < 2 || columns < 2) return otherwise;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads any format: chooses it where it is left open, refuses options that it has no use for.
+// Reads any format: chooses the format if the caller does not, and refuses options that it does not
+// support.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace ph {
 namespace {
 
-// True if it is an image that need not be entirely in memory.
+// True if the input is an image that need not be entirely in memory.
 bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
   switch (format) {
     case Format::nifti:
@@ -26,10 +27,10 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   }
 }
 
-// The format of a text of numbers, by the options and, if they do not decide, by its rows.
+// The format of a text of numbers. The options decide; if they leave it open, the rows do.
 Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::image) {
-    // Rows of two to four numbers are usually coordinates, hardly ever a picture.
+    // Rows of two to four numbers are usually coordinates, hardly ever pixels.
     const std::size_t width = detail::table_layout(input, options).columns.size();
     if (width >= 2 && width <= 4) return Format::points;
     if (width > 4)
@@ -43,8 +44,8 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   // mutant: guess-matrix-option
   if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
-    // Points have no diagonal. A diagonal of any numbers asks for nothing, and births are refused
-    // with points.
+    // Points have no diagonal. An option that accepts any diagonal asks for nothing, and later code
+    // refuses births with points.
     const bool has_diagonal = !options.from_correlation && options.diagonal != Diagonal::zero;
     const bool is_by_diagonal =
         options.diagonal == Diagonal::births || options.symmetrise == Symmetrise::none;
@@ -97,7 +98,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
-// Checks options that the format of an input does not support.
+// Refuses options that the format of an input does not support.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
   const auto refuse = [&](Setting setting, std::string_view meant_for) {
     throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}",

@@ -15,12 +15,13 @@
 namespace ph {
 namespace {
 
-/// A finite bar never has a death of null, because minus infinity is a string.
+/// Minus infinity becomes the string "-inf", because null stands for plus infinity: a death of null
+/// means that the class never dies.
 std::string json_value(double value) {
   return value == -kInfinity ? "\"-inf\"" : json::number(value);
 }
 
-/// The cell without its braces: `"vertices": [0, 1]`.
+/// A cell as a member, without the braces of an object: `"vertices": [0, 1]`.
 std::string json_cell_member(const InputCell& cell) {
   switch (cell.kind) {
     case CellKind::vertices:
@@ -33,7 +34,7 @@ std::string json_cell_member(const InputCell& cell) {
   return "";
 }
 
-/// null for an unknown cell.
+/// A cell as an object; null if the cell is unknown.
 std::string json_cell(const std::optional<InputCell>& cell) {
   if (!cell || cell->numbers.empty()) return "null";
   return fmt::format("{{{}}}", json_cell_member(*cell));
@@ -60,7 +61,7 @@ std::string_view tightness_name(Tightness tightness) {
   return "";
 }
 
-/// Called before anything is written.
+/// Throws if the loops do not fit the bars. Called before anything is written.
 void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   if (loops.empty()) return;
   const auto fail = [](const std::string& found, const std::string& expected) {
@@ -83,7 +84,8 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   }
 }
 
-/// Writes a member of a bar. @param edge of its chain.
+/// Writes the member "loops" of a bar. @param edge any cell of the bar's chain; it tells whether
+/// vertices are written as numbers or as grid coordinates.
 void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge) {
   const bool is_grid = edge.kind == CellKind::grid;
   const std::size_t arity = is_grid ? edge.numbers.size() : 1;
@@ -104,7 +106,8 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
   file.write("]");
 }
 
-/// Writes the voxels of a bar, or a cycle if it has no voxels.
+/// Writes the birth voxel and the death voxel of a bar, then its cycle, or its set of voxels if it
+/// has no cycle.
 void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
   file.write(fmt::format(", \"birth_voxel\": [{}]", fmt::join(barcode.birth_voxel(i), ", ")));
   const auto death = barcode.death_voxel(i);
@@ -170,9 +173,9 @@ std::string filtration_members(const BarcodeInfo& info, std::string_view between
 
 namespace {
 
-/// The part of the file before the bars: the members of an object.
+/// The members that come before the bars in the file.
 std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
-  // Left out if it is empty.
+  // add_members leaves out a member without a value.
   const auto text = [](std::string_view value) { return value.empty() ? "" : json::string(value); };
   const bool has_complex = !info.complex.empty();
   const bool has_chains = barcode.representatives() != Representatives::none;

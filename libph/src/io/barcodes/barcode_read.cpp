@@ -45,8 +45,8 @@ Barcode read_dipha(const Input& input) {
   return barcode;
 }
 
-/// Rows of dim, birth, death. CubicalRipser appends two places of three or four coordinates, and
-/// writes the largest double for infinity.
+/// Reads an array with rows dim, birth, death. CubicalRipser appends the three or four coordinates
+/// of the birth voxel and of the death voxel, and writes the largest double for infinity.
 StoredBarcode read_npy(const Input& input) {
   const Image array = detail::read_npy_array(input);
   const std::size_t width = array.dim() == 2 ? array.extents[1] : 0;
@@ -82,7 +82,7 @@ StoredBarcode read_npy(const Input& input) {
   return stored;
 }
 
-// Decides by content, then by extension; the default is rows of numbers.
+// The content decides, then the extension; the default is csv.
 BarcodeFormat format_of(const Input& input) {
   if (detail::is_npy(input) || detail::is_npz(input)) return BarcodeFormat::npy;
   if (detail::is_dipha(input)) return BarcodeFormat::dipha;
@@ -99,7 +99,8 @@ BarcodeFormat format_of(const Input& input) {
 
 bool is_barcode(const Input& input) {
   if (detail::is_dipha(input)) return detail::dipha_type(input) == detail::DiphaType::diagram;
-  // Bytes without a magic number may begin like any text; for other text, the name decides.
+  // An input that another format claims, by its magic number or its extension, is no barcode, nor
+  // are bytes that are not text.
   if (detail::format_by_content(input)) return false;
   switch (format_of(input)) {
     case BarcodeFormat::json:

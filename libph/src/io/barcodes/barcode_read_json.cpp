@@ -34,7 +34,7 @@ class InfoReader {
  public:
   InfoReader(JsonCursor& json, BarcodeInfo& info) : json_(json), info_(info) {}
 
-  /// Reads the member, if it is one of these.
+  /// Reads the value of a member that describes the origin. @return false for any other member.
   bool read(const std::string& name) {
     if (name == "program") {
       info_.program = text();
@@ -205,7 +205,7 @@ class Reader {
 
  private:
   void skip(const std::string& name) {
-    constexpr std::size_t most = 20;  // names: enough to tell the user what is lost
+    constexpr std::size_t most = 20;  // names; enough to tell the user what is lost
     if (skipped_.size() < most) skipped_.insert(printable(name, 40));
     json_.skip_value();
   }
@@ -215,7 +215,8 @@ class Reader {
     const std::string value = json_.string();
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
-    // Sets of voxels are for segmentation programs: a few numbers may stand for an entire image.
+    // Sets of voxels are left out: only segmentation programs need them, and a few numbers may
+    // stand for an entire image.
     if (value != "none" && value != "voxels") {
       json_.fail(place,
                  {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
@@ -278,7 +279,7 @@ class Reader {
     }
     if (const Fault fault = fault_of_bar(bar); !fault.what.empty()) json_.fail(place, fault);
     input_.require_memory((birth_.size() + death_.size() + chain_.size()) * sizeof(Index));
-    if (barcode_.empty()) {  // the first bar shows if cells are known, and of which kind
+    if (barcode_.empty()) {  // the first bar shows whether cells are known, and of which kind
       barcode_ = Barcode(kind_);
       with_cells_ = !birth_.empty();
     }
@@ -321,7 +322,8 @@ class Reader {
     }
   }
 
-  // Reads the numbers of a cell, if the member is one; they are stored from `begin` on.
+  // If the member holds the numbers of a cell, reads them into `numbers` from index `begin` on.
+  // @return false if it is another member.
   bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t begin,
                     std::size_t place) {
     constexpr Index kMost = std::numeric_limits<Index>::max();

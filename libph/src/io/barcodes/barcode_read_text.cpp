@@ -24,14 +24,15 @@ constexpr std::array<std::pair<std::string_view, Column>, 7> kNames{{
     {"birth", Column::birth},
     {"death", Column::death},
     {"p", Column::p},
-    {"persistence", Column::other},  // computed from the others
+    {"persistence", Column::other},  // computed from birth and death
     {"lifetime", Column::other},
 }};
 
-/// The columns of a table, by its header or by its first row.
+/// The columns of a table, found from its header or its first row.
 struct Columns {
   std::vector<Column> roles;
-  std::string expected = "dim birth death, or p dim birth death";  ///< columns of a row
+  /// The columns of a row, for messages.
+  std::string expected = "dim birth death, or p dim birth death";
   /// Names of columns that a Bar cannot hold.
   std::vector<std::string> left_out;
 
@@ -52,15 +53,15 @@ const Column* column_of(const std::string& name) {
   return found == kNames.end() ? nullptr : &found->second;
 }
 
-/// True if the current line consists of names, some of which may be missing.
+/// True if the current line is a header: it consists of names, or names at least one known column.
 bool is_line_of_names(const TextLines& lines) {
   return !header_names(lines.line()).empty() ||
          std::ranges::any_of(detail::header_cells(lines.line(), false), column_of);
 }
 
-/// Finds columns by the names in the current line, in any order; nothing unless it has dimensions,
-/// births and deaths, each once, and otherwise only columns that a bar does not need. A first
-/// column without a name is an index, as pandas and R write it.
+/// Finds the columns by the names in the current line, which may have any order. Returns nothing
+/// unless the line names dimension, birth and death once each, and no column that is unknown here.
+/// A first column without a name is an index, as pandas and R write it.
 std::optional<Columns> columns_by_name(const TextLines& lines) {
   const std::vector<std::string> names = detail::header_cells(lines.line(), false);
   Columns columns;
@@ -102,7 +103,7 @@ Columns columns_by_count(const TextLines& lines) {
   return columns;
 }
 
-/// Reads a dimension; programs with floats only write it as 1.0 or 1.000e+00.
+/// Reads a dimension; programs that store only floats write it as 1.0 or 1.000e+00.
 int read_dimension(Cells& cells) {
   Cells ahead = cells;
   const std::string_view word = cells.more() ? ahead.word() : std::string_view();
@@ -200,7 +201,7 @@ StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty) {
 }
 
 bool has_barcode_header(const Input& input) {
-  // Bytes checked before the input is read as lines, because it may not be text.
+  // The first bytes are checked before the input is read as lines, because it may not be text.
   constexpr std::size_t kProbe = 64;
   if (lower_case(input.text().substr(0, kProbe)).find("dim") == std::string::npos) return false;
   TextLines lines(input);
@@ -236,7 +237,7 @@ Barcode read_barcode_ripser(const Input& input) {
     bar.birth = cells.number(Allow::infinite);
     cells.expect_end("one number");
     cells.start_in(line.substr(comma + 1, line.size() - comma - 2));
-    if (cells.more()) {  // without a death it never dies
+    if (cells.more()) {  // without a death, the class never dies
       bar.death = cells.number(Allow::infinite);
       cells.expect_end("one number");
     }

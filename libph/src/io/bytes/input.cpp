@@ -23,9 +23,10 @@ namespace {
 // shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
-constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: this many NULs are not data
+// A stream that begins with this many NUL bytes holds no data.
+constexpr std::size_t kNulProbe = std::size_t{1} << 20;
 
-// Closes a file that it opened, but not standard input.
+// A file descriptor, which the destructor closes unless it is standard input.
 class Descriptor {
  public:
   Descriptor(int number, bool owned) : number_(number), owned_(owned) {}
@@ -145,7 +146,7 @@ struct Input::Storage {
   std::size_t capacity = 0;
   std::size_t used = 0;
   bool mapped = false;
-  std::optional<MemoryClaim> claim;  // if mapped
+  std::optional<MemoryClaim> claim;  // only of a mapped file
   bool exceeds = false;              // exceeds the budget: stays in a file and is not counted
 };
 
@@ -213,7 +214,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const bool exceeds = file_size > kFirstChunk && is_too_large(file_size);
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
-    // Its pages occupy memory while they are read.
+    // The pages of a mapped file occupy memory while they are read.
     if (context != nullptr && !exceeds) storage->claim.emplace(context->memory, file_size);
     if (char* const mapped = files::map_to_read(file.get(), file_size)) {
       storage->data = mapped;

@@ -11,7 +11,7 @@
 namespace ph::detail {
 namespace {
 
-constexpr int kMostDepth = 64;  // depth of nested values that are skipped
+constexpr int kMostDepth = 64;  // nesting depth of a skipped value
 
 void append_utf8(std::string& text, std::uint32_t code) {
   const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
@@ -32,7 +32,7 @@ void append_utf8(std::string& text, std::uint32_t code) {
   }
 }
 
-/// Takes the next digits. @return true if there are any.
+/// Removes the digits at the start of `word`. @return true if there are any.
 bool take_digits(std::string_view& word) {
   const std::size_t end = std::min(word.find_first_not_of("0123456789"), word.size());
   word.remove_prefix(end);

@@ -9,18 +9,20 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kSlack = 32;                    // bytes that a copy may write beyond its end
-constexpr std::size_t kPiece = std::size_t{1} << 16;  // approximate number of bytes sent at once
-constexpr std::size_t kMaxLiterals = 32;              // literals of one run
+constexpr std::size_t kSlack = 32;  // bytes that a copy may write beyond its end
+// Approximate number of bytes sent to the sink at once.
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+constexpr std::size_t kMaxLiterals = 32;  // largest number of literals in a run
 constexpr std::size_t kMaxDistance = 1 << 13;
 constexpr std::size_t kMaxMatch = 264;
 constexpr unsigned kHashBits = 14;
 
-// Copies `length` bytes that start `distance` before `to`. The two ranges may overlap, which
-// repeats the bytes between them: the repeated piece then doubles with every step.
+// Copies `length` bytes to `to` from `distance` bytes before it. If the two ranges overlap, the
+// first `distance` bytes are repeated; the piece that is copied then doubles with every step.
 void copy_match(std::byte* to, std::size_t distance, std::size_t length) {
   const std::byte* from = to - distance;
-  if (distance >= 16) {  // there is room after it: entire blocks are faster than exact lengths
+  // `to` has kSlack bytes of room; entire blocks are faster than exact lengths.
+  if (distance >= 16) {
     for (std::size_t k = 0; k < length; k += 16) std::memcpy(to + k, from + k, 16);
     return;
   }
@@ -99,8 +101,9 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in) {
   std::vector<std::byte> out;
   out.reserve(in.size() / 2 + 64);
-  std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);  // by hash: newest position
-  std::size_t i = 0, literals = 0;  // literals: start of the bytes not written yet
+  // Newest position of each hash.
+  std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);
+  std::size_t i = 0, literals = 0;  // literals: start of the bytes that are not written yet
   while (i + 3 <= in.size()) {
     std::size_t& slot = last[hash_of(in.data() + i)];
     const std::size_t candidate = slot;

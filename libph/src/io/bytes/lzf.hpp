@@ -13,19 +13,19 @@ namespace ph::detail {
 /// The place and the reason of a failed decompression; `reason` is null if it succeeded.
 struct LzfFault {
   const char* reason = nullptr;
-  std::size_t offset = 0;  ///< into the compressed bytes
+  std::size_t offset = 0;  ///< offset into the compressed bytes
 };
 
 /// A compressed byte never stands for more bytes than this.
 constexpr std::size_t kLzfMaxExpansion = 88;
 
-/// Takes the next decompressed bytes, piece after piece in order.
+/// Receives the decompressed bytes in order, piece by piece.
 using LzfSink = std::function<void(std::span<const std::byte>)>;
 
 /// Decompresses exactly `size` bytes through a small window. @return the fault, if there is one.
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink);
 
-/// Compresses; in the worst case the result is longer by a thirty-second.
+/// Compresses bytes; in the worst case, the result is 1/32 longer than the input.
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in);
 
 }  // namespace ph::detail

@@ -24,7 +24,8 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
               fmt::format("{}: cannot create the output: {}", printable(path), why));
 }
 
-/// Called before anything is computed if the problem is known by then.
+/// Reports that an existing file cannot be replaced. The constructor finds most such problems
+/// before anything is computed.
 [[noreturn]] void fail_replacing(const std::string& path, int error) {
   std::string why = files::reason(error);
   if (error == EBUSY || error == EPERM)
@@ -36,8 +37,9 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// The descriptor to write to if a name stands for a descriptor, or for a file that a standard
-/// output goes to: opening that file again or replacing it would lose its content.
+/// The descriptor to write to if a name stands for an open descriptor, or for a file to which
+/// standard output or standard error goes: opening such a file again or replacing it would lose its
+/// content.
 std::optional<int> descriptor_of(const std::string& path) {
   if (path == "-") return files::kStandardOutput;
   if (const auto named = files::descriptor_named(files::path_of(path))) return named;
@@ -177,7 +179,7 @@ void OutputFile::commit() {
   if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();
   discard();
-  // The new name is safe once the folder is; after a failure here, the file is still complete.
+  // The new name is on the disk once the folder is; if this fails, the file is still complete.
   files::sync_folder(folder);
 }
 

@@ -11,7 +11,7 @@ namespace ph::detail {
 
 struct TableLayout;
 
-/// Rows of numbers of equal length, from a text.
+/// A table of numbers from a text, whose rows have equal length.
 struct TextTable {
   Points rows;
   std::vector<std::string> header;  ///< the cells of a first line without numbers, or empty
@@ -40,12 +40,12 @@ struct LocatedEdge {
   WeightedEdge edge;
   std::size_t place = 0;
 };
-/// The pairs u < v, each once, sorted, without infinite distances. A pair that is listed again with
-/// another distance is reported to `fail(place, fault)`, which throws.
+/// Sorts pairs u < v, and removes repeated pairs and pairs with an infinite distance. A pair that
+/// is listed again with another distance is reported to `fail(place, fault)`, which throws.
 std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
                                        const std::function<void(std::size_t, const Fault&)>& fail);
 
-/// Recognises the magic numbers.
+/// Each is true if the input has the magic number of the format.
 bool is_npy(const Input& input);
 bool is_pcd(const Input& input);
 bool is_ply(const Input& input);
@@ -56,14 +56,14 @@ bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
-/// True if bytes begin like text, without bytes below the tab: the eight bytes of a count below
-/// 2^40 contain several of those.
+/// True if the first bytes have no control characters but tabs and line ends. Binary formats begin
+/// with a count of eight bytes; below 2^40, it contains NUL bytes, which text does not.
 bool is_text(std::string_view bytes);
 
 /// True if the first line of a set of points is their number, as in PTS.
 bool is_counted(const Input& input);
 
-/// An NPY unchanged, including NaN, or the array of an NPZ.
+/// Reads an NPY, or the array of an NPZ, unchanged: NaN remain.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
 /// True if an NPY has floats. Precondition: it is an NPY.
 bool is_npy_of_floats(const Input& input);
@@ -97,7 +97,7 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
 /// error unless options.allow_empty.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
-/// Converts the little-endian numbers of a record to this machine's byte order.
+/// Converts the numbers of a cloud between little endian and this machine's byte order.
 void to_native(Cloud& cloud);
 
 /// Checks the budget before a full vector grows.

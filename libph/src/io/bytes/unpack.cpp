@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes unpacked between two checks
 
-// zlib's state, with the bytes of an input that it reads.
+// zlib's state, and the compressed bytes that it reads.
 class Inflater {
  public:
   /// @param window_bits as for inflateInit2: 31 for gzip, -15 for raw deflate.
@@ -25,8 +25,8 @@ class Inflater {
   Inflater& operator=(const Inflater&) = delete;
   ~Inflater() { inflateEnd(&stream_); }
 
-  /// Unpacks up to `size` bytes. @return their number. If there are fewer, see `ended` and
-  /// `damage`; otherwise the data are truncated.
+  /// Unpacks up to `size` bytes. @return the number of bytes unpacked. If it is less than `size`,
+  /// the stream has ended (see `ended`), is damaged (see `damage`), or is truncated.
   std::size_t unpack(char* to, std::size_t size) {
     std::size_t done = 0;
     while (done < size && !ended_ && damage_.empty()) {
@@ -48,7 +48,7 @@ class Inflater {
       } else if (code != Z_OK && code != Z_BUF_ERROR) {
         damage_ = stream_.msg != nullptr ? stream_.msg : "not deflate data";
       } else if (taken == 0 && given == 0) {
-        break;  // it needs bytes that are missing
+        break;  // zlib needs bytes that are missing
       }
     }
     return done;
@@ -123,7 +123,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    // Data that have grown this much and claim to continue are not unpacked to check the claim.
+    // If the stated size is too large, and the data unpacked so far confirm such an expansion, the
+    // rest is not unpacked to check the statement.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
       input.fail_at_byte(inflater.used(),
@@ -165,7 +166,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   }
 }
 
-// The initial size: a false claim costs at most as much as deflate could produce.
+// The initial size of the buffer. It follows the stated size, but only up to four times the packed
+// size, because the statement may be false.
 std::size_t likely_size(std::string_view packed) {
   return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
 }
@@ -189,7 +191,8 @@ std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::
                                    std::size_t size) {
   Inflater inflater(input.text().substr(offset, packed_size), -15);
   std::pmr::vector<char> bytes(memory_of(input));
-  // Unpacks one byte more than promised, to see if there are more. The buffer grows with the data.
+  // Tries to unpack one byte more than promised, to notice any excess. The buffer grows with the
+  // data.
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();

@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// The line without the comment at its end: a # that begins a word outside quotes.
+/// The line without the comment at its end, which starts at a # that begins a word outside quotes.
 std::string_view without_comment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -123,7 +123,7 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
     column += first;
   };
   skip_blanks();
-  if (rest.starts_with('!')) {  // the type of a value
+  if (rest.starts_with('!')) {  // a tag: the type of the value
     const std::size_t length = std::min(rest.find_first_of(kBlank), rest.size());
     rest.remove_prefix(length);
     column += length;

@@ -46,7 +46,7 @@ class YamlWords {
   std::map<std::string, Value, std::less<>> values_;
   // Keys whose content may continue, each deeper than the one before.
   std::vector<Open> open_;
-  std::size_t number_ = 0;        // of the current line, from 1
+  std::size_t number_ = 0;        // number of the current line, from 1
   Value* list_ = nullptr;         // a list whose ']' is still to come
   std::size_t block_indent_ = 0;  // indentation of the key of a text with several lines
   bool in_block_ = false;

@@ -35,14 +35,15 @@ Bent bent_polynomial(const std::array<double, 8>& c, double x, double y) {
           radial + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x};
 }
 
-/// The angle from the axis as the lens shows it, and its derivative.
+/// The angle between a ray and the optical axis after the distortion of the lens, and its
+/// derivative.
 std::array<double, 2> shown_angle(const std::array<double, 8>& k, double angle) {
   const double s = angle * angle;
   return {angle * (1 + s * (k[0] + s * (k[1] + s * (k[2] + s * k[3])))),
           1 + s * (3 * k[0] + s * (5 * k[1] + s * (7 * k[2] + s * 9 * k[3])))};
 }
 
-constexpr int kSteps = 50;  // Newton's method needs about five
+constexpr int kSteps = 50;  // Newton's method needs about five steps
 constexpr double kExact = 1e-12;
 
 }  // namespace
@@ -61,7 +62,7 @@ std::array<double, 2> Lens::bent(double x, double y) const {
 
 double Lens::reach() const {
   if (model != Model::polynomial) return kInfinity;
-  Lens axial = *this;  // terms that depend on more than the radius hardly move the fold
+  Lens axial = *this;  // the tangential terms hardly change where the image folds over
   axial.coefficients[2] = axial.coefficients[3] = 0;
   constexpr int angles = 4096;
   double fold = kInfinity;
@@ -69,7 +70,7 @@ double Lens::reach() const {
     const double radius = std::tan(std::numbers::pi / 2 * i / angles);
     const bool rises = bent_polynomial(axial.coefficients, radius, 0).ux > 0;
     if (!rises && fold == kInfinity) fold = radius;
-    // Between the two folds there are no rays.
+    // Beyond a second fold, the image rises again; the limit lies between the two folds.
     if (rises && fold != kInfinity) return (fold + radius) / 2;
   }
   return kInfinity;

@@ -125,7 +125,8 @@ class CameraYaml {
     return std::ranges::find(kKnown, model) != kKnown.end();
   }
 
-  /// Refuses coefficients under a name that no known program uses; zeros need no lens.
+  /// Refuses coefficients under one of these names, which are not read; zeros are accepted, because
+  /// they need no lens.
   void refuse_other_names() const {
     for (const std::string_view name :
          {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
@@ -210,7 +211,8 @@ class CameraYaml {
   YamlWords yaml_;
 };
 
-/// Reads the members of an object of Open3D whose '{' was taken.
+/// Reads the members of an Open3D object after its '{'. @param inside true for the object
+/// "intrinsic" inside another one.
 void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bool inside = false) {
   bool first = true;
   for (std::string name; json.next_member(first, name);) {

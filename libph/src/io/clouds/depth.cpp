@@ -20,7 +20,8 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
                 "numpy.save writes an array from any other format"});
   }
-  // Readers of pictures accept colours if an option says which; a depth image has no such option.
+  // Readers of pictures accept colours if an option chooses a channel; a depth image has no such
+  // option.
   const auto read_grey = [&] {
     Raster raster = read_png(input);
     if (raster.channels > 1)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::int64_t kMostInteger = std::numeric_limits<std::int64_t>::max();
 
-// The least number of bytes that an element takes; it checks the count before anything is
-// allocated.
+// The least number of bytes that a row of an element takes; the count is checked with it before
+// anything is allocated.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t bytes = 0;
   for (const PlyProperty& property : element.properties) {

@@ -38,7 +38,7 @@ PlyHeader read_ply_header(const Input& input);
 /// Reads the values after a header, one after the other, as text or binary.
 class PlyBody {
  public:
-  /// It keeps references to both.
+  /// Keeps references to the input and the header.
   PlyBody(const Input& input, const PlyHeader& header);
 
   /// Checks the element's count against the bytes that follow. Elements must be read in the file's

@@ -137,7 +137,7 @@ class PlyHeaderParser {
   TextLines lines_;
   Cells cells_;
   PlyHeader header_;
-  // The names found before; properties_ has those of the last element.
+  // The names of the elements so far, and of the properties of the last element.
   std::set<std::string> elements_, properties_;
 };
 

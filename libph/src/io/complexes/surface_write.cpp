@@ -15,10 +15,10 @@
 namespace ph {
 namespace {
 
-// Number of a point in PLY.
+// The largest number that a point can have in PLY.
 constexpr Index kMostNumber = std::numeric_limits<std::uint32_t>::max();
 
-/// The points of the triangles, ascending.
+/// The points that are corners of triangles, ascending.
 std::vector<Index> points_of(const SurfaceMesh& mesh) {
   std::vector<Index> points;
   points.reserve(3 * mesh.triangles.size());

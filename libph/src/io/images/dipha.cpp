@@ -37,7 +37,7 @@ const char* name_of(DiphaType type) {
   return "";
 }
 
-// A cursor after the header of a file that must have this type.
+// A cursor after the header of a file, which must have the type `expected`.
 BinaryCursor body_of(const Input& input, DiphaType expected) {
   const DiphaType type = dipha_type(input);
   if (type != expected) {
@@ -62,8 +62,8 @@ std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t mos
 
 std::size_t to_size(std::int64_t value) { return static_cast<std::size_t>(value); }
 
-// Reads a count; `bytes_each` times the count must be available, and zero is an error unless
-// allowed.
+// Reads the number of points. The file must have at least eight bytes per point; no points are an
+// error unless options.allow_empty.
 std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) {
   const std::size_t count = cursor.read_count("number of points", kWord);
   if (count == 0 && !options.allow_empty) {
@@ -228,7 +228,7 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
     input.fail_at_byte(kHeader, {"a dualised matrix", "coboundaries", "boundaries, 0",
                                  "DIPHA's program dualize turns one into the other"});
   }
-  // A cell has its dimension, value and offset.
+  // A cell takes three words: its dimension, its value and its offset.
   const std::size_t cells = cursor.read_count("number of cells", 3 * kWord);
   if (cells == 0 && !options.allow_empty) {
     input.fail_at_byte(kHeader + kWord, {"no cells", "0", "at least one",

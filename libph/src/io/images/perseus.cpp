@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMostAxes = 16;
 constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
-// A list of cubes may ask for a grid larger than itself by at most this factor.
+// The grid that a list of cubes spans may have this many voxels per cube, or kFreeVoxels in all.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();  // see Image::masked

@@ -17,7 +17,7 @@ class Numbers {
 
   std::size_t offset() const { return at_; }
 
-  /// Skips blanks, and comments if the header continues.
+  /// Skips blanks, and comments if `comments` is true.
   void skip(bool comments) {
     const std::string_view text = input_.text();
     for (; at_ < text.size(); ++at_) {

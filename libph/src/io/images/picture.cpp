@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One number a pixel of a PNG, which may have up to four.
+// Makes one number per pixel from a PNG, which may have up to four.
 #include <fmt/format.h>
 
 #include <array>
@@ -32,7 +32,8 @@ bool is_grey(const Raster& raster) {
   return true;
 }
 
-// Position of a channel among the samples of a pixel; nothing if it is computed from three.
+// Position of a channel among the samples of a pixel; nothing if the grey value is computed from
+// three samples.
 std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const Input& input) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_colours = channels >= 3, has_alpha = channels % 2 == 0;

@@ -16,8 +16,9 @@ namespace ph {
 namespace {
 
 constexpr png_uint_32 kMaxSide = 65535;
-constexpr std::size_t kMaxChunk = std::size_t{8} << 20;  // size of an ancillary chunk in bytes
-// Deflate cannot expand by more than this, which limits the claims of a small file.
+// Largest size of an ancillary chunk in bytes.
+constexpr std::size_t kMaxChunk = std::size_t{8} << 20;
+// Deflate cannot expand data by a larger factor: a small file that claims more is refused.
 constexpr std::size_t kMaxExpansion = 1032;
 
 struct Source {
@@ -67,7 +68,7 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
   } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C
     static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
-  } catch (...) {  // its bad bit tells
+  } catch (...) {  // the bad bit of the stream tells
   }
   if (!*out) png_error(png, "cannot write");
 }

@@ -15,7 +15,8 @@ namespace {
 using detail::EntryPlace;
 using detail::triangle;
 
-// If rows have their names in a different order than columns, the matrix is a different one.
+// Checks that the names of the rows have the order of the columns; otherwise the matrix would have
+// a different meaning.
 class RowNames {
  public:
   explicit RowNames(const detail::TableLayout& layout) : header_(layout.header) {

@@ -11,19 +11,19 @@ namespace ph::detail {
 /// The place of a number in a matrix.
 struct EntryPlace {
   std::size_t row = 0, column = 0;
-  std::size_t byte = 0;  ///< byte of the input; 0 if the numbers were unpacked first
+  std::size_t byte = 0;  ///< offset in the input; 0 if the numbers were unpacked first
 };
 
-/// Converts the numbers of a matrix to distances. Numbers that are small compared with the largest
-/// one count as rounding errors: on the diagonal, below zero, or between the two entries of a pair.
-/// This can be decided only when all numbers were seen.
+/// Converts the numbers of a matrix to distances. A number on the diagonal, a negative number, or
+/// the difference between the two entries of a pair counts as a rounding error if it is small
+/// compared with the largest distance. This can be decided only after all numbers have been seen.
 class MatrixEntries {
  public:
   explicit MatrixEntries(const ReadOptions& options) : options_(options) {}
 
-  /// The distance for a number: 1 - r for a correlation, +infinity for NaN, and for now 0 for
-  /// negative numbers. Calls `fail(fault)`, which does not return, if the number can never be
-  /// valid.
+  /// The distance for a number: 1 - r for a correlation, +infinity for NaN, and 0 for negative
+  /// numbers, which finish() checks. Calls `fail(fault)`, which does not return, if the number can
+  /// never be valid.
   template <class Fail>
   double distance(double raw, const EntryPlace& place, Fail&& fail) {
     const bool on_diagonal = place.row == place.column;
@@ -35,11 +35,12 @@ class MatrixEntries {
     if (Fault fault = fault_of(raw, on_diagonal); !fault.what.empty()) fail(std::move(fault));
     return distance_of(raw, place);
   }
-  /// Combines the two entries of a pair into one distance. @param place of the lower entry.
+  /// Combines the two entries of a pair into one distance. @param place the place of the lower
+  /// entry.
   double merged(double upper, double lower, const EntryPlace& place);
 
   /// To be called after the last number: calls `fail(place, fault)`, which throws, if an error
-  /// exceeded rounding; otherwise notes the numbers that were taken as 0.
+  /// exceeds rounding; otherwise notes the numbers that were taken as 0.
   void finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const;
 
  private:

@@ -14,8 +14,8 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
-// Every id up to the largest is a point: this many points are accepted per pair, or this many in
-// all.
+// Every id up to the largest one is a point. There may be kMostPointsPerPair points per pair, or
+// kFreePoints in all.
 constexpr Index kMostPointsPerPair = 1024;
 constexpr Index kFreePoints = Index{1} << 20;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What square tables of numbers look like.
+// Recognises square tables of numbers that may be distances or correlations.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +21,7 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
   const double rounding = kRounding * largest;
   bool positive = true, in_one = true;
   double most_apart = 0;   // largest difference between the entries of a pair
-  std::size_t uneven = 0;  // number of such places, two per pair
+  std::size_t uneven = 0;  // number of entries that differ from their mirror image
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {
       const double value = block[i * side + j], other = block[j * side + i];
@@ -52,7 +52,8 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
   if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
   const bool is_of_ones = known && ones && in_one;  // mutant: guess-ones
   if (symmetric) return is_of_ones ? SquareKind::correlations : SquareKind::symmetric;
-  // Zeros are symmetric in any picture with few objects.
+  // Any picture with few objects is mostly symmetric, because most of its pairs of entries are
+  // zeros.
   if (is_mostly_zero(block, side)) return SquareKind::nothing;
   const bool is_nearly = 10 * uneven <= side * (side - 1);
   if (is_of_ones && (is_nearly || most_apart <= kLittle)) return SquareKind::nearly_correlations;

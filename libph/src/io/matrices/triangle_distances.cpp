@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Distances without what a symmetric matrix says twice: triangles as text and as float32.
+// Reads triangles of distance matrices, as text and as float32.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   return std::nullopt;
 }
 
-// Skips a header. @return true if the input has data. Here a header is a row of names only.
+// Skips a header, which is a row of names here. @return true if the input has data.
 bool first_row(TextLines& lines, const ReadOptions& options) {
   if (!lines.next()) return false;
   if (header_names(lines.line()).empty()) return true;
@@ -120,7 +120,7 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   if (!first_row(lines, options)) return detail::no_points(input, options);
   TextEntries entries(lines, options);
   std::vector<double> first;
-  if (lower) {  // as many pairs as the lines suggest, but never more than the bytes allow
+  if (lower) {  // reserves as many pairs as the lines suggest, but no more than the bytes can hold
     const std::string_view text = input.text();
     const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 2;
     const std::size_t most = std::min(triangle(std::min(rows, text.size() + 2)), text.size() + 1);

@@ -23,7 +23,7 @@ struct Header {
   std::size_t offset = 0;  // start of the data
 };
 
-// The header is a Python dictionary with three known keys; no other Python is understood.
+// Reads a header: a Python dictionary with three known keys.
 class HeaderParser {
  public:
   HeaderParser(const Input& input, std::size_t begin, std::size_t end)
@@ -209,7 +209,8 @@ std::string place_of(std::size_t voxel, const std::vector<Index>& extents) {
   return fmt::format("{}", fmt::join(place, ", "));
 }
 
-// Calls `use(begin, end)` for blocks of the numbers; blocks already used may leave the memory.
+// Calls `use(begin, end)` for blocks of the numbers; afterwards, the pages of a block may leave the
+// memory.
 template <class T, class Use>
 void for_each_block(std::span<const T> all, bool in_file, const Input& input, Use&& use) {
   constexpr std::size_t block = 1 << 20;

@@ -45,7 +45,7 @@ void expect_signature(BinaryCursor& cursor, std::string_view signature, const ch
   }
 }
 
-// Reads sizes beyond 32 bits, in the order in which they are missing.
+// Reads the sizes that need more than 32 bits; the record has only these, in this order.
 void read_zip64(BinaryCursor extra, std::size_t end, Member& member) {
   while (extra.offset() + 4 <= end) {
     const auto id = extra.read<std::uint16_t>("extra field");

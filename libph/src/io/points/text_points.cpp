@@ -21,7 +21,7 @@ bool counts_rows(PointsView points, Index column) {
   return points(0, column) == 0 || points(0, column) == 1;
 }
 
-// True if the name of a column is that of a coordinate or a time.
+// True if a column has the name of a coordinate or of a time.
 bool names_coordinate(std::string_view name) {
   constexpr std::array<std::string_view, 10> kNames{"x", "y", "z", "X",    "Y",
                                                     "Z", "t", "T", "time", "Time"};
@@ -29,7 +29,7 @@ bool names_coordinate(std::string_view name) {
 }
 
 // True if the first row may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. One or two integers
-// among others are not enough evidence.
+// count only if fractions follow.
 bool may_be_header(PointsView rows) {
   const Index columns = rows.cols();
   if (rows.rows() < 2 || columns == 0 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
@@ -42,8 +42,7 @@ bool may_be_header(PointsView rows) {
   return false;
 }
 
-// True if the first row consists of digits alone, as names do: a column of values may begin with
-// 0.0.
+// True if the first row has only digits, as a header of numbers does: 0.0 is a value.
 bool begins_with_digits(const Input& input) {
   TextLines lines(input);
   return lines.next() &&
@@ -53,7 +52,7 @@ bool begins_with_digits(const Input& input) {
 // Notes numbers that may not be data: an index that was not left out, or a header.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
-  constexpr Index kFewest = 8;  // rows that hardly count by chance
+  constexpr Index kFewest = 8;  // this many rows hardly count by chance
   if (!options.columns.empty()) return;
   const bool is_image = options.array == ArrayMeaning::image;
   const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
@@ -106,7 +105,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
                           const TableLayout* layout) {
   TextTable table;
   TextLines lines = layout != nullptr ? layout->lines(input) : TextLines(input);
-  // Programs that read clouds have none of these options.
+  // Programs that read clouds do not have the options that the hints name.
   Cells cells(lines, layout != nullptr && allow != Allow::any ? cell_hints(options) : CellHints(),
               layout != nullptr ? layout->separator : ' ');
   bool more = layout != nullptr ? layout->start(lines) : lines.next();
@@ -146,9 +145,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
-  // There are no more rows than lines. A row takes at least one byte per cell, its separator or the
-  // line end, because cells may be empty: memory is at most eight times the file, whatever it
-  // contains.
+  // There are no more rows than lines. As cells may be empty, a row takes at least one byte per
+  // cell, its separator or the line end. Whatever the file contains, the table takes at most eight
+  // times its size.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A number for each cell, vertex or point, from a file of its own.
+// Reads one number for each cell, vertex or point from a separate file.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -66,7 +66,7 @@ std::vector<double> of_array(const Input& input, std::string_view owner) {
   return values;
 }
 
-// Reads the vertex property of a PLY that the name asks for: "FILE.ply:NAME".
+// Reads the vertex property NAME of a PLY, for a name "FILE.ply:NAME".
 std::vector<double> of_property(const Input& input) {
   const Cloud cloud = read_ply(input, {.allow_empty = true, .context = input.context()});
   std::vector<std::string> names;
@@ -109,7 +109,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
                                 std::string_view owner) {
   const bool is_array = detail::is_npy(input) || detail::is_npz(input);
   const bool is_ply = detail::is_ply(input);
-  // A few doubles may consist of bytes that also occur in text, but they are hardly ever valid
+  // The bytes of a few doubles may contain no control characters, but they are hardly ever valid
   // UTF-8.
   const bool may_be_raw = input.size() == count * sizeof(double) && !is_utf8(input.text());
   const bool is_raw = !is_array && !is_ply && (may_be_raw || !detail::is_text(input.text()));

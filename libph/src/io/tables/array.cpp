@@ -83,7 +83,8 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 namespace {
 
 // Polls the stop token now and then. If numbers are read from one file and written to another, it
-// also removes their pages from memory: with a different order of axes, these may lie anywhere.
+// also removes the pages of both from memory: if the order of the axes changes, pages anywhere may
+// be in use.
 class Watch {
  public:
   Watch(const Input& input, std::span<const std::byte> to, bool in_file)
@@ -113,7 +114,7 @@ bool is_as_in_memory(const ArrayLayout& layout, const std::vector<Index>& extent
 
 template <class T>
 std::vector<T> copy_array(const Input& input, std::size_t offset, std::size_t count) {
-  constexpr std::size_t block = 1 << 14;  // stays in the cache between the steps
+  constexpr std::size_t block = 1 << 14;  // a block stays in the cache between copying and the loop
   const std::byte* bytes = input.bytes().data() + offset;
   std::vector<T> values;
   values.reserve(count);
@@ -159,7 +160,7 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     }
     return;
   }
-  // The first and the last axis are swapped in tiles that a few cache lines hold; the axes between
+  // The first and the last axis are swapped in tiles that fit a few cache lines; the axes between
   // them keep the file's order.
   constexpr std::size_t tile = 8;
   const auto first = static_cast<std::size_t>(extents.front());

@@ -12,13 +12,13 @@
 
 namespace ph::detail {
 
-/// A type of number in which arrays are stored.
+/// The type of the numbers in a stored array.
 struct ElementType {
   std::size_t size = 0;  ///< size in bytes
   /// Loads the number at an address; sets the last argument to false if double cannot hold it.
   double (*load)(const std::byte*, std::endian, bool&) = nullptr;
   VoxelType stored = VoxelType::float64;  ///< the smallest type of voxels that holds all its values
-  bool is_native = false;  ///< true if that is the type itself, apart from byte order
+  bool is_native = false;  ///< true if `stored` is this type itself, apart from byte order
 };
 
 /// The type with NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
@@ -28,23 +28,23 @@ std::optional<ElementType> element_type(std::string_view kind);
 struct ArrayLayout {
   ElementType type;
   std::endian order = std::endian::little;
-  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; otherwise the last axis is
+  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; false as in C
   std::size_t offset = 0;           ///< offset of the first element
 };
 
-/// The content of an NPY header.
+/// The content of an NPY header, checked against the file.
 struct NpyLayout {
   ArrayLayout array;
   std::vector<Index> shape;
   char kind = 'f';        ///< NumPy's letter of the type: b, u, i or f
-  std::size_t count = 0;  ///< number of elements, all of them present
+  std::size_t count = 0;  ///< number of elements, which are all present
 };
 /// @throws Error (bad_data) if the input is not an NPY file, or has a different number of elements
 /// than it states.
 NpyLayout npy_layout(const Input& input);
 
-/// True if that many bytes made from an input should be left in a file: if they take more than a
-/// third of the remaining memory, or if the input itself stays in a file.
+/// True if `bytes` bytes made from an input should stay in a file: if they take more than a third
+/// of the remaining memory, or if the input itself stays in a file.
 bool stays_in_file(const Input& input, std::size_t bytes);
 
 /// The number of elements of an array, which must reach from its offset to the end of the input.

@@ -22,9 +22,9 @@ bool is_whole(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// Cells of a line whose first cell is empty, as in tables whose rows have names. Numbers are names
-// if they count the columns, or if the next line begins with a name, or with the first of these
-// numbers.
+// The cells of a header whose first cell is empty, as in tables whose rows have names; nothing if
+// the line is no header. Integers count as names if they count the columns, or if the next line
+// begins with a name or with the first of these integers.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
   std::vector<std::string> names = header_cells(line, false, true);
@@ -49,14 +49,14 @@ bool is_name_of_index(std::string_view name) {
   return std::ranges::find(kNames, lower_case(name)) != kNames.end();
 }
 
-// Properties of the first column.
+// What the first column may be.
 struct FirstColumn {
   std::size_t rows = 0;
   bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
-  bool names_columns = true;  // row k has the name of column k
+  bool names_columns = true;  // row k begins with the name of column k
 };
 
-// Looks at the first rows, up to `most` of them.
+// Looks at the first column of the first `most` rows.
 FirstColumn first_column(const Input& input, const TableLayout& layout,
                          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   FirstColumn column;
@@ -86,7 +86,8 @@ std::vector<std::size_t> range(std::size_t begin, std::size_t end) {
   return all;
 }
 
-// Recognises a line 0, 1, 2, … or 1, 2, 3, …, as in tables whose columns have numbers.
+// The cells of a line 0, 1, 2, … or 1, 2, 3, …, which may number the columns; nothing for any other
+// line.
 std::vector<std::string> counting_header(const TextLines& line) {
   std::vector<std::string> names;
   Cells cells(line);
@@ -98,8 +99,8 @@ std::vector<std::string> counting_header(const TextLines& line) {
   return names;
 }
 
-// Removes names and an index of a matrix that look like its numbers: the n rows are symmetric after
-// a line that counts the columns, or after a column that counts the rows.
+// Removes a header 0, 1, 2, … (or 1, 2, 3, …) or such an index column, which could be mistaken for
+// data, if a square matrix remains without it.
 void leave_counts_out(const Input& input, const TextLines& first, const ReadOptions& options,
                       TableLayout& layout) {
   const auto is_matrix = [&](const TableLayout& rest) {
@@ -129,8 +130,8 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Number of cells in the first row. An empty last cell counts if the header has a name for it, or
-// if one of the next rows has a cell there: it is a missing value.
+// Number of cells in the first row. An empty last cell counts, as a missing value, if the header
+// has a name for it or if one of the next rows has a cell there.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
   if (!ends_empty(row.line())) return count;  // mutant: guess-empty-cell
@@ -141,7 +142,8 @@ std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   return count + (cells == count + 1 ? 1 : 0);
 }
 
-// Advice to read the first column as well; nothing for a square matrix, which would lose its shape.
+// Advice to read the first column as well; nothing for a square matrix, which would no longer be
+// square.
 std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   TableLayout rest = layout;
   rest.columns = range(1, layout.width);
@@ -170,7 +172,8 @@ bool has_blanks_between_numbers(std::string_view line) {
       });
 }
 
-// True if each tab separates two cells: not if blanks also do, unless a header has as many cells.
+// True if each tab separates two cells. If blanks also separate numbers, this holds only if a
+// header and the first row have equally many cells between tabs.
 bool has_tabs_between_cells(const Input& input) {
   TextLines lines(input);
   lines.keep_tabs();
@@ -188,9 +191,9 @@ bool has_tabs_between_cells(const Input& input) {
   return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
-// True if --columns has a name in this line that is not the number of a column. A user who counts
-// columns from 0 asks for 0; it is a name only before fractions, in a line that itself counts from
-// 0.
+// True if --columns has a name in this line that is not the number of a column. 0 may be a mistake
+// of a user who counts columns from 0; it is a name only if the line counts from 0 and the next
+// line has fractions.
 bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
                     const std::vector<std::string>& next) {
   bool may_be_0 = !std::ranges::all_of(next, is_whole);
@@ -204,8 +207,9 @@ bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& 
   });
 }
 
-// True if the first line has a name in a column that is not read, and integers instead of fractions
-// in the columns that are read: years, for example.
+// True if the first line may be a header whose names are integers, such as years: it has a name in
+// a column that is not read, and integers in the columns that are read, where the next line has
+// fractions.
 bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
   const std::vector<bool> taken = layout.taken();
   const auto looks = [&](const TextLines& line) {
@@ -222,7 +226,8 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
-// True if the first column has names or counts the rows; a note gives the reason.
+// True if the first column is left out, because it has the names of the rows or counts them; a note
+// gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;
@@ -315,7 +320,8 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   const TextLines& row = has_header ? next : lines;
   layout.separator = separator(row);
   layout.width = width_of(row, layout);
-  // Points and pictures may happen to be symmetric after numbers that count.
+  // In points and pictures, numbers that count may be data, even if the rest happens to be
+  // symmetric.
   if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a cell of a table holds, which line is a header, and which columns names and numbers mean.
+// Interprets the cells of a table, headers, and columns that are chosen by name or by number.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShownNames = 10;
 
-// True if a text was meant as a number: a header never looks like one.
+// True if a cell was meant as a number; then the line is not a header.
 bool looks_numeric(std::string_view cell) {
   for (const std::string_view word : {"nan", "inf", "infinity"}) {
     const std::size_t sign = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;

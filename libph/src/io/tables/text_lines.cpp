@@ -35,8 +35,8 @@ bool starts_with_word(std::string_view cell, std::string_view word) {
                     [](char a, char b) { return a == to_lower(b); });
 }
 
-// True if a decimal number that double cannot hold is too small (it rounds to zero), false if it is
-// too large: the sign of its decimal exponent decides.
+// For a decimal number that double cannot hold: true if it is too small and rounds to zero, false
+// if it is too large. The sign of its decimal exponent decides.
 bool rounds_to_zero(std::string_view cell) {
   std::size_t i = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
   std::int64_t leading = 0;  // decimal exponent of the first non-zero digit
@@ -62,7 +62,7 @@ bool rounds_to_zero(std::string_view cell) {
   std::int64_t exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
-  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than a line can have digits
+  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than the number of digits in a line
   return (negative ? leading - exponent : leading + exponent) < 0;
 }
 
@@ -79,11 +79,11 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
-// The end of a quoted text; quotes inside it are doubled.
+// The end of a quoted text, in which a quote is written twice; `begin` if the quotes do not end.
 const char* end_of_quotes(const char* begin, const char* end) {
   for (const char* close = begin;;) {
     close = std::find(close + 1, end, '"');
-    if (close == end) return begin;  // not quoted
+    if (close == end) return begin;  // no closing quote
     if (close + 1 == end || close[1] != '"') return close + 1;
     ++close;
   }
@@ -128,7 +128,7 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
   const std::string_view probe = input.text().substr(0, kProbe);
   const std::string_view mark = probe.substr(0, 2);
   const std::size_t nul = probe.find('\0');
-  // The caller knows which formats there are: programs that only read clouds have no --format.
+  // The hint names no option, because programs that only read clouds have no --format.
   const std::string hint = "save it as UTF-8";
   if (const auto foreign = detail::foreign_kind(input.text())) {
     input.fail_at_byte(
