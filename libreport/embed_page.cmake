@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPAGE=FILE.html -DCODE=FILE.cpp -P embed_page.cmake: the template as a string of C++, empty
-# without PAGE. One raw string: compilers read it faster than numbers, and no character is special.
+# cmake -DPAGE=FILE.html -DCODE=FILE.cpp -P embed_page.cmake: writes the template as a C++ string,
+# which is empty without PAGE. One raw string: compilers read it faster than numbers, and no
+# character is special.
 set(delimiter "ph_page")
 set(text "")
 if(PAGE)

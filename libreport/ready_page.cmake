@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# A page that was bundled elsewhere: an archive of the sources has one in it, for builds that have no
-# npm or no network.
+# Finds a page that was bundled elsewhere: an archive of the sources contains one for builds without
+# npm or a network.
 
 # ph_page_digest(VIEWER DIGEST): one SHA-256 of all files below VIEWER from which a page is made,
 # computed from the output of `sha256sum` for these files in the order of their names.

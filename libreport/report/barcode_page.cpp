@@ -129,7 +129,7 @@ void write_page(const Sink& sink, const BarcodePage& page, const RunContext& con
     meta.provenance.notes.emplace_back("Sets of voxels", note);
   ReportFile report(sink, meta, context);
   add_pictures(report, std::span(&page.barcode, 1), meta);
-  // Doubled coordinates mean something only if the page has the image.
+  // The doubled coordinates of grid cells have a meaning only if the page has the image.
   const bool cells =
       page.complex && (page.barcode.cell_kind() != CellKind::grid || image.has_value());
   add_bars(report, page.barcode, "bars", cells);

@@ -19,7 +19,8 @@ namespace {
 
 using segment::Method, segment::SceneTree, segment::Segmentation;
 
-constexpr double kStepsAVoxel = 8;  // stored positions have at most this error
+// A voxel divided by this is the largest error of stored positions.
+constexpr double kStepsAVoxel = 8;
 
 /// The points that are shown: all points of a cloud except its holes.
 struct ShownPoints {
@@ -32,7 +33,7 @@ ShownPoints shown_points(const Cloud* cloud, const SceneTree& scene) {
   const std::vector<float> all = cloud ? cloud->xyz() : std::vector<float>();
   const std::size_t count = cloud ? all.size() / 3 : scene.points.size();
   ShownPoints shown;
-  std::size_t next = 0;  // of the points that have a vertex
+  std::size_t next = 0;  // index among the points that have a vertex
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = cloud ? k : static_cast<std::size_t>(scene.points[k]);
     const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
@@ -214,7 +215,7 @@ Metadata metadata_of(const ScenePage& page) {
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
   CloudMeta cloud{.unit = "m", .viewpoint = s.tree.viewpoint};
-  // Cameras have y downwards; other clouds have z upwards.
+  // In a camera's frame, y points down; in other clouds, z points up.
   if (s.tree.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.tree.plane)

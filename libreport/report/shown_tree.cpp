@@ -67,9 +67,9 @@ double rounded(double x) {
   return x;
 }
 
-/// The middle of the widest gap between two neighbouring levels, ascending, if it is wider than
-/// `least`. The upper level is at least a tenth of the largest, because gaps far below it occur by
-/// chance.
+/// The middle of the widest gap between neighbours in a list of ascending levels, if the gap is
+/// wider than `least`. The upper level is at least a tenth of the largest, because gaps far below
+/// it occur by chance.
 /// @param width distance between two levels.
 template <class Width>
 std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
@@ -87,8 +87,9 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
 }
 
 /// A cut at the widest ratio between neighbouring levels of the largest merges: levels above it are
-/// much more persistent than levels below. If no ratio is wide, it is the widest difference for
-/// basins; else the largest level, which leaves the fewest parts; `from` without merges.
+/// much more persistent than levels below. If no ratio is wide, the cut lies, for basins, in the
+/// widest difference; otherwise, it is the largest level, which leaves the fewest parts. Without
+/// merges, it is `from`.
 double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRule rule,
                   double from) {
   constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64 levels

@@ -13,7 +13,8 @@
 namespace ph::segment {
 namespace {
 
-/// The edges where segments first meet. All edges between them may be many and are not stored.
+/// The edges where segments first meet. Two segments may have many edges between them; only the
+/// first is stored.
 Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
                      const SceneCut& cut, const RunContext& context) {
   Contacts contacts(&context.memory);

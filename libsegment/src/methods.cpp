@@ -30,7 +30,7 @@ namespace {
 /// Lengths in voxels. A neighbourhood is large enough to show how the surface bends, and small
 /// enough not to reach across a thin object.
 constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
-constexpr double kAdjacent = 1.79;  // corners touch: sqrt(3) and a little
+constexpr double kAdjacent = 1.79;  // a little more than sqrt(3): voxels whose corners touch
 
 /// True if voxels are so small that the points of a surface do not touch: voxels have fewer
 /// adjacent voxels on average than a plane that is sampled as coarsely as the grid. This alone
@@ -80,7 +80,7 @@ void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief)
   }
 }
 
-/// The result of the same steps where the supporting plane is free.
+/// The concavity that the same steps find where the supporting plane is free, which is noise.
 ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& context) {
   constexpr double side = 12;      // voxels
   constexpr int fewest_near = 16;  // radius in voxels within which the surface must be whole

@@ -70,7 +70,7 @@ std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context);
 
-/// The segments that components make.
+/// Makes the segments of a cut from its components.
 SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
                   const Surface& surface, const CutOptions& options, const RunContext& context);
 

@@ -60,7 +60,8 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
   };
-  // If segments were found, their boxes tell without another pass over all points.
+  // If segments were found, their boxes give the largest coordinates without another pass over all
+  // points.
   for (const Segment& segment : s.cut.segments)
     for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
   if (s.cut.segments.empty()) std::ranges::for_each(cloud.xyz(), take);
@@ -103,8 +104,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
         "another frame? see {}",
         viewpoint, mark(Setting::viewpoint));
   }
-  // Scenes in their sensor's frame have up to 0.4 behind (past the edge of a table) and 0.03
-  // hidden.
+  // In scenes that are in their sensor's frame, the share behind the plane (past the edge of a
+  // table) is up to 0.4, and the hidden share is up to 0.03.
   constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
   const auto [behind, hidden] = s.plane_sight;
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};

@@ -41,8 +41,9 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
   for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
 }
 
-/// Objects on the floor below a table are as welcome as objects on the table. The exception is a
-/// table that should hide many of them: then the viewpoint is wrong, and below is above.
+/// Removes a support below the table, such as the floor, but keeps the objects on it, which count
+/// like objects on the table. If the table should hide many points, the viewpoint is wrong, and
+/// what seems to lie below the table may lie above it: then nothing is done.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
   constexpr double much_hidden = 0.1;  // scenes in their sensor's frame have up to 0.03
   if (result.plane_sight.hidden >= much_hidden) return;
@@ -78,7 +79,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
   if (options.method != Method::paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    const double noise = deviations * search.noise * search.range * search.range;  // range of it
+    // Range of the noise.
+    const double noise = deviations * search.noise * search.range * search.range;
     if (noise > 2 * scene.margin.distance)
       search = find_plane(cloud, in_range, noise, options.plane_guess);
     scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);

@@ -72,8 +72,8 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   }
   low_ = in_units(low, exponent_);
   high_ = in_units(high, exponent_);
-  // The ends are equal, or so close that few doubles lie between them: widens the axis so that a
-  // class begins at the left and has room to go on.
+  // If the ends are equal, or so close that few doubles lie between them, the axis is widened to
+  // the right: a class then begins at the left end and has room to go on.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
   // mutant: plot-one-class
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
@@ -121,7 +121,7 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   return ticks;
 }
 
-/// Ticks at round values, because less than a decade does not contain two powers of ten.
+/// Ticks at round values, for an axis that does not contain two powers of ten.
 std::vector<Axis::Tick> Axis::round_values(int count) const {
   // Uses a unit in which neither the ends nor a step leave the range of double.
   const auto unit = static_cast<int>(std::floor(negated_ ? -low_ : high_));

@@ -13,7 +13,7 @@ constexpr double kLeft = 38, kRight = 242;
 constexpr double kHeight = 52, kGap = 9;  // height of one curve, and the gap between curves
 constexpr double kColumn = 0.25;          // steps inside a column are indistinguishable
 
-/// The value of the curve from a position on.
+/// A step of a curve: from x on, its value is `living`.
 struct Step {
   double x = 0;
   long living = 0;
@@ -57,7 +57,7 @@ std::vector<Step> thinned(const std::vector<Step>& steps) {
   return kept;
 }
 
-/// The step between two or three integers on the vertical axis.
+/// The step between the ticks of the vertical axis, at most three of which are above 0.
 long count_step(long most) {
   long step = 1;
   for (long power = 1; power <= most; power *= 10)
@@ -66,7 +66,7 @@ long count_step(long most) {
   return most / step > 3 ? 10 * step : step;
 }
 
-/// Writes 20k for 20,000, because the ticks are round.
+/// Writes 20k for 20,000; this loses no digits, because the ticks are round numbers.
 std::string count_label(long count) {
   if (count >= 1'000'000 && count % 100'000 == 0)
     return fmt::format("{}M", static_cast<double>(count) / 1e6);

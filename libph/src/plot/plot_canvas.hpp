@@ -33,7 +33,7 @@ std::string grouped(std::size_t number);
 /// The characters of a UTF-8 text; characters that XML does not allow become U+FFFD.
 std::vector<std::string> characters_of(std::string_view text);
 
-/// Lines, open or closed, and circles.
+/// An outline made of lines, open or closed, and circles.
 class Outline {
  public:
   enum class Verb : std::uint8_t {
@@ -44,7 +44,7 @@ class Outline {
     horizontal_by,
     vertical_to,  // has only y
     vertical_by,
-    circle_by,  // starts and ends here; x is its width, to the right
+    circle_by,  // starts and ends at the current place; x is its width, to the right
     close
   };
   struct Step {
@@ -79,7 +79,7 @@ enum class Anchor { start, middle, end };
 enum class Look {
   plain,
   bold,
-  upwards,  ///< turned, to be read from below
+  upwards,  ///< rotated to read from bottom to top
   haloed    ///< bold, with white around it
 };
 enum class Stroke { solid, dashed };
@@ -125,8 +125,8 @@ using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
 /// A complete picture on white. to_svg and to_raster convert it to file formats.
 struct Drawing {
   double height = 0, width = kWidth;  // in points
-  std::optional<PlotSize> size = {};  // if empty: 88 mm wide, kPixels
-  std::string title, description;     // for readers who cannot see it
+  std::optional<PlotSize> size = {};  // if empty: 88 mm, kPixels wide
+  std::string title, description;     // for readers who cannot see the picture
   std::vector<Element> elements;
 };
 
@@ -205,12 +205,12 @@ Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>&
                    const PlotOptions& options);
 /// True if a class is visible on the axis. @param limits see limits_of.
 bool is_shown(double birth, double death, const PlotAxis& limits);
-/// The bars that are drawn, without cells. @param beyond the number of bars that are beyond the
-/// axis.
+/// The bars that are drawn, without cells. @param beyond receives the number of bars that are
+/// beyond the axis.
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
-/// Explains the bars beyond the axis, at the left, beside the name of the axis.
+/// Writes how many bars are beyond the axis, on the left of the name of the axis.
 void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
-/// Puts the drawing into the middle of a picture of that size.
+/// Puts the drawing into the middle of a picture of the size that the options ask for.
 Drawing fitted(Drawing drawing, const PlotOptions& options);
 /// The dimensions that have bars, ascending.
 std::vector<int> dims_of(const Barcode& barcode);

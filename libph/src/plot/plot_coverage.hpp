@@ -24,7 +24,8 @@ class Coverage {
   void add(Place from, Place to);
   /// Adds a polygon, which is closed automatically.
   void add(std::span<const Place> corners);
-  /// The same, with the orientation reversed if necessary: overlapping polygons form a single area.
+  /// Adds a polygon, with its orientation reversed if necessary: overlapping polygons form a single
+  /// area.
   void add_turned(std::span<const Place> corners);
 
   /// Calls visit(pixel, part) with the number of a pixel, row by row, and 0 < part <= 1; then

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeft = 34, kRight = 242;
 constexpr double kInfinityRoom = 14;        // between the infinity line and the finite values
 constexpr std::size_t kMostMarkers = 1500;  // more markers cannot be distinguished
-constexpr std::size_t kCrispBars = 120;     // bars drawn as markers if there are too many for all
+constexpr std::size_t kCrispBars = 120;  // bars drawn as markers if there are too many to draw all
 
 /// Bars of one dimension that coincide in the picture.
 struct Marker {
@@ -26,8 +26,8 @@ struct Marker {
 
 using Places = std::map<std::tuple<int, long, long>, Marker>;
 
-/// Merges bars in the same square of a quarter of a point; a marker of several bars is at their
-/// mean.
+/// Merges bars that lie in one square with a side of a quarter of a point; their marker is at their
+/// mean position.
 template <class PlaceOf>
 Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
   constexpr double cell = 0.25;
@@ -85,7 +85,8 @@ void add_shape(Outline& to, int dim, double x, double y, double r) {
   }
 }
 
-/// Writes "Filtration value" with a small letter for use inside a phrase; words like "XY" stay.
+/// Writes "Filtration value" with a lower-case letter for use inside a phrase; words like "XY" do
+/// not change.
 std::string lower_first(std::string text) {
   const auto in = [](char c, char a, char b) { return c >= a && c <= b; };
   if (text.size() > 1 && in(text[0], 'A', 'Z') && in(text[1], 'a', 'z'))
@@ -102,7 +103,7 @@ class Squares {
   void add(int dim, double x, double y) { ++counts_[{dim, number(y), number(x)}]; }
   std::size_t size() const { return counts_.size(); }
 
-  /// More bars are darker; one path per dimension and shade keeps the file small.
+  /// Squares with more bars are darker; one path per dimension and shade keeps the file small.
   void draw(Canvas& canvas) const {
     constexpr int shades = 12;
     std::map<int, std::size_t> most;
@@ -188,7 +189,7 @@ class Frame {
   }
 
  private:
-  /// Widens by a margin, unless the result would not be finite.
+  /// Widens a range by a margin, unless the result would not be finite.
   static Range widened(Range range, bool logarithmic) {
     if (logarithmic) return range;
     const double margin = 0.03 * (range.high / 2 - range.low / 2) * 2;
@@ -242,7 +243,7 @@ void draw_density(Canvas& canvas, const std::vector<Bar>& bars, const Frame& fra
   squares->draw(canvas);
 }
 
-/// No bar can be below the diagonal: the legend has room there.
+/// Draws the legend below the diagonal, where no bar can be.
 void draw_legend(Canvas& canvas, const Barcode& barcode, double bottom, bool joined,
                  std::size_t shaded) {
   double y = bottom - 5;

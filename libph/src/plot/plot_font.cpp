@@ -12,8 +12,8 @@
 
 #include "ph/error.hpp"
 
-// The font, DejaVu Sans, as CMake found it: a machine that runs the program may have no font or a
-// different one.
+// The font, DejaVu Sans, is built in as CMake found it, because a machine that runs the program may
+// have no font or a different one.
 extern "C" {
 extern const unsigned char kFontBegin[] __asm__("ph_plot_font_begin");
 extern const unsigned char kFontEnd[] __asm__("ph_plot_font_end");
@@ -42,7 +42,7 @@ constexpr double kNarrow = 0.9;  // as wide as Helvetica, for which pictures are
 constexpr int kPieces = 5;       // line segments per curve
 
 // The allocator of FreeType. When memory runs out, FreeType reports a different error, such as a
-// missing module; `user` points to a flag that tells if allocation failed.
+// missing module; `user` points to a flag that tells whether allocation failed.
 extern "C" {
 static void* allocate(FT_Memory memory, long size) {
   void* const block = std::malloc(static_cast<std::size_t>(size));
@@ -67,7 +67,7 @@ char32_t code_point(const std::string& character) {
 
 /// One outline of a glyph in font units: corners, and control points of quadratic Bézier curves
 /// between them. Two consecutive control points have a corner in their middle.
-/// @param tags of the points: char, since FreeType 2.13.3 unsigned char.
+/// @param tags the tags of the points: char or, since FreeType 2.13.3, unsigned char.
 std::vector<Place> flattened(std::span<const FT_Vector> points, const auto* tags, double unit) {
   const std::size_t count = points.size();
   const auto place = [&](std::size_t i) {
@@ -108,7 +108,7 @@ struct Font::Face {
   FT_Face face = nullptr;
 
   ~Face() {
-    if (library != nullptr) FT_Done_Library(library);  // with its faces
+    if (library != nullptr) FT_Done_Library(library);  // frees its faces as well
   }
   /// @throws std::bad_alloc; Error (internal).
   void require(FT_Error error) const {

@@ -12,7 +12,7 @@ namespace ph::plot {
 /// The font built into the library, for pictures made of pixels.
 class Font {
  public:
-  /// Outer outlines are clockwise, outlines of holes are counterclockwise. The size is 1.
+  /// A glyph at size 1. Outer outlines are clockwise, outlines of holes are counterclockwise.
   struct Glyph {
     std::vector<std::vector<Place>> outlines;  // the origin is the start of the baseline
     double advance = 0;                        // distance to the next character

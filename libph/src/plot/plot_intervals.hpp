@@ -6,8 +6,8 @@
 
 #include "libph/src/plot/plot_canvas.hpp"
 
-// Code shared by pictures of barcodes and merge trees: classes as lines over the filtration value,
-// the longest one by one, the others as a density.
+// Code shared by pictures of barcodes and merge trees, which draw classes as lines over the
+// filtration value: the longest one by one, the others as a density.
 namespace ph::plot {
 
 inline constexpr double kFirstValue = 30, kLastValue = 242;  // start and end of the axis
@@ -19,8 +19,8 @@ inline constexpr double kDensityHeight = 16;                 // including its ca
 struct Longest {
   std::vector<std::size_t> crisp, rest;
 };
-/// @param most number of classes drawn one by one; all, if the others are only a handful. @param
-/// length of the class at a position.
+/// @param most largest number of classes drawn one by one; if only a handful would remain, all are.
+/// @param length of the class at a position.
 template <class Length>
 Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
   constexpr std::size_t handful = 8;  // takes less space than a density
@@ -38,7 +38,7 @@ Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
   return longest;
 }
 
-/// The distance between lines.
+/// The distance between the lines if there are `rows` of them.
 double pitch_of(std::size_t rows);
 
 /// Lines of one colour, one per class; a triangle ends a class that never dies.
@@ -46,7 +46,7 @@ class Lines {
  public:
   Lines(const Axis& axis, double pitch);
   void add(double birth, double death, double y);
-  /// @pre it has not been drawn yet.
+  /// @pre these lines have not been drawn yet.
   void draw(Canvas& canvas, Colour colour);
   /// The start of a line.
   double start(double birth) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a barcode is drawn, and in which size.
+// Chooses the bars that are drawn, and the size of the picture.
 #include <fmt/format.h>
 
 #include <algorithm>

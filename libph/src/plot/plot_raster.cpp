@@ -43,7 +43,7 @@ struct Piece {
   bool closed = false;
 };
 
-/// Calls visit(piece) for each part of an outline; all of them use the memory of `piece`.
+/// Calls visit(piece) for each part of an outline; all parts use the memory of `piece`.
 template <class Visit>
 void for_each_piece(const Outline& outline, double scale, Piece& piece, Visit&& visit) {
   using Verb = Outline::Verb;

@@ -35,7 +35,7 @@ class Layout {
   std::size_t elder(std::size_t k) const { return shown_elder(shown_[k]); }
 
  private:
-  /// The next elder that is drawn: among equally long branches, the elder may be left out.
+  /// The nearest elder that is drawn: an elder that is only as long as the branch may be left out.
   std::size_t shown_elder(std::size_t branch) const {
     while (!tree_[branch].is_infinite()) {
       branch = static_cast<std::size_t>(tree_[branch].elder);
@@ -104,7 +104,7 @@ void check(std::span<const Branch> tree) {
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   check(tree);
   Canvas canvas;
-  // A branch of length zero is not a bar either.
+  // A branch of length zero is left out, because it is not a bar.
   const PlotAxis limits = limits_of(options);
   std::vector<std::size_t> classes;
   std::size_t beyond = 0;

@@ -16,20 +16,20 @@ struct BarcodePage {
   std::string title;
   const Barcode& barcode;
   /// The data from which the barcode was computed. Null: only the bars are shown, without cells,
-  /// because the data of these cells are not here.
+  /// because the data behind the cells are missing.
   const AnyComplex* complex = nullptr;
-  /// For a Rips filtration, the form of it that has these bars.
+  /// For a Rips filtration, the form from which the bars were computed.
   std::optional<RipsForm> form = {};
-  /// The vertices of the complex in space, at least one, unless they are those of a grid.
+  /// The positions of the complex's vertices, at least one; empty for the vertices of a grid.
   std::optional<PointsView> points = {};
-  /// The numbers of the points in the cells of the barcode; empty: their own numbers.
+  /// The numbers by which the cells of the barcode name the points; empty: 0, 1, 2, ….
   std::span<const Index> point_ids = {};
-  /// True if the edges at a distance are all pairs of points within it: then the page finds them
-  /// itself.
+  /// True if the edges at a distance are all pairs of points that are no farther apart: then the
+  /// page finds the edges itself.
   bool is_euclidean = false;
   bool has_axes_of_space = false;   ///< true if the first axis of an image with three axes is x
   const ShownTree* tree = nullptr;  ///< tree of the complex; null: not shown
-  bool negated = false;  ///< values are minus those of the data; for an image it is known
+  bool negated = false;             ///< values are minus those of the data; an image says so itself
   /// Notes about anything that is not shown are added.
   Provenance provenance = {};
 };

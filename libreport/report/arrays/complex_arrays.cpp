@@ -10,7 +10,7 @@
 namespace ph::report {
 namespace {
 
-// The number of cells that a page can draw: for edges the first ones, for a mesh all of them.
+// The largest numbers of edges and of triangles that a page can draw.
 constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 2'000'000;  // mutant: report-triangles
 
 struct ValuedCell {
@@ -19,12 +19,13 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
-/// The number of a point in the input. @param ids of the remaining points; empty: all remain.
+/// The number of a point in the input. @param ids the numbers of the remaining points; empty: all
+/// remain.
 std::uint32_t number_of(Index point, std::span<const Index> ids) {
   return static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]);
 }
 
-/// The first cells of a dimension of a complex that lists them.
+/// Adds the first cells of a dimension of a complex that lists its cells.
 /// @return the value from which on some cells are missing.
 template <class Listed>
 std::optional<double> add_first(const Listed& complex, int dim, std::size_t most,

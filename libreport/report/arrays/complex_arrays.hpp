@@ -23,7 +23,7 @@ struct ComplexArrays {
 
 /// For a Rips complex, its first edges (from which the page finds the triangles), unless it holds
 /// only a forest; for a mesh with values or an alpha complex, its first edges and all triangles, or
-/// the first ones of more than 2 000 000.
+/// the first 2 000 000 if there are more.
 /// @param form of a Rips filtration. @param count number of points. @param ids their numbers in the
 /// input; empty: all are there.
 /// @throws Error (resource, cancelled).

@@ -14,7 +14,7 @@ bool is_kept(const Merge& m, CutRule rule, double from, Index min_part) {
   return rule == CutRule::value ? m.value > from : m.separates(from, min_part);
 }
 
-/// The cut as the page compares it: exactly the double of the program.
+/// The level of a merge, with which the page compares a cut: exactly the program's double.
 double level(const Merge& m, CutRule rule) {
   return rule == CutRule::value ? m.value : m.persistence();
 }

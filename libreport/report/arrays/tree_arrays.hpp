@@ -10,10 +10,10 @@
 
 namespace ph::report {
 
-/// @param rule, from the page makes cuts of `from` and more, by this rule.
+/// @param rule, from the page cuts by this rule, at `from` or more.
 /// @param min_part for rule persistence: fewest vertices of both components of a merge that is
 ///     kept.
-/// @param points of each vertex; empty: one each. O(vertices).
+/// @param points number of points of each vertex; empty: one each. O(vertices).
 ContractedTree contracted(const MergeTree& tree, CutRule rule, double from, Index min_part,
                           std::span<const std::uint32_t> points, const RunContext& context);
 
@@ -21,7 +21,7 @@ ContractedTree contracted(const MergeTree& tree, CutRule rule, double from, Inde
 double least_cut(const MergeTree& tree, CutRule rule, std::size_t most);
 
 /// The bar of H0 that dies in each merge: bars and merges are matched by value, and equal ones by
-/// the order of their birth vertices. @param vertex_of a birth cell: its vertex.
+/// the order of their birth vertices. @param birth_vertices the birth vertex of each bar.
 LinkedBars linked_bars(const MergeTree& tree, const Barcode& barcode,
                        std::span<const std::uint32_t> birth_vertices);
 
@@ -33,8 +33,8 @@ void add_tree(ReportFile& report, const MergeTree& tree, const ContractedTree& c
 /// smaller leaf first. One leaf is to the right of the other or below it, with at most a few pixels
 /// without a leaf in between, as occur where one thing hides another. In space, such leaves may be
 /// far apart.
-/// @param index of each point its pixel, row by row, ascending. @param leaf of each point; kNone:
-///     none.
+/// @param index the pixel of each point, counted row by row, ascending. @param leaf the leaf of
+///     each point; kNone: none.
 /// @param width of the picture, > 0. O(n log n).
 std::vector<std::uint32_t> touching_in_picture(std::span<const std::uint32_t> index,
                                                std::span<const std::uint32_t> leaf,

@@ -105,7 +105,7 @@ std::string provenance(const Provenance& p) {
                  {"notes", notes.empty() ? "" : "{" + notes + "}"}});
 }
 
-/// "<" occurs in texts only.
+/// Escapes each "<", which occurs only in texts.
 std::string without_tags(std::string_view json) {
   std::string text;
   text.reserve(json.size());

@@ -20,13 +20,13 @@ struct Standing {
 
 /// Numbers the segments of a stream of frames: an object keeps its number from frame to frame.
 ///
-/// A segment takes the number of the object with which it shares most places, if the shared places
-/// are more than a quarter of the smaller of the two. Pairs with the largest share of their union
-/// come first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An object
-/// that no segment took keeps the places that no segment covers, and keeps its number for some
-/// frames. Walls and boards have numbers as well. The role of an object, and what the object stands
-/// on, change only when three frames in a row agree: a wall that is a segment in one frame is still
-/// a wall. O(n log n) per frame; the tracker stores one frame.
+/// A segment takes the number of the object with which it shares the most places, if the shared
+/// places are more than a quarter of the smaller of the two. Pairs with the largest share of their
+/// union come first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An
+/// object that no segment took keeps the places that no segment covers, and keeps its number for
+/// some frames. Walls and boards have numbers as well. The role of an object, and what the object
+/// stands on, change only when three frames in a row agree: a wall that is a segment in one frame
+/// is still a wall. O(n log n) per frame; the tracker stores one frame.
 class LabelTracker {
  public:
   /// @param patience how many frames an unseen object is remembered, >= 0.
@@ -37,7 +37,8 @@ class LabelTracker {
   /// Takes the next frame of a sensor with a fixed raster: places are pixels.
   /// @param labels one per pixel: 0 for none, else any number of a segment. A frame whose size
   /// differs from the frame before shares nothing with it.
-  /// @return for each pixel the number of the object that its segment is; 0 if there is none.
+  /// @return for each pixel, the number of the object to which its segment belongs; 0 if there is
+  /// none.
   std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
   /// Takes the next frame as a result of ph::segment::segment. If the cloud is unorganised, places
   /// are cubes of space, whatever its voxels are: the sensor must stand still.
@@ -60,7 +61,7 @@ class LabelTracker {
     bool is_new = true;  // first seen in this frame
     Standing is = {};    // `segment` holds the number of an object here
     Standing said = {};  // the last frames' answer, if it differs
-    int times = 0;       // how many frames in a row had it
+    int times = 0;       // number of frames in a row with that answer
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
   std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t things,

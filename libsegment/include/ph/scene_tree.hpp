@@ -125,7 +125,7 @@ struct Segment {
   OrientedBox oriented_box;
   Role role = Role::unknown;          ///< object or unknown
   StandsOn on;                        ///< what it stands on, as far as this is seen
-  std::vector<Neighbour> neighbours;  ///< all that it touches, first contact first
+  std::vector<Neighbour> neighbours;  ///< all segments that it touches, first contact first
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
@@ -146,8 +146,8 @@ struct CutOptions {
 };
 
 /// How the voxels of a scene join (`merge_tree`: each merge with its value, the edge that joined,
-/// sizes and births), and what is needed of the scene to make segments of a cut. A value: it refers
-/// to nothing outside.
+/// sizes and births), and the data of the scene that make segments of a cut. It refers to nothing
+/// outside itself.
 struct SceneTree {
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
@@ -160,7 +160,7 @@ struct SceneTree {
   std::vector<SceneSurface> surfaces;
   /// Method surface: nearest first; empty if too little of a supporting plane was visible.
   std::vector<NoiseAt> noise;
-  Index removed = 0;     ///< how many of them were removed, with everything behind them
+  Index removed = 0;     ///< number of surfaces that were removed, with everything behind them
   Index width = 0;       ///< columns of the cloud; points of an unorganised cloud
   Index height = 1;      ///< rows of the cloud; 1 if it is unorganised
   CutOptions first_cut;  ///< the cut of the segmentation that made the tree

@@ -23,7 +23,7 @@ struct Overlap {
   std::size_t segment, object;
 };
 
-/// Surfaces found among the components come after the segments.
+/// The number of things: the segments, then the surfaces found among the components.
 std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
   return cut.segments.size() + scene.surfaces.size() - static_cast<std::size_t>(scene.removed);
 }
@@ -162,8 +162,8 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// @param places of things, by key. @param segments this many things get a number even without
-/// places. @return for each thing its number; 0: none.
+/// @param places the places of things, by key. @param segments the first `segments` things get a
+/// number even without places. @return for each thing its number; 0: none.
 std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
                                                std::size_t segments) {
   constexpr double least = 0.25;  // share of the smaller one

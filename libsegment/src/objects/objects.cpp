@@ -68,7 +68,8 @@ class HiddenJoins {
  private:
   static constexpr double kLongestGap = 0.15;  // metres; a wider occluder allows only a guess
 
-  /// A bounded number, evenly spread: the decision about parts rests on a share anyway.
+  /// Keeps a bounded number of voxels, evenly spread, because the decision about parts rests on a
+  /// share.
   static void thin_out(Border& border) {
     constexpr std::size_t fewest = 5, most = 60;
     if (border.size() < fewest) border.clear();

@@ -53,8 +53,8 @@ std::pair<T, T> range_of(std::span<const T> numbers) {
   return {std::ranges::min(low), std::ranges::max(high)};
 }
 
-/// Some points that are farthest along x, x + y, y, y - x, and in the opposite directions: an
-/// octagon, counter-clockwise. @param step considers every step-th point.
+/// Points that are farthest along x, x + y, y, y - x, and in the opposite directions: an octagon,
+/// counter-clockwise. @param step considers every step-th point.
 template <class T>
 std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T> v,
                                         std::size_t step) {
@@ -116,8 +116,8 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   return result;
 }
 
-/// The places on a plane with these axes of all points that may be on the hull. Nearly all points
-/// are inside any octagon, which single precision can decide; most of the others are inside the
+/// The places, on a plane with these axes, of all points that may be on the hull. Nearly all points
+/// are inside any octagon, as single precision can decide; most of the other points are inside the
 /// largest one.
 std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u, const Vector3d& v,
                                    double height) {
@@ -258,7 +258,8 @@ std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double>
     const Vector3d d = Vector3d(as_matrix(places).row(i)) - mean;
     covariance += weights[static_cast<std::size_t>(i)] * d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);  // least first
+  // Eigenvalues in ascending order.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   Vector3d last = solver.eigenvectors().col(0);
   if (last.dot(vector(viewpoint) - mean) < 0) last = -last;
   const Vector3d first = pointing_forward(solver.eigenvectors().col(2));

@@ -20,7 +20,7 @@ class View {
   View(const Points& centroids, double voxel, const Vec3& viewpoint);
 
   /// True if a nearer voxel of another kind lies within two cells of a voxel.
-  /// @param kind_of a voxel. @param nearer by this many metres.
+  /// @param nearer least difference in range, metres. @param kind_of returns the kind of a voxel.
   template <class KindOf>
   bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
   /// How the straight line between two voxels is covered, ignoring voxels of the kind of its ends:

@@ -20,7 +20,7 @@ using Basin = std::uint32_t;  // a basin, named by one of its voxels
 class Seams {
  public:
   void add(Basin a, Basin b, double value) { values_[std::minmax(a, b)].push_back(value); }
-  /// To be called after the last one was added.
+  /// Must be called after the last seam was added.
   void weigh() {
     for (const auto& [both, values] : values_) {
       neighbours_[both.first].insert(both.second);
@@ -34,7 +34,7 @@ class Seams {
       const auto& [strength, both, size] = queue_.top();
       const auto seam = values_.find(both);
       // mutant: seam-outdated
-      if (seam == values_.end() || seam->second.size() != size) continue;  // it has changed
+      if (seam == values_.end() || seam->second.size() != size) continue;  // the seam has changed
       return strength < least ? std::optional(both) : std::nullopt;
     }
     return std::nullopt;
@@ -88,7 +88,7 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
                 std::max(births[pair.u], births[pair.v]));
   }
   seams.weigh();
-  std::map<Basin, Basin> into;  // the basin that took in each one that is gone
+  std::map<Basin, Basin> into;  // for each basin that is gone, the basin that took it in
   while (const auto both = seams.weakest(least)) {
     context.poll();
     seams.join(both->first, both->second);

@@ -12,7 +12,7 @@ namespace ph::segment {
 namespace {
 
 constexpr std::size_t kMostListed = 16;
-// The width of the picture; pixels have 88 mm / 1040.
+// The size of a digit in pixels; a pixel is 88 mm / 1040 wide.
 constexpr double kDigitWidth = 17, kDigitHeight = 28;
 
 /// "12,345"

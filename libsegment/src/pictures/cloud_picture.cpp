@@ -24,7 +24,7 @@ constexpr double kSide = 1040;  // pixels
 constexpr int kFiner = 2;       // the picture is drawn this many times larger, then averaged
 constexpr double kMargin = 0.12;
 constexpr int kUsual = 190;        // brightness of points with neither colour nor normal
-constexpr double kNearest = 0.02;  // share of the eye's distance; nearer is behind the eye
+constexpr double kNearest = 0.02;  // share of the eye's distance; nearer points count as behind it
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -32,7 +32,7 @@ Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 struct Shown {
   std::vector<Vector3d> points;
   std::vector<std::uint32_t> colours, labels;
-  std::vector<std::uint32_t> segments;  ///< places of the points in one
+  std::vector<std::uint32_t> segments;  ///< indices of the points in a segment
 };
 
 /// The hue of a segment, as bright as the camera saw the point.
@@ -87,7 +87,7 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
   return shown;
 }
 
-/// The upward direction. Cameras have y downwards; other clouds have z upwards.
+/// The upward direction. In a camera's frame, y points down; in other clouds, z points up.
 Vector3d up_of(const SceneTree& scene) {
   if (scene.height > 1) return {0, -1, 0};
   return scene.plane ? vector(scene.plane->normal) : Vector3d(0, 0, 1);
@@ -103,7 +103,7 @@ class Camera {
     const Vector3d middle = box.center();
     const Vector3d from_sensor = middle - vector(scene.viewpoint);
     const double size = std::max(box.diagonal().norm(), 1e-9);
-    // For a sensor in the middle of the scene: the eye may be anywhere.
+    // If the sensor is in the middle of the scene, the eye may be anywhere.
     const bool outside = from_sensor.norm() > 0.25 * size;
     forward_ = outside ? from_sensor.normalized() : Vector3d(0, 1, 0);
     distance_ = outside ? from_sensor.norm() : 2 * size;
@@ -136,7 +136,7 @@ class Camera {
   int width() const { return pixels_[0]; }
   int height() const { return pixels_[1]; }
   double depth(const Vector3d& point) const { return (point - eye_).dot(forward_); }
-  /// In pixels; nothing behind the eye.
+  /// The position of a point, in pixels; nothing if the point is behind the eye.
   std::optional<Vector2d> place(const Vector3d& point) const {
     const auto at = direction(point);
     if (!at) return std::nullopt;
@@ -201,7 +201,7 @@ struct Pixel {
 
 /// Draws each point as a square about as large as the piece of surface that it represents.
 std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing& spacing) {
-  constexpr double least = 2, most = 40, overlap = 1.5;  // pixels, pixels, of squares
+  constexpr double least = 2, most = 40, overlap = 1.5;  // least and most in pixels
   std::vector<Pixel> pixels(static_cast<std::size_t>(camera.width() * camera.height()));
   for (std::size_t i = 0; i < shown.points.size(); ++i) {
     const Vector3d& point = shown.points[i];

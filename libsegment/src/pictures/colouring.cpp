@@ -29,7 +29,7 @@ Neighbours neighbours_in_image(Index width, Index height, const SceneCut& s) {
   const auto label = [&](Index x, Index y) {
     return s.labels[static_cast<std::size_t>(y * width + x)];
   };
-  std::uint64_t last = 0;  // consecutive pixels repeat themselves: keep the lists short
+  std::uint64_t last = 0;  // consecutive pixels often repeat a pair, which is listed once
   for (Index y = 0; y < height; ++y) {
     for (Index x = 0; x < width; ++x) {
       const std::uint32_t a = label(x, y);
@@ -188,7 +188,7 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
     return x >= 0 && y >= 0 && x < width && y < height && at(x, y) != label;
   };
   // An outline separates a segment only from regions larger than a speck: gaps of a few pixels get
-  // none.
+  // no outline.
   const auto ends_at = [&](Index x, Index y, Index dx, Index dy, std::uint32_t label) {
     return differs(x + dx, y + dy, label) && differs(x + kReach * dx, y + kReach * dy, label);
   };

@@ -21,7 +21,7 @@ class SquaredPaper {
   struct Run {
     std::uint32_t square;
     std::uint64_t parts;  ///< one bit for each part that they cover
-    std::size_t points;   ///< how many
+    std::size_t points;   ///< number of points
   };
 
   SquaredPaper(const CloudView& cloud, const Plane& plane, double side) : cloud_(cloud) {
@@ -49,7 +49,7 @@ class SquaredPaper {
     }
     if (run.points > 0) use(run);
   }
-  /// The square of the distance of the square's centre from the foot, in sides.
+  /// The square of the distance of the square's centre from the foot, in units of a side.
   static double farness(std::size_t square) {
     const auto away = [](std::size_t column) {
       return static_cast<double>(column) - (static_cast<double>(kColumns) - 1) / 2;
@@ -59,7 +59,7 @@ class SquaredPaper {
   }
 
  private:
-  static constexpr std::uint32_t kParts = 8;  // a side
+  static constexpr std::uint32_t kParts = 8;  // parts per side
 
   /// Column and row, in parts.
   std::array<std::uint32_t, 2> place_of(const float* p) const {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSample = 4096;      // points that are looked at
 constexpr std::size_t kFewest = 100;  // with fewer points the result is empty
-constexpr double kNear = 0.1;         // share of the range: as good as the same place
+constexpr double kNear = 0.1;         // share of the range; places as close as this count as one
 constexpr double kSure = 0.05;  // share of the range within which two halves of the points agree
 constexpr double kGoodPixels = 0.5;   // a pinhole camera explains its pixels as well as this
 constexpr double kTimesWorse = 5;     // a viewpoint that explains the pixels so much worse is wrong
@@ -63,7 +63,7 @@ struct Equations {
   }
 };
 
-/// x, y, z, 1.
+/// The homogeneous coordinates x, y, z, 1 of a point.
 Eigen::Vector4d place_of(const Sighting& s) { return s.point.homogeneous(); }
 
 /// The matrix for all sightings; `seen_by` (sighting) is the vector that represents the point.
@@ -104,7 +104,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Points on a raster of pixels.
+/// The sightings of points on a raster of pixels.
 Sightings sightings_of(const CloudView& cloud, Frame& frame) {
   const Index columns = cloud.columns(), rows = cloud.rows();
   const auto step = std::max<Index>(
@@ -187,7 +187,7 @@ bool sees_forward(const Projection& projection, const Sightings& sightings) {
   return share <= few || share >= 1 - few;
 }
 
-/// Directions of the points from a place.
+/// The median distance of the points from a place.
 double median_range(const Sightings& sightings, const Eigen::Vector3d& from) {
   std::vector<double> ranges;
   for (const Sighting& s : sightings) ranges.push_back((s.point - from).norm());

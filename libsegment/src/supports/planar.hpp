@@ -12,7 +12,7 @@ double flatness(double square_of_range);
 
 /// The plane of a flat object's voxels, facing the viewpoint; empty if they do not lie on a plane.
 /// Least squares, starting from the mean of the normals.
-/// @param voxels some of the vertices. @return its share counts these voxels.
+/// @param voxels some of the vertices. @return the plane; its share is the share of these voxels.
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint);
 

@@ -11,8 +11,8 @@
 namespace ph::segment {
 namespace {
 
-/// How many points of each segment lie as low as a support: within its least margin, which grows
-/// with the square of the range, and two voxels.
+/// How many points of each segment lie as low as a support: no farther away than two voxels plus
+/// its least margin, which grows with the square of the range.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
   constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
   const auto& [vx, vy, vz] = scene.viewpoint;

@@ -65,7 +65,7 @@ Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   return x;
 }
 
-/// The sum of the principal minors of two rows.
+/// The sum of the principal minors of order two.
 double principal_minors(const Eigen::Matrix3d& a) {
   return a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) + a(0, 0) * a(2, 2) - a(0, 2) * a(0, 2) +
          a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);

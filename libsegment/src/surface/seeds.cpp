@@ -90,8 +90,8 @@ class Cubes {
 };
 
 /// The greedy permutation of the points (Gonzalez 1985) until each has a seed within `spacing`:
-/// each step takes the first of the points farthest from all seeds. A new seed comes nearer than
-/// the others only to points that are nearer to it than it was to their seed.
+/// each step takes the first of the points farthest from all seeds. A new seed can become the
+/// nearest seed only of points that are nearer to it than it was to its own nearest seed.
 std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
                                         const RunContext& context) {
   const auto size = static_cast<std::size_t>(points.rows());

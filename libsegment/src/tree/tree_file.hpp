@@ -17,7 +17,8 @@ inline constexpr std::string_view kTreeMagic = "ph-tree\n";
 inline constexpr std::int64_t kTreeVersion = 2;
 inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 29 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
-// The entry of a point without a vertex, less the number of the removed surface on which it lies.
+// The entry of a point without a vertex is this number, less the number of the removed surface on
+// which the point lies.
 inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;
 inline constexpr std::size_t kTreeSurface = 6 * kTreeWord, kTreeNoise = 2 * kTreeWord;
 

@@ -20,7 +20,8 @@ namespace {
 constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points and vertices have 32-bit numbers
 constexpr std::size_t kWord = kTreeWord, kHeader = kTreeHeader, kSum = kTreeSum;
 
-/// The bound for a graph with that many vertices, at most 2^32 - 2: it fits with them into 63 bits.
+/// The largest number of edges of a graph with `vertices` vertices, at most 2^32 - 2; the sum of
+/// both numbers fits into 63 bits.
 std::int64_t most_edges(std::int64_t vertices) {
   const auto n = static_cast<std::uint64_t>(vertices);
   return n == 0 ? 0 : static_cast<std::int64_t>(n * (n - 1) / 2);
@@ -58,7 +59,7 @@ class TreeReader {
       fail(what, fmt::format("{}", value), fmt::format("{} to {}", least, most));
     return value;
   }
-  /// A number from `least` to `most`; infinite bounds are left out.
+  /// A number from `least` to `most`; infinite bounds are left out of the message.
   double number(const char* what, double least = -kInfinity, double most = kInfinity,
                 bool infinite = false) {
     at_ = cursor_.offset();

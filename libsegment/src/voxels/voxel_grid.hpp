@@ -27,7 +27,7 @@ inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
 /// Up to this corner, in voxels, the coordinates of neighbours are exact.
 inline constexpr double kMostExactCell = 1ULL << 52;
 
-/// A search for neighbours needs the next coordinate to be a different number.
+/// Checks that neighbouring cells have different coordinates, as a search for neighbours needs.
 /// @throws Error (usage) on a voxel beyond kMostExactCell, naming it.
 void require_exact_cells(const VoxelGrid& grid, double voxel);
 

@@ -70,9 +70,9 @@ std::vector<Place> places_of(const VoxelGrid& grid) {
   return places;
 }
 
-/// Finds the pairs of a voxel of `row` and a voxel of `other`, which is not behind it, and writes
-/// them to `to`. Precondition: there is room for all pairs within reach, and one more. @return
-/// their end.
+/// Finds the pairs of a voxel of `row` and a voxel of `other`, which does not come after it, and
+/// writes them to `to`. Precondition: there is room for all pairs within reach, and one more.
+/// @return the end of the pairs.
 VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, const VoxelRow& other,
                        double reach, double square_of_radius, VoxelPair* to) {
   std::uint32_t first = other.begin;
@@ -85,7 +85,8 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
       const Place& q = places[u];
       const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
       const double square = x * x + y * y + z * z;
-      // Written first, because the test for nearness is unpredictable.
+      // Branchless, because the branch would be unpredictable: always writes the pair, but advances
+      // only past a near one.
       *to = {u, v, std::sqrt(static_cast<float>(square))};
       to += square < square_of_radius ? 1 : 0;
     }

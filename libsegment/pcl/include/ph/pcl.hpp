@@ -206,8 +206,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Half the thickness of the plane, metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
-  /// Half the thickness of the plane at a range of one metre, at least; it grows with the square of
-  /// the range; metres.
+  /// The least half of the plane's thickness at a range of one metre, in metres; it grows with the
+  /// square of the range.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
   /// The supporting plane of the frame before; unsetPlaneGuess forgets it.

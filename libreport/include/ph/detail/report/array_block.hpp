@@ -25,8 +25,8 @@ struct ArrayForm {
   std::vector<std::size_t> shape =
       {};              ///< sizes of the axes, the last one fastest; empty: one axis
   bool delta = false;  ///< store differences from the row before (integers only)
-  /// One offset and scale, or one per column: a number means offset + scale * stored. Empty: the
-  /// number itself.
+  /// One offset and scale, or one per column: a number means offset + scale * stored. If both are
+  /// empty, the stored number is the number itself.
   std::vector<double> offset = {}, scale = {};
 };
 
@@ -39,9 +39,9 @@ struct RawArray {
   bool is_in_file = false;  ///< see ph/detail/core/file_pages.hpp
 };
 
-/// Writes an array as docs/reference/report-format.md describes: filters, zlib, base64, in its own
-/// element. Numbers of more than one byte are stored as planes. Memory beside the array is
-/// constant; for an array in a file, at most one block is in memory.
+/// Writes an array as docs/reference/report-format.md describes: filters, zlib, base64, in an
+/// element of its own. Numbers of more than one byte are stored as planes. Beside the array, this
+/// takes constant memory; for an array in a file, at most one block is in memory.
 /// @throws Error (cancelled); std::bad_alloc; errors of `sink`.
 void write_array(const Sink& sink, const RawArray& array, const ArrayForm& form,
                  const RunContext& context);

@@ -27,18 +27,18 @@ struct CloudMeta {
   std::optional<std::array<double, 3>> viewpoint = {};  ///< position of the sensor
   std::optional<std::array<double, 3>> up = {};
   std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
-  std::optional<double> edges_below = {};      ///< values from which on edges are missing
+  std::optional<double> edges_below = {};      ///< edges from this value on are missing
   std::optional<double> triangles_below = {};  ///< the same for complex/triangles
   std::string projection = {};                 ///< "first 3 of 10 coordinates"
 };
 
 /// A segment of the segmentation that the page shows first.
 struct SegmentMeta {
-  std::uint32_t number = 0;  ///< what it is called
+  std::uint32_t number = 0;  ///< the number that names it
   std::uint32_t colour = 0;  ///< 0x00RRGGBB
   double persistence = 0;    ///< the confidence; may be infinite
   std::string_view role;
-  std::uint32_t on_surface = 0, on_segment = 0;  ///< number of its support; 0: none known
+  std::uint32_t on_surface = 0, on_segment = 0;  ///< number of the segment's support; 0: none known
 };
 
 /// The properties of a segmentation beside the labels.
@@ -47,8 +47,8 @@ struct SceneMeta {
   std::vector<std::string_view> surface_roles;  ///< roles of the surfaces, by number
   Index removed = 0;     ///< how many surfaces were removed: no leaf of the tree is on them
   double flat = 0;       ///< least share of vertices on its plane that a surface must have
-  double min_seam = 0;   ///< not done in other cuts: joining over weak seams
-  bool objects = false;  ///< and joining the parts of an object
+  double min_seam = 0;   ///< least strength of a seam; other cuts do not join over weak seams
+  bool objects = false;  ///< true if the parts of an object are joined; other cuts join none
 };
 
 /// The distances between the bars of one dimension in the two barcodes of a comparison.
@@ -64,7 +64,7 @@ struct Metadata {
   std::vector<BarcodeMeta> barcodes;  ///< one barcode, or two in a comparison
   std::optional<CloudMeta> cloud = {};
   std::string construction = {};       ///< for an image: "vertices" or "cells"
-  std::vector<std::string> axes = {};  ///< of a volume, in array order: x, y, z
+  std::vector<std::string> axes = {};  ///< names of a volume's axes, in array order: x, y, z
   std::optional<TreeMeta> tree = {};
   std::optional<SceneMeta> scene = {};
   std::vector<Distance> distances = {};  ///< of a comparison

@@ -10,7 +10,7 @@ inline constexpr std::string_view kPayloadMarker = "<!--ph:payload-->";
 /// The page without its payload, as viewer/ builds it; empty if this build has none.
 std::string_view page_template();
 
-/// To be called by anyone who wants a report, before the computation. @throws Error (not_built_in)
+/// Must be called before the computation if a report is wanted. @throws Error (not_built_in)
 /// "option: …" if there is no template.
 void require_built_in();
 

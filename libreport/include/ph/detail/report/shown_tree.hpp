@@ -13,9 +13,10 @@ namespace ph::report {
 
 inline constexpr std::uint32_t kNone = UINT32_MAX;  ///< no leaf, no bar
 
-inline constexpr std::size_t kMostTreeVoxels = 1 << 22;  ///< all cells of an image are listed
+/// A larger image has no tree, which would need a list of all cells.
+inline constexpr std::size_t kMostTreeVoxels = 1 << 22;
 
-/// The rule that decides which merges a cut does.
+/// The rule that decides which merges a cut performs.
 enum class CutRule {
   persistence,  ///< merges with a persistence below the cut: MergeTree::basins
   value,        ///< merges at values up to the cut: MergeTree::components
@@ -65,7 +66,7 @@ struct ShownTree {
 /// @throws Error (resource, cancelled).
 std::optional<MergeTree> whole_tree(const AnyComplex& complex, const RunContext& context);
 
-/// @param tree of the complex that `barcode` belongs to.
+/// @param tree the merge tree of the complex to which `barcode` belongs.
 /// @throws Error (resource, cancelled).
 ShownTree shown_tree(MergeTree tree, const Barcode& barcode, const AnyComplex& complex,
                      const RunContext& context);

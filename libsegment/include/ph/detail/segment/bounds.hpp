@@ -8,16 +8,16 @@
 
 namespace ph::segment {
 
-/// The values of a component on the plane of its surface.
+/// The least share of a component's voxels that lie on the plane of its surface.
 inline constexpr double kLeastShareOnSurface = 0.85;
 
 /// The components of a cut that bound the scene and are not objects. A wall is flat, is not
-/// parallel to the support, and has nothing of the whole frame behind its plane; behind the face of
-/// a box the frame shows what the box stands on. A further support is flat, parallel to the
-/// support, and larger than anything one can lift.
-/// @param cloud all points count, even those out of range. @param component_of each vertex: one of
-/// the vertices of its component. @param min_size fewest voxels of an examined component. O(voxels
-/// + points for each flat component that is not parallel to the support).
+/// parallel to the support, and the frame shows nothing behind its plane; behind the face of a box,
+/// the frame shows what the box stands on. A further support is flat, parallel to the support, and
+/// larger than anything one can lift.
+/// @param cloud all points count, even those out of range. @param component_of for each vertex, one
+/// of the vertices of its component. @param min_size fewest voxels of an examined component.
+/// O(voxels + points for each flat component that is not parallel to the support).
 std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
                                       const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size);
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> surfaces_of(const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size);
 
 /// How many voxels of each group lie on each surface that was found among the components, group
-/// after group: this decides for any union of groups. @param group_of each vertex, from 0.
+/// after group. These numbers suffice for any union of groups. @param group_of each vertex, from 0.
 std::vector<std::uint32_t> voxels_on_surfaces(const SceneTree& scene,
                                               std::span<const std::uint32_t> group_of,
                                               std::size_t groups);

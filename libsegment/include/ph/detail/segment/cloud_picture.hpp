@@ -15,7 +15,7 @@ namespace ph::segment {
 
 /// The direction of view: the eye moves around the middle of the segments, starting where the
 /// sensor stood, first to the right (about the normal of the plane if one was removed) and then up.
-/// Degrees.
+/// Both angles are in degrees.
 struct ViewTurn {
   double right = 0;
   double up = 0;
@@ -24,7 +24,7 @@ struct ViewTurn {
 /// The visible points of a scene.
 struct CloudPicture {
   Raster raster;
-  /// How many points each segment has, after the points in no segment (place 0); without holes.
+  /// The number of points in no segment (at 0), then in each segment; holes do not count.
   std::vector<std::size_t> points;
   /// The pixel where the number of each segment may stand; empty for a segment that is hardly
   /// visible.

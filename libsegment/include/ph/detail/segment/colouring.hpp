@@ -18,19 +18,21 @@ std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
                                                             const SceneCut& cut);
 
 /// One colour per segment, 0x00RRGGBB, from a palette that works with any common kind of colour
-/// blindness (Okabe & Ito 2008). Neighbours differ as long as no segment has more than six; the
-/// rest of the palette is used evenly.
+/// blindness (Okabe & Ito 2008). Neighbours differ as long as no segment has more than six
+/// neighbours; the rest of the palette is used evenly.
 std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::size_t>>& neighbours);
 
-/// The same palette by the number of an object, from 1: the object keeps its colour in a stream.
+/// Colours from the same palette, chosen by the numbers of the objects (from 1): an object keeps
+/// its colour in a stream.
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
 
-/// The colours of the segments in pictures and reports: by number if they have `numbers`, else such
-/// that neighbours differ. @param cloud null: a stored tree was cut.
+/// The colours of the segments in pictures and reports: chosen by number if `numbers` are given,
+/// otherwise such that neighbours differ. @param cloud null: a stored tree was cut.
 std::vector<std::uint32_t> shown_colours(const Cloud* cloud, const SceneCut& cut,
                                          std::span<const std::uint32_t> numbers);
 
-/// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, where near is bright.
+/// Brightness 0…255 of each point (ITU-R BT.601); in a cloud without colours, it follows the depth,
+/// and near points are bright.
 std::vector<int> brightness(const Cloud& cloud);
 
 /// The points with x, y, z, `rgba` and `label`: segments in their colours, all other points in

@@ -15,7 +15,8 @@ namespace ph::segment {
 /// The function that receives notes on anything that is not obvious.
 using Note = std::function<void(const Message&)>;
 
-/// The camera of a name, with a note that its values are nominal; empty if no camera has this name.
+/// The camera with this name, with a note that its values are nominal; empty if no camera has this
+/// name.
 std::optional<Camera> camera_named(std::string_view name, const Note& note);
 
 /// The camera of a calibration file, with a note if it describes a lens.
