@@ -42,7 +42,7 @@ std::optional<Camera> camera_named(std::string_view name, const Note& note) {
   const auto preset = std::ranges::find(presets, name, &CameraPreset::name);
   if (preset == presets.end()) return std::nullopt;
   note(
-      fmt::format("{}: nominal values for {}; single cameras differ by some per cent, "
+      fmt::format("{}: nominal values for {}; individual cameras differ by a few per cent, "
                   "other image sizes by more; a calibration is better",
                   camera_mark(preset->name), preset->images));
   return preset->camera;

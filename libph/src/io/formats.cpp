@@ -116,8 +116,9 @@ ReadResult perseus_result(const Input& input, const ReadOptions& options) {
     result.description += ", periodic";
     result.periodic = std::move(perseus.periodic);
   }
-  detail::note(options, "Perseus and GUDHI take the values as those of top cubes: " +
-                            mark(Setting::construction, "cells"));
+  detail::note(options,
+               "Perseus and GUDHI take the values as values of the top-dimensional cubes: " +
+                   mark(Setting::construction, "cells"));
   return result;
 }
 ReadResult cloud_of(const Cloud& cloud, const Input& input, const ReadOptions& options,

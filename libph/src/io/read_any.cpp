@@ -53,7 +53,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
     if (guess.table.rows != 0 && !is_square) {
       input.fail({"not a square matrix",
                   guess.table.rows > guess.columns
-                      ? fmt::format("rows of {} cells, and more of them", guess.columns)
+                      ? fmt::format("more than {0} rows of {0} cells", guess.columns)
                       : fmt::format("{} rows of {} cells", guess.table.rows, guess.columns),
                   fmt::format("as many rows as columns, for {}", option),
                   "is the file truncated, or a set of points?"});

@@ -103,8 +103,9 @@ void validate(const SceneTree& scene) {
   expect("coordinates", scene.xyz.size(), 3 * points);
   if (scene.surfaces.size() > kMostSurfaces || scene.removed < 0 ||
       scene.removed > std::ssize(scene.surfaces))
-    fail("surfaces, and those removed", fmt::format("{}, {}", scene.surfaces.size(), scene.removed),
-         fmt::format("at most {}, and no more of them", kMostSurfaces));
+    fail("numbers of surfaces and of removed surfaces",
+         fmt::format("{}, {}", scene.surfaces.size(), scene.removed),
+         fmt::format("at most {}, and no more removed ones", kMostSurfaces));
   Index size = 0;
   if (scene.width < 0 || scene.height < 0 ||
       __builtin_mul_overflow(scene.width, scene.height, &size))

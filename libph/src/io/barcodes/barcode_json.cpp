@@ -73,9 +73,10 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
     if (loops[i].loops.empty()) continue;
     const std::string bar = fmt::format("bar {} ", i);
     if (barcode.representatives() == Representatives::none || barcode.representative(i).size() == 0)
-      fail(bar + "without a chain", "loops beside a cycle");
+      fail(bar + "without a chain", "loops only for bars with a cycle");
     const InputCell edge = barcode.representative(i).cell(0);
-    if (edge.kind == CellKind::row) fail(bar + "of rows of a matrix", "cells with vertices");
+    if (edge.kind == CellKind::row)
+      fail(bar + "whose cells are rows of a matrix", "cells with vertices");
     const std::size_t arity = edge.kind == CellKind::grid ? edge.numbers.size() : 1;
     for (const Loop& loop : loops[i].loops)
       if (loop.numbers.empty() || loop.numbers.size() % arity != 0)

@@ -181,7 +181,7 @@ class Reader {
       } else if (name == "version") {
         json_.integer(1, 1, "version");
       } else if (name == "representatives") {
-        if (bars) json_.fail(place, {"representatives", "them behind the bars", "before", {}});
+        if (bars) json_.fail(place, {"representatives", "them after the bars", "before", {}});
         representatives_ = representatives();
       } else if (name == "bars") {
         if (bars) json_.fail(place, {"bars", "them again", "them once", {}});
@@ -286,7 +286,7 @@ class Reader {
     if (with_cells_ == birth_.empty() || (!with_cells_ && death_.size() + chain_.size() > 0)) {
       json_.fail(place, {"birth cell",
                          birth_.empty() ? "none" : "one",
-                         "one for each bar, or none and no other cell",
+                         "one for each bar, or no cells at all",
                          {}});
     }
     barcode_.add(bar, birth_, death_);

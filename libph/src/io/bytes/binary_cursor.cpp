@@ -30,7 +30,7 @@ std::size_t BinaryCursor::read_count(const char* what, std::size_t bytes_each) {
     input_.fail_at_byte(at,
                         {fmt::format("truncated: the {} does not fit the file", what),
                          fmt::format("{}", count),
-                         fmt::format("at most {}, by the {} bytes that follow",
+                         fmt::format("at most {} for the {} bytes that follow",
                                      bytes_each == 0 ? 0 : remaining() / bytes_each, remaining()),
                          {}});
   }

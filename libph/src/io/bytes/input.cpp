@@ -253,15 +253,16 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                   mark_place(input.name_) + ": cannot read: " + files::reason(errno));
     if (got == 0) {
       if (!sized) break;
-      throw Error(ErrorKind::io, fmt::format("{}: it shrank while it was read: {} of {} bytes",
-                                             mark_place(input.name_), storage->used, file_size));
+      throw Error(ErrorKind::io,
+                  fmt::format("{}: the file shrank while it was read: {} of {} bytes",
+                              mark_place(input.name_), storage->used, file_size));
     }
     storage->used += static_cast<std::size_t>(got);
     if (!probed && storage->used >= kNulProbe) {
       probed = true;
       if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {
         input.fail_at_byte(0, {"not data", "a stream of NUL bytes", "data within the first MiB",
-                               "if they are meant, save them to a file first"});
+                               "if they are intended, save them to a file first"});
       }
     }
   }

@@ -202,7 +202,7 @@ std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most, const ch
   if (error != std::errc{} || stop != word.data() + word.size() || value < least || value > most) {
     fail(at_, {fmt::format("{} out of range", what),
                printable(word, 40),
-               fmt::format("an integer of {} to {}", least, most),
+               fmt::format("an integer from {} to {}", least, most),
                {}});
   }
   at_ += word.size();

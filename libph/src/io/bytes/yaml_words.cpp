@@ -109,7 +109,7 @@ void YamlWords::take_key(std::string_view line, std::size_t indent) {
   if (!is_new) {
     fail(indent + 1, {"a key twice",
                       printable(path, kShown),
-                      fmt::format("it once, as in line {}", entry->second.line),
+                      fmt::format("it only in line {}", entry->second.line),
                       {}});
   }
   open_.push_back({indent, std::move(path)});

@@ -118,7 +118,7 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
   if (!same_shape && !crops_sides) {
     throw Error(ErrorKind::usage,
                 fmt::format("{}: found an image of {} x {} pixels, expected {} x {} as in its "
-                            "calibration, or the same shape scaled",
+                            "calibration, or the same aspect ratio",
                             mark_place("camera"), new_width, new_height, width, height));
   }
   Camera result = *this;

@@ -18,7 +18,7 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
   const bool is_npy = detail::is_npy(input);
   if (!is_npy && !detail::is_png(input) && !detail::is_pgm(input)) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
-                "numpy.save writes an array from any other format"});
+                "save an image in any other format with numpy.save"});
   }
   // Readers of pictures accept colours if an option chooses a channel; a depth image has no such
   // option.

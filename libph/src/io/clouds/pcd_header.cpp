@@ -75,7 +75,7 @@ class PcdHeaderParser {
         lines_.fail(place, {"PCD version", printable(version, 40), "0.7", {}});
       }
     } else if (key == "FIELDS" || key == "COLUMNS") {
-      if (!fields.empty()) lines_.fail(place, {"PCD header", "fields again", "them once", {}});
+      if (!fields.empty()) lines_.fail(place, {"PCD header", "a second list of fields", "one", {}});
       while (cells_.more()) fields.push_back({std::string(cells_.word())});
       sizes_.assign(fields.size(), 4);
       types_.assign(fields.size(), 'F');

@@ -44,7 +44,7 @@ void PlyBody::start_element(const PlyElement& element) {
                         {fmt::format("truncated: the count of {} does not fit the file",
                                      printable(element.name, 40)),
                          fmt::format("{}", element.count),
-                         fmt::format("at most {}, by the {} bytes that follow", rest / least, rest),
+                         fmt::format("at most {} for the {} bytes that follow", rest / least, rest),
                          {}});
   }
 }
@@ -106,7 +106,7 @@ std::size_t PlyBody::list_length(const PlyProperty& property) {
   if (length < 0 || length > static_cast<double>(rest)) {
     const Fault fault{fmt::format("length of list {}", printable(property.name, 40)),
                       fmt::format("{:.0f}", length),
-                      fmt::format("0 to {}, by the bytes that follow", rest),
+                      fmt::format("0 to {} for the bytes that follow", rest),
                       {}};
     if (header_.ascii) lines_.fail(place, fault);
     input_.fail_at_byte(at, fault);
@@ -173,7 +173,7 @@ Cloud read_vertices(const Input& input, const PlyHeader& header, const PlyElemen
     cloud.stride += size_of(property.type);
   }
   const auto bytes = checked_product(element.count, cloud.stride);
-  if (!bytes) input.fail({"too many vertices", fmt::format("{}", element.count), "less", {}});
+  if (!bytes) input.fail({"too many vertices", fmt::format("{}", element.count), "fewer", {}});
   input.require_memory(*bytes);
   if (!header.ascii && !lists && header.order == std::endian::native) {
     const auto raw = body.raw_rows(*bytes);

@@ -87,7 +87,7 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
     lines.fail(lines.line().data(),
                {"truncated: the sizes do not fit the file",
                 count ? fmt::format("{} values", *count) : "more than 2^64 values",
-                fmt::format("at most {}, by its length", rest / 2 + 1),
+                fmt::format("at most {}, by the length of the file", rest / 2 + 1),
                 {}});
   }
   input.require_memory(*count * sizeof(double));

@@ -188,7 +188,7 @@ Raster read_png(const Input& input) {
   if (height * row_bytes / 32 / kMaxExpansion > input.size()) {
     input.fail_at_byte(16, {"truncated: the size of the image does not fit the file",
                             fmt::format("{} x {} pixels", raster.width, raster.height),
-                            fmt::format("fewer in {} bytes", input.size()),
+                            fmt::format("fewer pixels in {} bytes", input.size()),
                             {}});
   }
   const std::size_t count = height * static_cast<std::size_t>(raster.width * raster.channels);
@@ -224,7 +224,7 @@ void Raster::check() const {
   if (count == samples.size() && (bits == 8 || bits == 16)) return;
   throw Error(ErrorKind::bad_data,
               fmt::format("{}: found {} samples of {} bits for {} x {} pixels of {} channels, "
-                          "expected as many as pixels and channels say, 8 or 16 bits",
+                          "expected one sample per pixel and channel, of 8 or 16 bits",
                           name, samples.size(), bits, width, height, channels));
 }
 

@@ -32,10 +32,11 @@ class RowNames {
       is_known_ = false;  // the names or numbers of rows are unrelated to columns
       return;
     }
-    lines.fail(lines.line().data(), {"rows and columns in another order",
-                                     fmt::format("row {} of the name {}", row, printable(name, 40)),
-                                     printable(column, 40) + ", as the column",
-                                     {}});
+    lines.fail(lines.line().data(),
+               {"rows and columns in different orders",
+                fmt::format("row {} with the name {}", row, printable(name, 40)),
+                printable(column, 40) + ", the name of the column",
+                {}});
   }
 
  private:

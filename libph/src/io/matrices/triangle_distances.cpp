@@ -78,10 +78,9 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
   bool are_zero = true;
   for (std::size_t i = 1; i < n; ++i) are_zero = are_zero && values[triangle(i + 1) - 1] == 0;
   if (are_zero && n > 3)
-    detail::note(
-        options,
-        "each row ends in 0, which means equal points; if it is the diagonal, leave out the "
-        "zeros and the first row");
+    detail::note(options,
+                 "each row ends in 0, which means equal points; if these zeros are the diagonal, "
+                 "leave them and the first row out");
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
