@@ -18,11 +18,11 @@
 namespace ph::report {
 namespace {
 
-constexpr Index kMostColumns = 3;  // of positions
+constexpr Index kMostColumns = 3;  // most columns of positions
 // Up to this number of points, positions are written exactly, because the page derives the edges of
 // a complex from them.
 constexpr Index kMostExactPoints = 50'000;
-constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // in a page
+constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // most voxels in a page
 
 template <class Complex>
 const Complex* complex_as(const BarcodePage& page) {

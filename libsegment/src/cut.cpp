@@ -31,7 +31,7 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
     for (const VoxelPair& p : surface.pairs)
       if (are_apart(p.u, p.v) && p.distance < adjacent_radius(scene.voxel))
         meet(p.u, p.v, std::max(scene.merge_tree.births[p.u], scene.merge_tree.births[p.v]));
-  } else if (options.value < scene.distance) {  // else joined vertices are one component
+  } else if (options.value < scene.distance) {  // else no edge joins two components
     for_each_pair_within(
         scene.vertices, scene.distance,
         [&](Index i, Index j, double length) {

@@ -115,7 +115,7 @@ double adjacent_radius(double voxel) { return kAdjacent * voxel; }
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock) {
   constexpr double coarser = 1.5;
-  constexpr int most_times = 4;  // tries up to five times the edge
+  constexpr int most_times = 4;  // the edge grows to about five times its first length at most
   double voxel = options.voxel_size();
   std::vector<Index> points;
   VoxelGrid grid;

@@ -36,7 +36,7 @@ struct Scene {
   PlaneMargin margin;
   std::vector<Index> in_range;  ///< all points in range, if there is a plane
   Cleared points;
-  std::optional<LowerSupport> lower;  ///< points below the plane, if there is one
+  std::optional<LowerSupport> lower;  ///< the support below the plane, if there is one
   std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
 };
 
@@ -45,7 +45,7 @@ struct VoxelFiltration {
   double voxel;  ///< edge of a voxel of the grid, metres
   VoxelGrid grid;
   std::vector<Index> points;
-  FilteredGraph graph;         ///< on the voxels
+  FilteredGraph graph;         ///< its vertices are the voxels
   Surface surface;             ///< empty if the method does not need it
   std::vector<NoiseAt> noise;  ///< method surface: see Segmentation
 };

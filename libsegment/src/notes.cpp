@@ -55,7 +55,7 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
 
 /// Warns of coordinates so large that the distances between points are lost.
 std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const Segmentation& s) {
-  constexpr double much = 0.01;  // relative to the edge of a voxel
+  constexpr double much = 0.01;  // share of the edge of a voxel
   float largest = 0;
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));

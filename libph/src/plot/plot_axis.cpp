@@ -46,7 +46,8 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
     : from_(from), to_(to), logarithmic_(options.axis.logarithmic), negated_(options.negated) {
   const PlotAxis limits = limits_of(options);
   const double low = limits.low.value_or(range.low), high = limits.high.value_or(range.high);
-  const double lowest = negated_ ? -high : low, highest = negated_ ? -low : high;  // as shown
+  // The values that the axis shows.
+  const double lowest = negated_ ? -high : low, highest = negated_ ? -low : high;
   const bool is_given = limits.low || limits.high;
   if (is_given && !(std::isfinite(low) && std::isfinite(high)))
     throw Error(ErrorKind::usage, fmt::format("axis: found {} to {}, expected finite ends",

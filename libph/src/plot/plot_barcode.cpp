@@ -14,7 +14,7 @@ constexpr double kGap = 7;  // gap between dimensions
 struct Panel {
   int dim = 0;
   std::span<const Bar> bars;
-  Longest places;  // in the barcode's order
+  Longest places;  // positions in `bars`, in the barcode's order
 };
 
 /// The number of rows for each dimension: one per bar if possible, otherwise a fair share.

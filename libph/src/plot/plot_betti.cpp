@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeft = 38, kRight = 242;
 constexpr double kHeight = 52, kGap = 9;  // height of one curve, and the gap between curves
-constexpr double kColumn = 0.25;          // steps inside a column are indistinguishable
+constexpr double kColumn = 0.25;  // width of a column, inside which steps are indistinguishable
 
 /// A step of a curve: from x on, its value is `living`.
 struct Step {

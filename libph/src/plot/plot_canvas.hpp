@@ -18,8 +18,8 @@ namespace ph::plot {
 /// A colour as 0x00RRGGBB.
 using Colour = std::uint32_t;
 
-inline constexpr double kWidth = 250;   // points: 88 mm, a column of a paper
-inline constexpr Index kPixels = 1040;  // width of a PNG: 300 dots per inch
+inline constexpr double kWidth = 250;   // in points: 88 mm, the width of a column of a paper
+inline constexpr Index kPixels = 1040;  // width of a PNG, at 300 dots per inch
 inline constexpr double kDotsPerInch = 300;
 inline constexpr double kHalo = 1.6;  // width of a line around text, half of it outside the text
 inline constexpr Colour kInk = 0x222222, kGrey = 0x767676, kGrid = 0xe4e4e4, kWhite = 0xffffff;
@@ -40,9 +40,9 @@ class Outline {
     move_to,
     line_to,
     line_by,
-    horizontal_to,  // has only x
+    horizontal_to,  // uses only x
     horizontal_by,
-    vertical_to,  // has only y
+    vertical_to,  // uses only y
     vertical_by,
     circle_by,  // starts and ends at the current place; x is its width, to the right
     close
@@ -89,7 +89,7 @@ struct Style {
   std::optional<Colour> fill = {}, stroke = {};
   double stroke_width = 1;  ///< lines meet in round joints
   double fill_opacity = 1;
-  bool crisp = false;  ///< without smooth edges: adjacent areas show no seam
+  bool crisp = false;  ///< without smooth edges, so that adjacent areas show no seam
 };
 
 // The elements of a picture.

@@ -14,7 +14,7 @@ namespace ph::plot {
 namespace {
 
 constexpr double kLeft = 34, kRight = 242;
-constexpr double kInfinityRoom = 14;        // between the infinity line and the finite values
+constexpr double kInfinityRoom = 14;        // space between the infinity line and the finite values
 constexpr std::size_t kMostMarkers = 1500;  // more markers cannot be distinguished
 constexpr std::size_t kCrispBars = 120;  // bars drawn as markers if there are too many to draw all
 
@@ -231,7 +231,7 @@ void draw_markers(Canvas& canvas, const Places& places, double left) {
 }
 
 void draw_density(Canvas& canvas, const std::vector<Bar>& bars, const Frame& frame) {
-  constexpr std::size_t most = 15000;  // number of squares: the file stays below 1 MB
+  constexpr std::size_t most = 15000;  // with this many squares, the file stays below 1 MB
   std::optional<Squares> squares;
   for (int side = 6; !squares || squares->size() > most; ++side) {
     squares.emplace(side);

@@ -38,8 +38,9 @@ __asm__(PH_READ_ONLY
 namespace ph::plot {
 namespace {
 
-constexpr double kNarrow = 0.9;  // as wide as Helvetica, for which pictures are designed
-constexpr int kPieces = 5;       // line segments per curve
+// Makes text as wide as in Helvetica, for which the pictures are designed.
+constexpr double kNarrow = 0.9;
+constexpr int kPieces = 5;  // line segments per curve
 
 // The allocator of FreeType. When memory runs out, FreeType reports a different error, such as a
 // missing module; `user` points to a flag that tells whether allocation failed.

@@ -12,8 +12,8 @@ namespace ph::plot {
 
 inline constexpr double kFirstValue = 30, kLastValue = 242;  // start and end of the axis
 inline constexpr double kTriangle = 4.5;                     // room for a triangle after the axis
-inline constexpr std::size_t kRows = 96;                     // lines in one picture
-inline constexpr double kDensityHeight = 16;                 // including its caption
+inline constexpr std::size_t kRows = 96;      // largest number of lines in one picture
+inline constexpr double kDensityHeight = 16;  // height of a density with its caption
 
 /// Positions in a list, ascending: of the longest classes, and of all others.
 struct Longest {
@@ -23,7 +23,7 @@ struct Longest {
 /// @param length of the class at a position.
 template <class Length>
 Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
-  constexpr std::size_t handful = 8;  // takes less space than a density
+  constexpr std::size_t handful = 8;  // this many lines take less space than a density
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t crisp = count <= most + handful ? count : most;
@@ -70,7 +70,7 @@ class Density {
 
   const Axis& axis_;
   std::size_t all_ = 0;
-  std::vector<double> change_;  // by column
+  std::vector<double> change_;  // change of the number of classes in each column
 };
 
 /// Explains the triangles, at the right, beside the name of the axis.

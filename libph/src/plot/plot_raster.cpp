@@ -242,7 +242,7 @@ class Painter {
   double scale_;  // pixels per point
   Raster raster_;
   Coverage coverage_;
-  Piece piece_;                // the part being added
+  Piece piece_;                // the part that is being added
   std::vector<Place> circle_;  // a joint of that part
   Font font_;
 };

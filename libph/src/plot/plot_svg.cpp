@@ -140,7 +140,7 @@ std::string element(const Text& text) {
 
 std::string element(const Picture& picture) {
   std::ostringstream png;
-  png.exceptions(std::ios::badbit);  // otherwise the stream would hide lack of memory
+  png.exceptions(std::ios::badbit);  // otherwise the stream would hide a lack of memory
   write_png(png, *picture.raster);
   return fmt::format(
       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" "

@@ -19,7 +19,7 @@ std::string png_of(const RunContext& context, const PlotOptions& options, Draw&&
   const plot::Drawing drawing = plot::fitted(draw(), options);
   const MemoryClaim claim(context.memory, plot::raster_bytes(drawing));
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // otherwise the stream would hide lack of memory
+  out.exceptions(std::ios::badbit);  // otherwise the stream would hide a lack of memory
   write_png(out, to_raster(drawing));
   return std::move(out).str();
 }

@@ -33,7 +33,7 @@ CloudFormat cloud_format_of(std::string_view path) {
 
 std::string cloud_bytes(Cloud cloud, CloudFormat format) {
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // else the stream would hide that memory ran out
+  out.exceptions(std::ios::badbit);  // otherwise the stream would hide a lack of memory
   const Cloud told = in_terms_of(format, std::move(cloud));
   if (format == CloudFormat::pcd) {
     write_pcd(out, told);

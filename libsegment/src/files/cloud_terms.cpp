@@ -152,10 +152,10 @@ class Terms {
 
   CloudFormat format_;
   const Cloud& cloud_;
-  bool is_narrowed_ = false;                           // doubles become float32
+  bool is_narrowed_ = false;                           // true if doubles become float32
   std::optional<std::vector<std::uint32_t>> colours_;  // colours to be packed
   const CloudField* alpha_ = nullptr;                  // the alpha channel that goes with them
-  bool has_colours_ = false;                           // in fields_
+  bool has_colours_ = false;                           // true if fields_ contains colours
   std::vector<CloudField> fields_;
   std::vector<const CloudField*> sources_;  // the source of each field; nullptr: colours_
   std::size_t stride_ = 0;

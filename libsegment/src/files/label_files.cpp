@@ -37,7 +37,7 @@ std::string label_bytes(const SceneTree& scene, std::span<const std::uint32_t> l
     return text;
   }
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // else the stream would hide that memory ran out
+  out.exceptions(std::ios::badbit);  // otherwise the stream would hide a lack of memory
   if (format == LabelFormat::npy)
     write_npy(out, labels, scene.width, scene.height);
   else

@@ -8,7 +8,8 @@
 namespace ph::segment {
 
 std::optional<CameraMotion> camera_motion(const SceneTree& before, const SceneTree& after) {
-  constexpr double least_turn = 0.5, least_shift = 0.005;  // degrees; metres at one metre
+  // Degrees; metres at a range of one metre.
+  constexpr double least_turn = 0.5, least_shift = 0.005;
   if (!before.plane || !after.plane) return std::nullopt;
   const auto height = [](const SceneTree& scene) {
     const auto& [x, y, z] = scene.viewpoint;

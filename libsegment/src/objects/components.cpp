@@ -13,11 +13,11 @@ namespace {
 
 /// One component during its measurement.
 struct Component {
-  Index root = 0;   // the vertex that names it
+  Index root = 0;   // the vertex that names the component
   Index first = 0;  // its first vertex in the order of the grid
   Index points = 0;
   Index voxels = 0;
-  Index in_grid = 0;  // points that its centroid averages
+  Index in_grid = 0;  // number of points that its centroid averages
   Vec3 sum{};         // sum of these points
 };
 

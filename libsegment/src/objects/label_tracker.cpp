@@ -166,7 +166,7 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
 /// number even without places. @return for each thing its number; 0: none.
 std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
                                                std::size_t segments) {
-  constexpr double least = 0.25;  // share of the smaller one
+  constexpr double least = 0.25;  // share of the smaller of the two
   std::vector<double> size_of_thing(things), size_of_object(objects_.size());
   const auto index_of = [&](std::uint32_t number) {
     return static_cast<std::size_t>(

@@ -22,7 +22,8 @@ void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& 
   }
   for (Segment& s : cut.segments) {
     if (s.neighbours.empty()) continue;
-    std::ranges::stable_sort(s.neighbours, {}, &Neighbour::meets_at);  // ties: by label
+    // Equal values stay in the order of the labels.
+    std::ranges::stable_sort(s.neighbours, {}, &Neighbour::meets_at);
     s.neighbour = s.neighbours.front().label;
     s.meets_at = s.neighbours.front().meets_at;
     s.persistence = s.meets_at - birth[s.label];

@@ -91,7 +91,7 @@ class HiddenJoins {
   }
   /// True if one smooth surface through both voxels is hidden between them.
   bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
-    constexpr double cosine = 0.966;  // 15 degrees between the normals
+    constexpr double cosine = 0.966;  // of 15 degrees between the normals
     constexpr double slope = 0.05;
     if (a.normal.dot(b.normal) < cosine) return false;
     const Eigen::Vector3d d = b.place - a.place;
@@ -108,7 +108,7 @@ class HiddenJoins {
   double voxel_;
   const Parts& parts_;
   View view_;
-  std::vector<Border> borders_;  // by part
+  std::vector<Border> borders_;  // the border of each part
 };
 
 }  // namespace

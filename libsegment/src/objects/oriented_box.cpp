@@ -101,7 +101,7 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
                        : a[k] * from[0] + b[k] * from[1] + rounding * reach * length;
   }
   const bool has_inside = has_edges && reach < too_large;  // beyond this, products overflow
-  RawVector<T> inside(u.size());                           // the sign of the distance decides
+  RawVector<T> inside(u.size());  // positive for a point inside the octagon
   for (std::size_t i = 0; i < inside.size(); ++i) {
     T nearest = std::numeric_limits<T>::infinity();
     for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -154,7 +154,7 @@ std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
   for (const Vector2d& p : points) add(p, 1);
   const std::size_t lower = hull.size();
   for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-  hull.pop_back();  // the first corner again
+  hull.pop_back();  // the last corner is the first one again
   return hull;
 }
 

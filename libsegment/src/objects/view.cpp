@@ -21,8 +21,8 @@ double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
 
 View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     : ranges_(static_cast<std::size_t>(centroids.rows())), places_(ranges_.size(), {-1, -1}) {
-  constexpr double voxels_a_cell = 1.3;    // fewer cells leave gaps between neighbours
-  constexpr double smallest_cosine = 0.2;  // 78 degrees
+  constexpr double voxels_a_cell = 1.3;    // smaller cells leave gaps between neighbouring voxels
+  constexpr double smallest_cosine = 0.2;  // of 78 degrees
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   const auto ray = [&](Voxel v) -> Eigen::Vector3d {
     return as_matrix(centroids).row(v).transpose() - eye;
@@ -53,7 +53,7 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
   }
   if (!(low <= high).all()) return;
   cell = std::max(cell, least_cell(high - low, ranges_.size()));
-  if (!(cell > 0)) return;  // a viewpoint so far away that everything lies in one direction
+  if (!(cell > 0)) return;  // the viewpoint is so far away that everything lies in one direction
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
   height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;
   nearest_.assign(width_ * height_, kNone);

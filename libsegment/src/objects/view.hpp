@@ -53,11 +53,13 @@ class View {
   void find_least_ranges();
 
   std::vector<double> ranges_;  // from the viewpoint, metres
-  std::vector<Place> places_;   // negative: left out
+  std::vector<Place> places_;   // negative for a voxel that is left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
-  std::vector<double> nearest_range_;  // distance of the nearest voxel, kInfinity without one
-  std::vector<double> least_range_;    // the nearest of all voxels within kReach cells
+  // For each cell, the range of its nearest voxel; kInfinity without one.
+  std::vector<double> nearest_range_;
+  // For each cell, the least range of the voxels within kReach cells.
+  std::vector<double> least_range_;
 };
 
 template <class KindOf>

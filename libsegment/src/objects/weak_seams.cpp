@@ -95,7 +95,8 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
     into[both->second] = both->first;
   }
   std::vector<Index> left = basin_of;
-  for (auto& [gone, kept] : into)  // the smaller number stays, and is therefore already at its end
+  // `kept` is smaller than `gone`, and has therefore been resolved already.
+  for (auto& [gone, kept] : into)
     // mutant: seam-basin
     if (const auto further = into.find(kept); further != into.end()) kept = further->second;
   for (Index& basin : left)

@@ -65,7 +65,8 @@ class SquaredPaper {
   std::array<std::uint32_t, 2> place_of(const float* p) const {
     // Near this number, neighbouring doubles differ by one: the sum is rounded, and its last bits
     // are a whole number, even a negative one. Points farther away may get any part.
-    constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;  // rounds down
+    // Subtracting `half` makes the rounding go down.
+    constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;
     const Eigen::Array2d place = steps_[0] * p[0] + steps_[1] * p[1] + steps_[2] * p[2] + origin_;
     const Eigen::Array2d shifted = (place - half) + whole;
     const auto last_bits = [](double number) {
@@ -94,10 +95,10 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
-  constexpr std::size_t most = 24;  // number of squares: bounds the work
+  constexpr std::size_t most = 24;  // largest number of squares, which bounds the work
   // Parts, not points: duplicate points carry no information.
   constexpr int most_above = 2;  // an object covers more parts, flying pixels fewer
-  constexpr int fewest = 32;     // of 64
+  constexpr int fewest = 32;     // of the 64 parts of a square
   const SquaredPaper paper(cloud, plane, side);
   std::vector<std::uint64_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
   std::vector<SquaredPaper::Run> runs;

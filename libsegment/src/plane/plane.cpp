@@ -257,14 +257,15 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
 }
 
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin) {
-  constexpr std::size_t many = 40000;  // samples, enough to show a share of one in a hundred
+  // This many samples are enough to show a share of one in a hundred.
+  constexpr std::size_t many = 40000;
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / many);
   std::size_t all = 0, behind = 0;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     const float* p = cloud.point(i);
     const double limit = margin(cloud, p), height = plane.signed_distance(p[0], p[1], p[2]);
     all += std::isfinite(height) ? 1U : 0U;
-    behind += height < -limit ? 1U : 0U;  // not a hole
+    behind += height < -limit ? 1U : 0U;  // the comparison is false for a hole
   }
   return all == 0 ? 0 : static_cast<double>(behind) / static_cast<double>(all);
 }

@@ -10,15 +10,16 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kSample = 4096;      // points that are looked at
+constexpr double kSample = 4096;      // number of points that are used
 constexpr std::size_t kFewest = 100;  // with fewer points the result is empty
 constexpr double kNear = 0.1;         // share of the range; places as close as this count as one
 constexpr double kSure = 0.05;  // share of the range within which two halves of the points agree
 constexpr double kGoodPixels = 0.5;   // a pinhole camera explains its pixels as well as this
 constexpr double kTimesWorse = 5;     // a viewpoint that explains the pixels so much worse is wrong
 constexpr double kOutlierPixels = 3;  // a pixel with a larger error shows something else
-constexpr double kFewestInliers = 0.75;  // share of all
-constexpr double kFar = 20;              // spreads of the points: parallel rays meet farther away
+constexpr double kFewestInliers = 0.75;  // share of all sightings
+// In spreads of the points; rays that meet farther away count as parallel.
+constexpr double kFar = 20;
 
 /// The position that a pixel shows. All numbers are about one: the mean over all pixels is 0 and
 /// the mean square is 1.
@@ -31,8 +32,8 @@ using Sightings = std::vector<Sighting>;
 /// The shift and the scales of this normalisation.
 struct Frame {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  double spread = 0;  // of the points, in the unit of the cloud
-  double pixels = 0;  // one unit of Sighting::pixel
+  double spread = 0;  // spread of the points, in the unit of the cloud
+  double pixels = 0;  // pixels per unit of Sighting::pixel
 };
 
 /// The sum of v vᵀ of vectors of N numbers, plain and weighted by the terms that a pixel adds to

@@ -9,7 +9,7 @@
 
 namespace ph::segment {
 
-/// The box of a part, or of the voxels that matter.
+/// The box of a part, or of some of its voxels.
 template <int Dim>
 struct PartBox {
   std::uint32_t part;

@@ -56,7 +56,8 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   require(o.max_range >= 0, Setting::max_range, o.max_range, "a length of at least 0 or infinity");
   require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, Setting::plane_noise, o.plane_noise,
           "a finite length of at least 0");
-  // Nearly every voxel would be a seed, and each supervoxel would have one voxel.
+  // With a smaller spacing, nearly every voxel would be a seed, and each supervoxel would have one
+  // voxel.
   require(o.method != Method::supervoxels || (std::isfinite(o.spacing) && o.spacing >= voxel),
           Setting::spacing, o.spacing,
           fmt::format("a finite length of at least a voxel, {}", voxel));

@@ -34,7 +34,7 @@ bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
 /// The area of a plane that some voxels cover, in square metres.
 double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
                     double voxel) {
-  const double side = 2 * voxel;  // no gaps
+  const double side = 2 * voxel;  // the voxels leave no gaps in squares of this size
   const Squares paper(plane, side);
   std::vector<std::array<double, 2>> squares;
   for (const Index v : voxels) squares.push_back(paper.of(as_matrix(centroids).row(v).transpose()));
@@ -49,7 +49,8 @@ double covered_area(const Plane& plane, const Points& centroids, const Voxels& v
 std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
                                       const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size) {
-  constexpr double most_of_a_wall = 0.5, least_of_a_board = 0.98;  // cosines with the support
+  // Cosines of the angle with the support.
+  constexpr double most_of_a_wall = 0.5, least_of_a_board = 0.98;
   constexpr double least_area = 0.2;  // square metres of a board: twice a large board game
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {

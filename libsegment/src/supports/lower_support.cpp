@@ -6,7 +6,7 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kLeastDepth = 0.04;  // metres below the upper support: anything nearer is its edge
+constexpr double kLeastDepth = 0.04;  // metres; a nearer surface is the edge of the upper support
 constexpr double kLeastPart = 0.02;   // share of the points in range
 constexpr double kLeastCosine = 0.98;
 constexpr double kThickness = 0.02;  // half the thickness, metres, during the search for the plane

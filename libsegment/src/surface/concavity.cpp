@@ -17,7 +17,7 @@ namespace {
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  int count = 1;  // the voxel itself is the origin: zero
+  int count = 1;  // the voxel itself counts; its vector is zero
 
   void add(double x, double y, double z) {
     sum += Eigen::Vector3d(x, y, z);

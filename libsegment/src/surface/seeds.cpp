@@ -58,14 +58,15 @@ class Cubes {
   template <class Visit>
   void for_each_near(std::uint32_t i, double radius, Visit&& visit) const {
     const double reach = std::ceil(radius / edge_);
-    // Not more cubes than exist; the comparison is also false if the radius is infinite.
+    // Visits all points if the search would look at as many cubes as exist; an infinite radius also
+    // makes the comparison false.
     if (!(std::pow(2 * reach + 1, 2) < static_cast<double>(cubes_.size()))) {
       for (std::uint32_t k = 0; k < points_.rows(); ++k) visit(k);
       return;
     }
     const Cube middle = cube_of(i);
     for (double z = -reach; z <= reach; ++z) {
-      for (double y = -reach; y <= reach; ++y) {  // cubes along x lie one after the other
+      for (double y = -reach; y <= reach; ++y) {  // cubes along x follow one another in the map
         const Cube first{middle[0] + z, middle[1] + y, middle[2] - reach};
         for (auto at = cubes_.lower_bound(first); at != cubes_.end(); ++at) {
           if (at->first[0] != first[0] || at->first[1] != first[1] ||

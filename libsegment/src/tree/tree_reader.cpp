@@ -100,7 +100,7 @@ class TreeReader {
     scene_.distance = number("distance", 0);
     scene_.steps = static_cast<int>(integer("steps", 0, most_steps));
     const bool has_plane = integer("plane", 0, 1) == 1;
-    const double end = has_plane ? kInfinity : 0;  // without a plane these are zeros
+    const double end = has_plane ? kInfinity : 0;  // without a plane, its numbers are zeros
     Plane plane;
     for (double& n : plane.normal) n = number("normal of the plane", -end, end);
     if (has_plane) require_unit("normal of the plane", plane.normal);

@@ -91,7 +91,8 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid) {
-  constexpr double of_radius = 0.97;  // the rim itself is smeared
+  // Slightly less than the radius, because the points of a rim are blurred.
+  constexpr double of_radius = 0.97;
   const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return turn * p + Eigen::Vector3d(0, 0, plane.offset);

@@ -51,7 +51,8 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
     rims.push_back(upper_end_of(points[p], depth * voxel));
-    if (rims[p].points.size() < kFewestOfEach) continue;  // so many sectors are empty
+    // With so few points, too many sectors are empty.
+    if (rims[p].points.size() < kFewestOfEach) continue;
     boxes.push_back({p, {}});
     for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
   }

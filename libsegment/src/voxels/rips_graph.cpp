@@ -22,7 +22,8 @@ class Levels {
     for (int k = 0; k < steps; ++k) values_.push_back(k * distance / steps);
     values_.push_back(distance);
   }
-  std::size_t size() const { return values_.size(); }  // 0: too many levels, or exact lengths
+  // 0 if there are too many levels, or if lengths are exact.
+  std::size_t size() const { return values_.size(); }
   double operator[](std::size_t k) const { return values_[k]; }
   /// The first level that is not below a length.
   std::uint32_t above(double length) const {
@@ -40,7 +41,8 @@ class Levels {
 
 using Edges = std::pmr::vector<WeightedEdge>;
 
-constexpr std::size_t kEdgesOfAVoxel = 12;  // on a surface, where edges span two voxels
+// Edges per voxel of a surface, if edges span two voxels.
+constexpr std::size_t kEdgesOfAVoxel = 12;
 
 Edges edges_with_values(const Points& points, double distance, int steps,
                         const RunContext& context) {

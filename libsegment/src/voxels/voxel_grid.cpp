@@ -85,7 +85,7 @@ class VoxelTable {
 
 /// The grid coordinate of a number in units of voxels. Adding zero gives -0 and +0 the same bits.
 double cell_of(double units) {
-  constexpr double huge = 1ULL << 52;  // has no fraction
+  constexpr double huge = 1ULL << 52;  // numbers from here on have no fraction
   if (!(std::abs(units) < huge)) return std::floor(units) + 0.0;
   // A call of floor for each coordinate would take a third of the grid's time.
   const auto whole = static_cast<double>(static_cast<std::int64_t>(units));

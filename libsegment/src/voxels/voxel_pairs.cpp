@@ -58,7 +58,7 @@ bool comes_before(const VoxelRow& row, double y, double z) {
 /// The data of a voxel that the search reads, stored together.
 struct Place {
   double x, y, z;  // centroid
-  double cell;     // along x
+  double cell;     // the voxel's coordinate along x, in voxels
 };
 
 std::vector<Place> places_of(const VoxelGrid& grid) {

@@ -99,7 +99,7 @@ std::optional<std::array<double, 2>> Lens::straightened(double u, double v, doub
     const Bent b = bent_polynomial(coefficients, x, y);
     const double determinant = b.ux * b.vy - b.uy * b.vx;
     // mutant: camera-edge
-    if (!(determinant > 0)) return std::nullopt;  // the image folds over
+    if (!(determinant > 0)) return std::nullopt;  // the image folds over here
     const double du = b.u - u, dv = b.v - v;
     const double dx = (b.vy * du - b.uy * dv) / determinant;
     const double dy = (b.ux * dv - b.vx * du) / determinant;

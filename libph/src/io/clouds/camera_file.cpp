@@ -18,7 +18,7 @@ namespace {
 
 using detail::YamlWords;
 
-constexpr Index kMostPixels = 1 << 20;  // along one axis
+constexpr Index kMostPixels = 1 << 20;  // largest number of pixels along one axis
 constexpr std::string_view kWhatItIs =
     "a camera_info YAML of ROS has image_width, image_height and camera_matrix";
 
@@ -234,7 +234,7 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
       }
       camera.intrinsics = {k[0], k[4], k[6], k[7]};
       has_matrix = true;
-    } else if (name == "depth_scale" && json.peek() != 'n') {  // null means none
+    } else if (name == "depth_scale" && json.peek() != 'n') {  // null means that there is no scale
       const std::size_t place = json.place();
       const double found = json.number();
       // A number below 1 is metres per unit, as in librealsense, because no unit is longer than a

@@ -45,7 +45,7 @@ std::vector<std::string> column_names(PointsView rows, const std::vector<std::st
       input.fail({"header", fmt::format("{} names", names.size()), "x, y and z among them", {}});
     }
     std::vector<std::string_view> sorted(names.begin(), names.end());
-    std::erase(sorted, "");  // columns without a name
+    std::erase(sorted, "");  // columns without a name may occur more than once
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) {

@@ -44,7 +44,7 @@ void put_text(std::ostream& out, const Cloud& cloud) {
           if (text.size() != start) text += ' ';
           const T value = load<T>(from + k * sizeof(T), std::endian::native);
           if constexpr (std::is_floating_point_v<T>) {
-            if (std::isnan(value)) {  // avoids "-nan"
+            if (std::isnan(value)) {  // fmt would write "-nan" for some NaN
               text += "nan";
               continue;
             }

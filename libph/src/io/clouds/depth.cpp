@@ -14,7 +14,7 @@ namespace ph {
 DepthImage read_depth(const Input& input, const ReadOptions& options) {
   ReadOptions holes = options;
   holes.nan = NanPolicy::drop;
-  holes.note = {};  // holes need no note
+  holes.note = {};  // holes of a depth image need no note
   const bool is_npy = detail::is_npy(input);
   if (!is_npy && !detail::is_png(input) && !detail::is_pgm(input)) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",

@@ -79,7 +79,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
       need_cell(lines, cells, "x y z");
       mesh.vertices(static_cast<Index>(i), k) = cells.number();
     }
-    while (cells.more()) cells.number();  // colours and similar columns
+    while (cells.more()) cells.number();  // colours and similar columns are ignored
   }
   for (std::size_t i = 0; i < faces; ++i) {
     need_line(lines, "faces", i, faces);

@@ -14,7 +14,8 @@ namespace ph {
 namespace {
 
 constexpr std::size_t kHeaderSize = 348;
-constexpr std::size_t kFirstVoxel = 352;  // after the header and the mark of extensions
+// Least offset of the voxels: after the header and four bytes for extensions.
+constexpr std::size_t kFirstVoxel = 352;
 constexpr std::int32_t kNifti2Size = 540;
 
 // Offsets of the fields in the header.
@@ -23,7 +24,7 @@ constexpr std::size_t kDim = 40, kDatatype = 70, kBitpix = 72, kOffset = 108, kS
 
 struct Datatype {
   std::int16_t code;
-  const char* kind;  // as for detail::element_type
+  const char* kind;  // the name of the type, as for detail::element_type
 };
 constexpr Datatype kDatatypes[] = {{2, "u1"},    {4, "i2"},   {8, "i4"},   {16, "f4"},
                                    {64, "f8"},   {256, "i1"}, {512, "u2"}, {768, "u4"},

@@ -17,7 +17,8 @@ constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
 // The grid that a list of cubes spans may have this many voxels per cube, or kFreeVoxels in all.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();  // see Image::masked
+// Marks a voxel as absent, see Image::masked.
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 // Reads the cells of a text one after another, regardless of line ends.
 class CellStream {

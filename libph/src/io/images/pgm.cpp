@@ -93,7 +93,7 @@ Image read_pgm_image(const Input& input) {
   const std::size_t bytes_each = most > 255 ? 2 : 1;
   // One blank ends the header of P5. In P2 a pixel takes at least a digit and a blank.
   const std::size_t begin = std::min(numbers.offset() + 1, input.size());
-  const std::size_t count = width * height;  // below 2^62
+  const std::size_t count = width * height;  // the product is at most 2^62
   const std::size_t there = input.size() - begin;
   const std::size_t hold = binary ? there / bytes_each : (there + 1) / 2;
   if (numbers.offset() == input.size() || count > hold) {

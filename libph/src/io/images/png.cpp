@@ -110,7 +110,8 @@ bool read_header(Reader& reader) {
   png_set_user_limits(reader.png, kMaxSide, kMaxSide);
   png_set_chunk_malloc_max(reader.png, kMaxChunk);
   png_read_info(reader.png, reader.info);
-  png_set_expand(reader.png);  // palettes, fewer than 8 bits, transparent colours
+  // Expands palettes, samples of fewer than 8 bits and transparent colours.
+  png_set_expand(reader.png);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(reader.png);
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);

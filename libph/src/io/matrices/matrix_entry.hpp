@@ -60,7 +60,7 @@ class MatrixEntries {
 
   const ReadOptions& options_;
   double largest_ = 0;
-  std::array<Doubt, 3> worst_ = {};  // by kind
+  std::array<Doubt, 3> worst_ = {};  // the largest doubt of each kind
 };
 
 /// Fails at the line and column of a byte.

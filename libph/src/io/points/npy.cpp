@@ -263,7 +263,8 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
 
 Image read_npy_image(const Input& input, const ReadOptions& options) {
   Image image = detail::read_npy_array(input, Input::Excess::stays_in_file);
-  if (image.extents.empty()) image.extents.push_back(1);  // a single number
+  // A single number becomes an image of one voxel.
+  if (image.extents.empty()) image.extents.push_back(1);
   return detail::without_nan_pixels(std::move(image), input, options);
 }
 

@@ -113,7 +113,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   if (counted) {
     if (!more) input.fail({"no number of points", "nothing", "it on the first line", {}});
     cells.start();
-    const auto most = static_cast<std::int64_t>(input.size());  // a point takes a few bytes
+    const auto most = static_cast<std::int64_t>(input.size());  // a point takes more than one byte
     said = static_cast<std::size_t>(cells.integer(0, most, "number of points"));
     cells.expect_end("the number of points alone");
     more = lines.next();

@@ -91,7 +91,8 @@ class Watch {
       : input_(input), to_(to), in_file_(in_file) {}
 
   void passed(std::size_t elements) {
-    constexpr std::size_t some = 0x7FFF;  // each may have brought in a page and its surroundings
+    // Each element may have brought in a page and the pages around it.
+    constexpr std::size_t some = 0x7FFF;
     if ((elements & (in_file_ ? some : kPollMask)) != 0) return;
     input_.poll();
     if (!in_file_) return;

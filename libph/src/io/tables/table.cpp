@@ -177,7 +177,7 @@ bool has_blanks_between_numbers(std::string_view line) {
 bool has_tabs_between_cells(const Input& input) {
   TextLines lines(input);
   lines.keep_tabs();
-  std::vector<std::string_view> rows;  // a header and a row
+  std::vector<std::string_view> rows;  // the header, if there is one, and a row
   while (rows.size() < 2 && lines.next())
     if (lines.line().find_first_not_of(" \t") != std::string_view::npos)
       rows.push_back(lines.line());
@@ -306,7 +306,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   if (layout.header.empty() && has_next) {
     layout.header = unnamed_header(lines.line(), without_quotes(first_cell(next, layout)));
     if (begins_empty(next.line()) || width_of(next, layout) != layout.header.size())
-      layout.header.clear();  // a row that begins with an empty cell
+      layout.header.clear();  // the line is not a header, but a row that begins with an empty cell
   }
   if (layout.header.empty() && has_next && !options.columns.empty()) {
     std::vector<std::string> names = header_cells(lines.line(), false, layout.keeps_tabs);

@@ -32,8 +32,8 @@ struct ArrayForm {
 
 /// The numbers of an array as bytes, with their type.
 struct RawArray {
-  std::string_view name;  ///< "bars/birth"
-  std::string_view type;  ///< "f64"
+  std::string_view name;  ///< a name such as "bars/birth"
+  std::string_view type;  ///< a type such as "f64"
   std::size_t width;      ///< bytes per number, in the byte order of this machine
   std::span<const std::byte> bytes;
   bool is_in_file = false;  ///< see ph/detail/core/file_pages.hpp

@@ -28,13 +28,13 @@ struct CloudMeta {
   std::optional<std::array<double, 3>> up = {};
   std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
   std::optional<double> edges_below = {};      ///< edges from this value on are missing
-  std::optional<double> triangles_below = {};  ///< the same for complex/triangles
-  std::string projection = {};                 ///< "first 3 of 10 coordinates"
+  std::optional<double> triangles_below = {};  ///< triangles from this value on are missing
+  std::string projection = {};                 ///< for example "first 3 of 10 coordinates"
 };
 
 /// A segment of the segmentation that the page shows first.
 struct SegmentMeta {
-  std::uint32_t number = 0;  ///< the number that names it
+  std::uint32_t number = 0;  ///< the number that names the segment
   std::uint32_t colour = 0;  ///< 0x00RRGGBB
   double persistence = 0;    ///< the confidence; may be infinite
   std::string_view role;
@@ -44,8 +44,8 @@ struct SegmentMeta {
 /// The properties of a segmentation beside the labels.
 struct SceneMeta {
   std::vector<SegmentMeta> segments;            ///< by label
-  std::vector<std::string_view> surface_roles;  ///< roles of the surfaces, by number
-  Index removed = 0;     ///< how many surfaces were removed: no leaf of the tree is on them
+  std::vector<std::string_view> surface_roles;  ///< role of each surface, by its number
+  Index removed = 0;     ///< number of removed surfaces, on which no leaf of the tree lies
   double flat = 0;       ///< least share of vertices on its plane that a surface must have
   double min_seam = 0;   ///< least strength of a seam; other cuts do not join over weak seams
   bool objects = false;  ///< true if the parts of an object are joined; other cuts join none
