@@ -28,7 +28,7 @@ std::string superscript(int number) {
   return text;
 }
 
-/// A number of about this size that is 1, 2 or 5 times a power of ten.
+/// Rounds up to a number that is 1, 2 or 5 times a power of ten; excess of up to 1 % is ignored.
 double round_step(double rough) {
   const double power = std::pow(10.0, magnitude(rough));
   double step = 10 * power;

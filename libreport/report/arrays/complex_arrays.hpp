@@ -14,9 +14,10 @@ namespace ph::report {
 /// The data that a page cannot derive from the positions of points: when points enter, and the
 /// cells that come first. Vertices have the numbers of the input.
 struct ComplexArrays {
-  std::vector<float> births;  ///< of each point; NaN: it is not a vertex. Empty: all enter together
+  /// Births of the points; NaN: not a vertex. Empty: all enter together.
+  std::vector<float> births;
   std::vector<std::uint32_t> edges, triangles;
-  std::vector<float> edge_values, triangle_values;  ///< ascending
+  std::vector<float> edge_values, triangle_values;  ///< in ascending order
   /// Edges and triangles from these values on are left out.
   std::optional<double> missing_from, triangles_missing_from;
 };

@@ -13,8 +13,8 @@ namespace ph::report {
 /// Limits for the sets of voxels in a page: the sets are nested, and together they may be far
 /// larger than the image.
 struct VoxelBudget {
-  std::size_t runs = 400'000;                 ///< in a page
-  std::size_t voxels = std::size_t{1} << 25;  ///< of all sets that are considered
+  std::size_t runs = 400'000;                 ///< most runs in a page
+  std::size_t voxels = std::size_t{1} << 25;  ///< most voxels of all sets that are considered
 };
 
 /// The sets of voxels of bars, as runs of voxel indices in the image.

@@ -57,8 +57,8 @@ class LabelTracker {
   };
   struct Object {
     std::uint32_t number;
-    int unseen = 0;      // frames
-    bool is_new = true;  // first seen in this frame
+    int unseen = 0;      // number of frames in a row without it
+    bool is_new = true;  // true if it is first seen in this frame
     Standing is = {};    // `segment` holds the number of an object here
     Standing said = {};  // the last frames' answer, if it differs
     int times = 0;       // number of frames in a row with that answer
@@ -73,7 +73,7 @@ class LabelTracker {
   int patience_;
   double cell_;
   std::uint32_t next_ = 1;
-  std::vector<Place> places_;    // the objects, by key
+  std::vector<Place> places_;    // the places of the objects, by key
   std::vector<Object> objects_;  // by number
   std::vector<Standing> standings_;
 };

@@ -32,7 +32,7 @@ struct Box {
 enum class Method {
   surface = 0,      ///< the shape of the visible surface: cuts where it is concave, so that objects
                     ///< that touch come apart
-  paper = 1,        ///< distance alone (Beksi & Papanikolopoulos, ICRA 2016)
+  paper = 1,        ///< the distance alone (Beksi & Papanikolopoulos, ICRA 2016)
   supervoxels = 2,  ///< pieces of similar size that do not cross seams: the distance along the
                     ///< surface to evenly spread seeds
 };
@@ -78,14 +78,14 @@ inline constexpr std::size_t kMostSurfaces = 255;
 
 /// The concavity of a flat surface at a range, caused by the sensor's noise.
 struct NoiseAt {
-  double range = 0;      ///< from the viewpoint, metres
+  double range = 0;      ///< distance from the viewpoint, metres
   double concavity = 0;  ///< the value below which 84 % of the free supporting plane lies
 };
 
 /// A box with its own axes.
 struct OrientedBox {
   Vec3 centre{};
-  std::array<Vec3, 3> axes{};  ///< unit, right-handed
+  std::array<Vec3, 3> axes{};  ///< unit vectors, right-handed
   Vec3 size{};                 ///< full lengths along the axes, metres
   friend bool operator==(const OrientedBox&, const OrientedBox&) = default;
 };
@@ -152,7 +152,7 @@ struct SceneTree {
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
   double distance = 0;         ///< paper: maximum distance of the complex, metres
-  int steps = 0;               ///< paper: number of levels up to it; 0: exact deaths
+  int steps = 0;               ///< paper: number of levels up to `distance`; 0: exact deaths
   Vec3 viewpoint{};            ///< position of the sensor
   std::optional<Plane> plane;  ///< the removed plane
   /// The planes that bound the scene: first the removed planes, beginning with `plane`, then the
@@ -205,8 +205,9 @@ SceneCut cut(const SceneTree& scene, const CutOptions& options,
 
 /// The place where two segments first meet as the filtration grows.
 struct Meeting {
-  double value = 0;  ///< of the filtration: metres (paper, supervoxels) or noise (surface)
-  Vec3 at{};         ///< between the two voxels whose edge joins them
+  /// Filtration value in metres (paper, supervoxels) or in units of the noise (surface).
+  double value = 0;
+  Vec3 at{};  ///< a point between the two voxels whose edge joins the segments
 };
 /// @return empty if they never meet. @throws Error (usage) unless both labels belong to segments.
 std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,

@@ -51,7 +51,8 @@ struct SegmentOptions {
   /// The supporting plane of the frame before, with a unit normal. The search starts from it if
   /// nearly as many points lie on it now, so that the plane does not jump between frames.
   std::optional<Plane> plane_guess = {};
-  std::optional<double> plane_distance = {};  ///< half its thickness, metres, > 0; see plane_margin
+  /// Half the plane's thickness, metres, > 0; see plane_margin.
+  std::optional<double> plane_distance = {};
   /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
   /// does the margin of the plane. At a range of one metre, half the margin is at least this many
   /// metres (>= 0) and at least four standard deviations of the noise that is found; 0: the margin
@@ -75,7 +76,7 @@ struct SegmentOptions {
   double distance = 0.025;  ///< maximum distance of the Vietoris-Rips complex, metres, >= 0
   int steps = 10;           ///< filtration steps up to `distance`; 0: exact deaths
 
-  /// The value asked for, or else the default of the method.
+  /// The edge of a voxel: the value that was given, or else the default of the method.
   double voxel_size() const { return voxel.value_or(method == Method::paper ? 0.01 : 0.005); }
   double plane_margin() const {
     return plane_distance.value_or(method == Method::paper ? 0.006 : 0.005);
@@ -117,7 +118,7 @@ struct PlaneSight {
 /// A value: it refers to nothing outside itself.
 struct Segmentation {
   SceneTree tree;
-  SceneCut cut;            ///< of the tree, as its `first_cut` says
+  SceneCut cut;            ///< the cut that the tree's `first_cut` describes
   std::string plane_note;  ///< why there is no plane; empty if there is one
   /// Where the pixels' rays meet, if this differs from the position of the sensor that the options
   /// or the cloud state. It is the `viewpoint` unless the options state one.
@@ -125,7 +126,7 @@ struct Segmentation {
   PlaneSight plane_sight;       ///< large shares mean that the viewpoint is wrong
   Barcode barcode = Barcode();  ///< H0, zero-length bars included
   bool checked = false;         ///< true if the cross-check ran
-  std::string difference;       ///< the difference it found; empty: both engines agree
+  std::string difference;       ///< the difference that it found; empty if both engines agree
   std::vector<Stage> stages;    ///< in the order in which the stages ran
 };
 

@@ -23,7 +23,7 @@ struct Surface {
 ///   voxels at the occluder have a partner on the other side such that each lies in the tangent
 ///   plane of the other and the line between them is hidden;
 /// - if one round rim surrounds both: see rims.hpp.
-/// @param part_of each voxel: one of the voxels of its part. @param min_size parts with fewer
+/// @param part_of for each voxel, one of the voxels of its part. @param min_size parts with fewer
 /// voxels stay by themselves. @return for each voxel one of the voxels of its object. O(voxels log
 /// voxels + pairs) plus the pairs of parts that are near each other. @throws Error (cancelled) as
 /// `context` asks.

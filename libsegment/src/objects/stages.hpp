@@ -16,7 +16,7 @@ using Contacts = std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double>;
 void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& cut);
 
 /// The components that are large enough, and a label for each point. Neighbours are not set.
-/// @param component_of each vertex: one of its component's vertices, the same for the whole
+/// @param component_of for each vertex, one of its component's vertices, the same for the whole
 ///     component.
 /// @param min_size fewest voxels of a segment.
 SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& component_of,

@@ -12,7 +12,8 @@ namespace ph::segment {
 /// where noise and a true seam may look alike; over the whole length they differ. The strength of a
 /// seam is the lower quartile of the filtration along it. The weakest seam goes first, and the two
 /// basins at it count as one from then on.
-/// @param basin_of each voxel: one of the voxels of its basin. @param births of the voxels.
+/// @param basin_of for each voxel, one of the voxels of its basin. @param births the births of the
+/// voxels.
 /// @param pairs with a distance below `radius` have an edge, whose value is the later of the two
 ///     births.
 /// @param least strength of a seam that stays. @return for each voxel one of the voxels of its

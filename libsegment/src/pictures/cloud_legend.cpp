@@ -15,7 +15,7 @@ constexpr std::size_t kMostListed = 16;
 // The size of a digit in pixels; a pixel is 88 mm / 1040 wide.
 constexpr double kDigitWidth = 17, kDigitHeight = 28;
 
-/// "12,345"
+/// Formats a number as "12,345".
 std::string grouped(std::size_t number) {
   std::string text = std::to_string(number);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)

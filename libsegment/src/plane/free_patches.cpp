@@ -61,7 +61,7 @@ class SquaredPaper {
  private:
   static constexpr std::uint32_t kParts = 8;  // parts per side
 
-  /// Column and row, in parts.
+  /// The column and the row of a point, counted in parts.
   std::array<std::uint32_t, 2> place_of(const float* p) const {
     // Near this number, neighbouring doubles differ by one: the sum is rounded, and its last bits
     // are a whole number, even a negative one. Points farther away may get any part.

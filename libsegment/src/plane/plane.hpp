@@ -13,7 +13,7 @@ namespace ph::segment {
 /// The result of the search for the supporting plane.
 struct PlaneSearch {
   std::optional<Plane> plane;
-  std::string note;  ///< why there is none; empty if there is one
+  std::string note;  ///< why there is no plane; empty if there is one
   /// Standard deviation of the heights of its points at a range of one unit, if it grows with the
   /// square of the range. Estimated from the points behind the plane, where no object is.
   double noise = 0;
@@ -26,8 +26,8 @@ struct PlaneSearch {
 /// sample, so that the plane does not depend on the order of the points, duplicates, or scaling by
 /// a power of two.
 /// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, metres, > 0. @param guess replaces a hypothesis
-/// if nearly as many of the points lie on it as its share says.
+/// @param distance half the thickness of the plane, metres, > 0. @param guess a plane that is used
+/// instead of the hypotheses if nearly as many of the points lie on it as its share says.
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
                        const std::optional<Plane>& guess = {});
 
@@ -49,7 +49,7 @@ struct PlaneMargin {
 struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
   std::vector<Index> on;      ///< within the margin, on either side: part of the plane
-  std::vector<Index> strip;   ///< those of `on` on the sensor's side, but not in the lowest
+  std::vector<Index> strip;   ///< points of `on` on the sensor's side, but not in the lowest
                               ///< fifth of the margin, where they look like the plane itself
 };
 

@@ -67,7 +67,8 @@ struct Equations {
 /// The homogeneous coordinates x, y, z, 1 of a point.
 Eigen::Vector4d place_of(const Sighting& s) { return s.point.homogeneous(); }
 
-/// The matrix for all sightings; `seen_by` (sighting) is the vector that represents the point.
+/// Fits the projection matrix to the sightings; `seen_by(sighting)` returns the vector that
+/// represents the point.
 template <int N, class SeenBy>
 Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, std::size_t first = 0,
                                 std::size_t step = 1) {

@@ -19,8 +19,8 @@ struct LowerSupport {
 
 /// The largest plane below a support if it is parallel to the support and nothing of the whole
 /// frame is visible below it.
-/// @param points in range, without holes. @param least_margin of the plane that is found, as
-/// PlaneMargin::noise.
+/// @param points the points in range, without holes. @param least_margin of the plane that is
+/// found, as PlaneMargin::noise.
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin);

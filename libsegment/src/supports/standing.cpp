@@ -42,7 +42,7 @@ std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut)
 /// A contact of one segment with another.
 struct Contact {
   Index pairs = 0;
-  double heights = 0;  // their sum
+  double heights = 0;  // sum of the heights of the pairs
 };
 
 /// The height of the lower end of each segment, ignoring one voxel in fifty, which may be wrong.

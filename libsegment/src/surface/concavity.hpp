@@ -19,10 +19,10 @@ Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs
 /// without a normal. Symmetric in the two voxels.
 double rise(const Points& centroids, const Points& normals, const VoxelPair& pair);
 
-/// How concave the surface is at each voxel: the mean rise over the voxels near it, or 0 where the
-/// mean is negative. It is about 0 where the surface is flat or convex, and large along the seam
-/// where one object stands on or touches another (the criterion of LCCP; Stein, Schoeler, Papon &
-/// Wörgötter, Object partitioning using local convexity, 2014).
+/// The concavity of the surface at each voxel: the mean rise over the voxels near it, or 0 where
+/// the mean is negative. It is about 0 where the surface is flat or convex, and large along the
+/// seam where one object stands on or touches another (the criterion of LCCP; Stein, Schoeler,
+/// Papon & Wörgötter, Object partitioning using local convexity, 2014).
 /// @param pairs of voxels that are near each other.
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               std::span<const VoxelPair> pairs);

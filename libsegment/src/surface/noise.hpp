@@ -7,7 +7,7 @@
 
 namespace ph::segment {
 
-/// The concavity of a flat surface that the sensor's noise causes, by range.
+/// The concavity that the sensor's noise causes on a flat surface, as a function of the range.
 class ConcavityNoise {
  public:
   ConcavityNoise() = default;

@@ -14,8 +14,8 @@ namespace ph::segment {
 /// for more than its length, by a factor that grows with the concavity, so that the distance has a
 /// ridge where two objects meet. The cost stays well below voxels times seeds: once the seeds are
 /// dense, a new one is compared only with voxels near it.
-/// @param edges between adjacent voxels, whose values are the lengths. @param concavity of each
-///     voxel.
+/// @param edges the edges between adjacent voxels; their values are their lengths. @param concavity
+///     the concavity at each voxel.
 std::vector<double> distance_to_seeds(const Points& centroids,
                                       const std::vector<WeightedEdge>& edges,
                                       const std::vector<double>& concavity, double spacing,

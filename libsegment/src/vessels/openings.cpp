@@ -44,8 +44,8 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
   return circle;
 }
 
-/// @param object its voxels: x, y along the plane, z above it. @param numbers of the voxels in the
-///     grid.
+/// @param object the voxels of an object: x and y along the plane, z above it. @param numbers the
+///     numbers of these voxels in the grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
   constexpr std::size_t fewest = 20;                  // fewest voxels of a rim

@@ -20,9 +20,10 @@ bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel)
 /// leaves its middle free. In other cuts, the points that were won back stay with their voxel;
 /// openings are not searched for again.
 /// @param object_of each voxel: one of the voxels of its object. @param min_size fewest voxels of
-/// an object. @param in_range all points, some of which may be inside. @param points those in the
-/// grid; points of bottoms are appended, and `grid.voxel_of` tells their voxel of the object: the
-/// lowest one that is nearest to the axis. O(voxels + points near the plane, for each rim).
+/// an object. @param in_range all points, some of which may be inside. @param points the points in
+/// the grid; the points of bottoms are appended, and `grid.voxel_of` gives each of them the
+/// object's lowest voxel that is nearest to the axis. O(voxels + points near the plane, for each
+/// rim).
 void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>& in_range,
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,

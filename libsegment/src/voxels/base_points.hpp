@@ -12,7 +12,7 @@ namespace ph::segment {
 /// same small square of the plane, if that point is just beyond the margin. A wall has such points;
 /// the free plane beside it has none. Centroids and counts of the voxels do not change.
 /// @param strip the points within the margin. @param side of a square, metres.
-/// @param points those beyond the margin, which are in the grid, and any that lie behind the plane;
+/// @param points the points in the grid, which lie beyond the margin or behind the plane; the
 /// points of the bases are appended.
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,

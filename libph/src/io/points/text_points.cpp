@@ -73,7 +73,7 @@ void tell_of_counts(const Input& input, const detail::TableLayout& layout, Point
                                       is_image ? "values" : "a point"));
 }
 
-// The numbers of a table, without those of its index.
+// Reads the numbers of a table, without an index column.
 detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
   ReadOptions as_points = options;
   as_points.array = ArrayMeaning::points;
@@ -85,7 +85,7 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
   return table;
 }
 
-// The columns of an array that were asked for.
+// The columns of an array that `options` asks for.
 Points chosen_of(Points points, const Input& input, const ReadOptions& options) {
   if (options.columns.empty()) return points;
   const auto columns =

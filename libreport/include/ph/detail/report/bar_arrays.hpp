@@ -15,7 +15,8 @@ namespace ph::report {
 void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",
               bool cells = true);
 
-/// Writes pictures for readers without scripts. @param barcodes the barcodes that `meta` names.
+/// Writes pictures of the barcodes for browsers that run no scripts. @param barcodes the barcodes
+/// that `meta` names.
 void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const Metadata& meta);
 
 /// Writes the representatives of a barcode, if it has them, as chains/….

@@ -29,7 +29,7 @@ class ReportFile {
   }
   /// The voxels of an image, in their stored type.
   void add_voxels(std::string_view name, const CubicalImage& image);
-  /// Writes the pictures for readers without scripts. @param pictures SVG documents.
+  /// Writes the pictures for browsers that run no scripts. @param pictures SVG documents.
   void add_pictures(std::span<const std::string> pictures);
   /// Writes the rest of the page.
   void finish();

@@ -11,7 +11,7 @@
 
 namespace ph::report {
 
-inline constexpr std::uint32_t kNone = UINT32_MAX;  ///< no leaf, no bar
+inline constexpr std::uint32_t kNone = UINT32_MAX;  ///< stands for no leaf or no bar
 
 /// A larger image has no tree, which would need a list of all cells.
 inline constexpr std::size_t kMostTreeVoxels = 1 << 22;
@@ -27,9 +27,9 @@ struct TreeMeta {
   std::string label, unit = {};
   double cut = 0;                    ///< cut that the page shows first
   double from = 0;                   ///< least cut for which the contraction is correct
-  std::optional<double> to = {};     ///< largest one
+  std::optional<double> to = {};     ///< largest such cut, if there is one
   Index min_size = 1;                ///< fewest vertices of a segment
-  std::string what;                  ///< "segment"
+  std::string what;                  ///< what the page calls a part, such as "segment"
   std::vector<std::string> command;  ///< command for another cut, "{cut}" standing for its value
 };
 
@@ -38,7 +38,8 @@ struct TreeMeta {
 struct ContractedTree {
   std::vector<std::uint32_t> leaf_of;  ///< leaf of each vertex; kNone if it never enters
   std::vector<double> leaf_birth;      ///< least birth of its vertices
-  std::vector<std::uint32_t> leaf_points, leaf_vertices;  ///< number of its vertices
+  /// Number of its points and of its vertices.
+  std::vector<std::uint32_t> leaf_points, leaf_vertices;
   struct KeptMerge {
     std::size_t merge;  ///< its place in MergeTree::merges
     /// The leaves at the ends of its edge; the leaf in the component of Merge::younger comes first.
