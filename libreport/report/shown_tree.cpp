@@ -19,7 +19,7 @@ constexpr std::size_t kMostMerges = 100'000;
 std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
   RipsOptions options = rips.options();
   if (rips.size() == 0 || !rips.has_form(RipsForm::forest)) return std::nullopt;
-  if (options.merge_equal_points.value_or(false)) {  // the tree has all points
+  if (options.merge_equal_points.value_or(false)) {  // the tree needs all points, unmerged
     options.merge_equal_points.reset();
     return tree_of(rips.with(std::move(options), context), context);
   }

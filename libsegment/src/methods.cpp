@@ -33,11 +33,12 @@ constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
 constexpr double kAdjacent = 1.79;  // a little more than sqrt(3): voxels whose corners touch
 
 /// True if voxels are so small that the points of a surface do not touch: voxels have fewer
-/// adjacent voxels on average than a plane that is sampled as coarsely as the grid. This alone
-/// might be a thin object, a pen or a cable. Therefore voxels of half the edge tell whether there
-/// are more points than voxels; duplicate points do not change this. Halving the edge doubles the
-/// voxels of a line, quadruples those of a plane, and keeps the number for single points; random
-/// points with too few adjacent voxels reach at most 1.45 times as many.
+/// adjacent voxels on average than a plane that is sampled as coarsely as the grid. A thin object,
+/// such as a pen or a cable, has few adjacent voxels as well. Therefore, voxels of half the edge
+/// are counted: they tell whether there are more points than voxels; duplicate points do not change
+/// this. Halving the edge doubles the voxels of a line, quadruples those of a plane, and keeps the
+/// number for single points; random points with too few adjacent voxels reach at most 1.45 times as
+/// many.
 bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
   constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(

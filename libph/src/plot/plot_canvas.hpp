@@ -217,7 +217,8 @@ std::vector<int> dims_of(const Barcode& barcode);
 /// A description such as "214 bars in H₀, 3 in H₁".
 std::string description_of(const Barcode& barcode);
 
-// Draws the visible bars of a barcode. @param beyond the number of bars that are beyond the axis.
+// Each draws the visible bars of a barcode, a tree or a picture. @param beyond the number of bars
+// that are beyond the axis.
 Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);

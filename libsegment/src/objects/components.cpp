@@ -21,8 +21,8 @@ struct Component {
   Vec3 sum{};         // sum of these points
 };
 
-/// By decreasing number of points, then of voxels, then in grid order; the order of the points does
-/// not matter.
+/// Components are sorted by decreasing number of points, then of voxels, then in grid order; the
+/// order of the points does not matter.
 bool comes_before(const Component& a, const Component& b) {
   if (a.points != b.points) return a.points > b.points;
   if (a.voxels != b.voxels) return a.voxels > b.voxels;

@@ -305,7 +305,8 @@ std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
     seen[i].x += x;
     seen[i].y += y;
   });
-  /// How many of these distances can be walked to each side without leaving the segment.
+  /// How many of these distances can be walked left, right, up and down without leaving the
+  /// segment.
   const auto room_at = [&](int x, int y) {
     const std::uint32_t label = label_at(x, y);
     int room = 0;

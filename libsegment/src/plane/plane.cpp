@@ -118,7 +118,7 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
     const Eigen::Vector3d a = any(), b = any(), c = any();
     const Eigen::Vector3d normal = (b - a).cross(c - a);
     const double area = normal.norm();
-    // The triangle is thinner than the plane: its direction would be noise.
+    // If the triangle is thinner than the plane, its normal would be noise.
     if (!(area > distance * (b - a).norm()) || !(area > distance * (c - a).norm())) continue;
     const Candidate plane{normal / area, -normal.dot(a) / area};
     const double cost = cost_of(plane, sample, scored, distance, best_cost);

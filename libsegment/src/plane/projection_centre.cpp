@@ -144,7 +144,8 @@ Sightings sightings_of(const CloudView& cloud, Frame& frame) {
 
 using Projection = Eigen::Matrix<double, 3, 4>;
 
-/// The projection with the least median of errors among those through a few points each.
+/// The projection with the least median of errors, among projections that are each fitted to a few
+/// points.
 Projection robust_fit(const Sightings& sightings) {
   // If a sixth of the points are outliers, one draw of 12 in nine has none.
   constexpr int hypotheses = 60, points = 12;

@@ -11,8 +11,8 @@
 namespace ph::segment {
 namespace {
 
-/// How many points of each segment lie as low as a support: no farther away than two voxels plus
-/// its least margin, which grows with the square of the range.
+/// The number of points of each segment that lie as low as a support: no farther away than two
+/// voxels plus its least margin, which grows with the square of the range.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
   constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
   const auto& [vx, vy, vz] = scene.viewpoint;
@@ -59,8 +59,8 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
   return ends;
 }
 
-/// How many points of each segment lie at the border of the image, where some sensors see nothing:
-/// within a sixty-fourth of its columns. Zero for an unorganised cloud.
+/// The number of points of each segment that lie at the border of the image, where some sensors see
+/// nothing: within a sixty-fourth of its columns. Zero for an unorganised cloud.
 std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
   constexpr Index share = 64, least = 2;  // pixels
   std::vector<Index> count(cut.segments.size() + 1);

@@ -57,7 +57,7 @@ Edges edges_with_values(const Points& points, double distance, int steps,
   return edges;
 }
 
-/// Sorts by value without comparisons.
+/// Sorts the edges by value without comparisons.
 Edges edges_by_level(const Points& points, double distance, const Levels& levels,
                      const RunContext& context) {
   struct Edge {

@@ -146,7 +146,7 @@ struct Input::Storage {
   std::size_t capacity = 0;
   std::size_t used = 0;
   bool mapped = false;
-  std::optional<MemoryClaim> claim;  // only of a mapped file
+  std::optional<MemoryClaim> claim;  // the memory of a mapped file's pages
   bool exceeds = false;              // exceeds the budget: stays in a file and is not counted
 };
 

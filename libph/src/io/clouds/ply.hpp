@@ -15,7 +15,7 @@ namespace ph::detail {
 struct PlyProperty {
   std::string name;
   FieldType type = FieldType::float32;
-  std::optional<FieldType> length_type;  ///< for a list; a scalar has none
+  std::optional<FieldType> length_type;  ///< type of a list's length; a scalar has none
 };
 
 struct PlyElement {

@@ -68,7 +68,7 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
   } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C
     static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
-  } catch (...) {  // the bad bit of the stream tells
+  } catch (...) {  // the stream's bad bit is checked below
   }
   if (!*out) png_error(png, "cannot write");
 }

@@ -27,7 +27,7 @@ std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& suppo
 std::vector<std::uint8_t> surfaces_of(const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size);
 
-/// How many voxels of each group lie on each surface that was found among the components, group
+/// The number of voxels of each group on each surface that was found among the components, group
 /// after group. These numbers suffice for any union of groups. @param group_of each vertex, from 0.
 std::vector<std::uint32_t> voxels_on_surfaces(const SceneTree& scene,
                                               std::span<const std::uint32_t> group_of,
