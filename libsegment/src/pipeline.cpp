@@ -45,7 +45,7 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
 /// like objects on the table. If the table should hide many points, the viewpoint is wrong, and
 /// what seems to lie below the table may lie above it: then nothing is done.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
-  constexpr double much_hidden = 0.1;  // scenes in their sensor's frame have up to 0.03
+  constexpr double much_hidden = 0.1;  // share; in scenes in their sensor's frame, it is up to 0.03
   if (result.plane_sight.hidden >= much_hidden) return;
   const CloudView& cloud = scene.cloud;
   scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);

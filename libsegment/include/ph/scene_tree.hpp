@@ -131,9 +131,9 @@ struct Segment {
 
 /// Where to cut a merge tree.
 struct CutOptions {
-  /// The least persistence of a part, in units of the noise (surface) or metres (supervoxels).
-  /// Method paper: the components at this distance, in metres, at most the distance of the tree. >=
-  /// 0.
+  /// The least persistence of a part, in units of the noise (surface) or metres (supervoxels). For
+  /// method paper, the distance at which components are taken, in metres, at most the distance of
+  /// the tree. The value is >= 0.
   double value = 1;
   Index min_part =
       200;  ///< not paper: fewest voxels of a part, >= 1; a smaller one joins a neighbour

@@ -34,7 +34,7 @@ RawVector<T> coordinates(const Coordinates& points, const Vector3d& axis) {
   return result;
 }
 
-/// The least and the largest of some numbers, many at a time.
+/// The least and the largest of some numbers, found by comparing many at a time.
 template <class T>
 std::pair<T, T> range_of(std::span<const T> numbers) {
   constexpr std::size_t lanes = 16;

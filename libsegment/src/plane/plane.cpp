@@ -239,7 +239,7 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin) {
-  constexpr double lowest_share = 0.2;  // share of the margin
+  constexpr double lowest_share = 0.2;  // share of the margin that is left out of the strip
   Cleared cleared;
   cleared.on.reserve(points.size());  // only the memory that is written is touched
   for (const Index i : points) {

@@ -22,7 +22,7 @@ std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>
                                 const std::vector<Index>& beyond, const Plane& plane, double side);
 
 /// The points that are not holes, lie at most `max_range` metres from the viewpoint and, with a
-/// crop box, lie inside it. Ascending indices. @param max_range >= 0, may be infinite.
+/// crop box, lie inside it; their indices are ascending. @param max_range >= 0, may be infinite.
 std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop);
 

@@ -31,7 +31,7 @@ std::vector<VoxelRow> rows_of(const VoxelGrid& grid) {
 struct Offset {
   double y, z;
   double reach;          // how far along x a near voxel of the other row can be
-  std::size_t next = 0;  // row
+  std::size_t next = 0;  // index of the next row at this offset
 };
 
 std::vector<Offset> offsets_within(double radius) {
