@@ -41,7 +41,7 @@ int main(int argc, char** argv) try {
 #ifdef WITH_SEGMENT
   const float xyz[] = {0, 0, 1, 0, 0, 1.001F, 0, 0, 1.002F};
   const auto parts = ph::segment::segment({xyz, {}}, {.min_size = 1, .plane = false});
-  std::printf("%d segment\n", static_cast<int>(parts.segments.size()));
+  std::printf("%d segment\n", static_cast<int>(parts.cut.segments.size()));
 #endif
 #ifdef WITH_REPORT
   const auto is_whole = [](const auto& page) {
@@ -62,7 +62,7 @@ int main(int argc, char** argv) try {
   pcl::PointCloud<pcl::PointXYZ> cloud;
   for (int i = 0; i < three; ++i) cloud.emplace_back(0.001F * static_cast<float>(i), 0.F, 1.F);
   const auto same = ph::pcl::segment_cloud(cloud, {.min_size = 1, .plane = false});
-  std::printf("%d segment of a PCL cloud\n", static_cast<int>(same.segments.size()));
+  std::printf("%d segment of a PCL cloud\n", static_cast<int>(same.cut.segments.size()));
 #endif
   return argc > three;
 } catch (const std::exception& error) {

@@ -83,7 +83,7 @@ class Matrices(GuessTest):
                    + "".join(f'"{names[i]}",' + csv([self.r[i]]) for i in range(20)))
         self.check(self.of_r, "quoted.csv", "--from-correlation")
         self.write("shuffled.csv", header + rows[1] + rows[0] + "".join(rows[2:]))
-        self.refused(65, ["another order", "v1"], "shuffled.csv", "--from-correlation")
+        self.refused(65, ["different orders", "v1"], "shuffled.csv", "--from-correlation")
         self.write("cov.csv", header + "".join(
             f"{names[i]}," + csv([[4 * x for x in self.r[i]]]) for i in range(20)))
         self.refused(65, ["--format distance", "--format points"], "cov.csv")
