@@ -16,7 +16,7 @@
 
 // The constructor of Alpha, and alpha_support, are in a library of their own, ph::alpha. That
 // library uses triangulations of CGAL, which are under the GNU General Public License; a program
-// that links it is under that licence as well. Everything else is in ph::core.
+// that links ph::alpha is under that licence as well. Everything else is in ph::core.
 
 namespace ph {
 
@@ -30,26 +30,28 @@ std::string alpha_support();
 
 /// The settings of an alpha complex.
 struct AlphaOptions {
-  /// One weight per point, or none: the square of the radius that a ball has when the filtration's
-  /// radius is 0. The power distance |x - p|² - w replaces the square of the distance.
+  /// One weight per point, or no weights. A weight is the square of the radius that the point's
+  /// ball has when the filtration's radius is 0. The power distance |x - p|² - w replaces the
+  /// square of the distance.
   std::vector<double> weights = {};
-  /// For a periodic space: the length of each axis after which it closes up, or 0 for an axis that
-  /// does not. If empty, no axis closes up. Points may lie anywhere; coordinates are taken modulo
-  /// the lengths.
+  /// For a periodic space: for each axis, the length after which the axis closes up, or 0 if it
+  /// does not close up. If empty, no axis closes up. Points may lie anywhere; coordinates are taken
+  /// modulo the lengths.
   std::vector<double> period = {};
   /// The condition under which a simplex of the triangulation enters, in terms of radii.
   enum class Value {
-    alpha,  ///< its balls meet, each cut to its Voronoi cell
-    /// its balls meet; the bars are the same as with `alpha`, the cells may differ
+    alpha,  ///< the balls around its vertices, each cut to its Voronoi cell, meet
+    /// the balls around its vertices meet; the bars are the same as with `alpha`, the cells may
+    /// differ
     delaunay_cech,
-    delaunay_rips,  ///< every two of its balls meet: half the longest edge
+    delaunay_rips,  ///< every two of these balls meet: the value is half the longest edge
   } value = Value::alpha;
-  /// The unit of values. Values of weighted points may be negative: only `squared` is allowed.
+  /// The unit of values. Weighted points require `squared`, because their values may be negative.
   enum class Unit {
     radius,   ///< radius of the balls
     squared,  ///< square of that radius
   } unit = Unit::radius;
-  double threshold = kInfinity;  ///< largest value that enters, inclusive
+  double threshold = kInfinity;  ///< simplices of larger values are left out
 };
 
 template <>
@@ -67,8 +69,8 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 
 /// The alpha complex of points of R², R³ (or R¹): the simplices of their Delaunay triangulation. A
 /// simplex enters when the balls around its vertices, each cut to the Voronoi cell of its centre,
-/// meet. The bars are the bars of the union of balls of that radius; they are therefore half as
-/// long as bars measured by edge lengths.
+/// meet. The bars are the bars of the growing union of balls. Their values are radii; measured in
+/// edge lengths, the bars would be twice as long.
 ///
 /// Any finite points are allowed. Coplanar and collinear points have the triangulation of their
 /// affine hull. An edge of value 0 joins a copy to the first point at the same place; a weighted
@@ -78,11 +80,11 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 /// are less precise.) Cospherical points have several triangulations; the choice depends on their
 /// coordinates alone, not on their order.
 ///
-/// Values other than alpha need points without weights. Engines for any filtration compute them
-/// simplex by simplex, which takes several times as long.
+/// Kinds of value other than `alpha` require points without weights. Engines for any filtration
+/// then compute the bars simplex by simplex, which takes several times as long.
 ///
 /// In a periodic space the balls grow around a torus, or around a cylinder if not all axes close
-/// up. Any number of points is allowed, even one. A cell is still known by its points, although one
+/// up. Any number of points is allowed, even one. A cell is still named by its points, although one
 /// point may occur several times in it (an edge of a point with its own image is [v, v]) and two
 /// cells may have the same points. Coordinates of axes that close up, and the lengths of these
 /// axes, are rounded to multiples of a power of two (at most 2^-50 of the diagonal of the box),
@@ -90,9 +92,10 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 /// change. Points that are the same modulo the lengths are copies. On a torus the complex ends with
 /// the Betti numbers 1, 3, 3, 1; in the plane, 1, 2, 1.
 ///
-/// The filtration holds the triangulation: about 110 bytes per tetrahedron. Generic engines need
-/// the single simplices; these are made once, by `prepare` or when a cell is first asked for. The
-/// order is (value, dimension, vertices in an order of space, last vertex first).
+/// The filtration holds the triangulation: about 110 bytes per tetrahedron. Engines for any
+/// filtration need the single simplices; these are made once, by `prepare` or when a cell is first
+/// asked for. The order is (value, dimension, vertices along a space-filling curve, last vertex
+/// first).
 class Alpha {
  public:
   using Cell = ExplicitComplex::Cell;
@@ -186,17 +189,18 @@ struct SurfaceMesh {
   std::size_t regular = 0;
 };
 
-/// The surface of all simplices up to a value, given in the unit of the complex and regardless of
-/// its threshold: the body that the balls of that radius enclose, as a polyhedron. For points in a
-/// plane, all triangles up to the value, counterclockwise if the points are in R². O(triangles ·
-/// log). @throws Error (usage) on NaN, on values other than alpha, and in a periodic space: a
-/// triangle across a face of the box has no points for its corners.
+/// The surface of all simplices up to `value`, which is in the unit of the complex; the threshold
+/// of the complex is ignored. It is a polyhedron, which has the shape of the union of the balls.
+/// For points in a plane, the result has all triangles up to the value, counterclockwise if the
+/// points are in R². O(triangles · log). @throws Error (usage) on NaN, on values other than alpha,
+/// and in a periodic space: a triangle across a face of the box has no points for its corners.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
 /// The surface of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
-/// space, 2003): the critical simplices up to a value, and everything that lies below them. It has
-/// the shape of the alpha complex up to homotopy, and is the part of it without frayed edges.
-/// O(tetrahedra). @throws Error (usage) as alpha_shape; Error (resource, cancelled).
+/// space, 2003): the critical simplices up to a value, and all simplices below them in the order of
+/// the gradient. It is the part of the alpha complex without frayed edges, and is homotopy
+/// equivalent to the alpha complex. O(tetrahedra). @throws Error (usage) as alpha_shape; Error
+/// (resource, cancelled).
 SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context = default_context());
 
 }  // namespace ph

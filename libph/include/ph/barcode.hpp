@@ -74,7 +74,7 @@ inline constexpr std::array names_of<Representatives>{
     Named{Representatives::voxels, "voxels"},
 };
 
-/// A part of the voxels that a barcode keeps.
+/// A range of the voxels that a barcode stores.
 struct VoxelRange {
   std::size_t begin = 0, end = 0;
 };
@@ -116,17 +116,17 @@ class Barcode {
   /// The cycle or cocycle of bar i; the birth cell is one of its cells.
   /// @throws Error (usage) if no representatives were asked for.
   InputChain representative(std::size_t i) const;
-  /// The voxels of bar i as places in the image in C order (the last axis is the fastest), each
-  /// once, in no particular order: sets are nested as components are, and share memory. Empty if
-  /// the bar has a cycle instead, or if voxels were not asked for.
+  /// The voxels of bar i, each once: their places in the image in C order (the last axis is the
+  /// fastest). They come in no particular order, because the sets of nested components share
+  /// memory. Empty if the bar has a cycle instead, or if voxels were not asked for.
   std::span<const std::uint32_t> voxels(std::size_t i) const;
-  /// The coordinates of the voxel whose value is the birth of bar i, by axis of the input; empty if
-  /// voxels were not asked for.
+  /// The coordinates of the voxel whose value is the birth of bar i, in the order of the input's
+  /// axes; empty if voxels were not asked for.
   std::span<const Index> birth_voxel(std::size_t i) const;
-  /// The same for the death of the bar; empty for an infinite bar.
+  /// The coordinates of the voxel whose value is the death of bar i; empty for an infinite bar.
   std::span<const Index> death_voxel(std::size_t i) const;
 
-  /// Makes room for that many more bars.
+  /// Makes room for `count` more bars.
   void reserve_more(std::size_t count) {
     // Grows by a quarter, because the old and the new array exist side by side for a while.
     if (bars_.capacity() - bars_.size() < count)
@@ -139,18 +139,20 @@ class Barcode {
   }
   /// Appends a bar. Without `death_cell` the class lives forever.
   void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
-  /// Gives the last bar added its representative: the numbers of all its cells, one after another.
+  /// Sets the representative of the bar that was added last. @param numbers the numbers of all its
+  /// cells, one after another.
   void set_representative(Representatives kind, std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients);
-  /// Keeps places of voxels. @return the position of the first among all places kept.
+  /// Stores places of voxels. @return the position of the first of them among all stored places.
   std::size_t store_voxels(std::span<const std::uint32_t> places);
-  /// Gives the last bar added, which must have a representative, some of the stored voxels, and the
-  /// voxels of its birth and death.
+  /// Sets the voxels of the bar that was added last, which must have a representative: a range of
+  /// the stored voxels, and the coordinates of the voxels of its birth and death.
   void set_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
                   std::span<const Index> death_voxel);
-  /// Sorts the bars into the order stated above. @throws Error (resource, cancelled).
+  /// Sorts the bars into the order that the class promises. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
-  /// Bytes to be moved when room is made for more; they exist twice meanwhile.
+  /// Bytes that have to move to make room for that many more bars, numbers, coefficients and
+  /// voxels. During the move they exist twice.
   std::size_t bytes_moved_for(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                               std::size_t voxels = 0) const {
     const auto moved = [](const auto& all, std::size_t more) {
@@ -172,7 +174,7 @@ class Barcode {
     std::size_t begin = 0, end = 0;
   };
   struct Cells {
-    std::size_t birth = 0, death = 0, end = 0;  // start of their numbers
+    std::size_t birth = 0, death = 0, end = 0;  // bounds of the cells in numbers_
     std::size_t chain = kNone;                  // index into chains_
   };
   struct Chain {
@@ -190,7 +192,7 @@ class Barcode {
   std::span<const Index> death_numbers(std::size_t i) const {
     return cells_.empty() ? std::span<const Index>() : numbers_of({cells_[i].death, cells_[i].end});
   }
-  // The entry of bar i in `table`, or nothing if it has none.
+  // The entry of bar i in `parts`, or an empty entry if the bar has none.
   template <class T>
   T part_of(std::size_t i, const std::vector<T>& parts) const {
     const std::size_t place = cells_.empty() ? kNone : cells_[i].chain;
@@ -205,12 +207,12 @@ class Barcode {
   CellKind kind_;
   std::vector<Bar> bars_;
   std::vector<Cells> cells_;    // parallel to bars_, or empty if no bar has cells
-  std::vector<Index> numbers_;  // all cells, one after another
+  std::vector<Index> numbers_;  // the numbers of all cells, one after another
   Representatives representatives_ = Representatives::none;
   std::vector<Chain> chains_;
   std::vector<std::int64_t> coefficients_;
   std::vector<VoxelSet> sets_;         // parallel to chains_, or empty if no bar has sets
-  std::vector<std::uint32_t> voxels_;  // all sets, which may overlap
+  std::vector<std::uint32_t> voxels_;  // all stored voxels; the sets are ranges, which may overlap
 };
 
 }  // namespace ph

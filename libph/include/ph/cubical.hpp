@@ -26,7 +26,7 @@ struct CubicalOptions {
   bool superlevel = false;
   /// True for each axis (of the input) that closes up on itself; empty if none does.
   std::vector<bool> periodic = {};
-  /// Largest value that enters, inclusive; with `superlevel`, a value of -f.
+  /// Cells of larger values never enter; with `superlevel`, a value of -f.
   std::optional<double> threshold = std::nullopt;
 };
 
@@ -42,11 +42,11 @@ inline constexpr std::array names_of<CubicalOptions::Construction>{
 /// number of its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid
 /// index).
 ///
-/// The filtration holds the voxels, which it shares with the image. Generic engines need 4 bytes
-/// per cell (2^d cells per voxel) and the sorted values. These are made once, by `prepare` or when
-/// a cell or value is first asked for; an engine that goes voxel by voxel does not need them. A
-/// voxel of +infinity never enters; one of -infinity is born at -infinity (both after the sign
-/// change of superlevel sets). Absent voxels never enter.
+/// The filtration holds the voxels, which it shares with the image. Engines for any filtration need
+/// a table of 4 bytes per cell (2^d cells per voxel) and the sorted values. These are made once, by
+/// `prepare` or when a cell or value is first asked for; an engine that goes voxel by voxel does
+/// not need them. A voxel of +infinity never enters; one of -infinity is born at -infinity (both
+/// after the sign change of superlevel sets). Absent voxels never enter.
 class Cubical {
  public:
   struct Cell {
@@ -58,23 +58,23 @@ class Cubical {
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
   /// @param context must outlive the filtration.
-  /// @throws Error (bad_data) on NaN unless the image is masked, on an axis of length 0 and on
-  ///         sizes that disagree; Error (usage) on more than 8 axes or a periodic axis that does
-  ///         not exist; Error (resource) beyond the context's memory limit.
+  /// @throws Error (bad_data) on NaN unless the image is masked, on an axis of length 0, or if the
+  ///         extents do not match the number of values; Error (usage) on more than 8 axes or a
+  ///         periodic axis that does not exist; Error (resource) beyond the context's memory limit.
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 
   /// Makes the table of cells, unless it exists. The table stays with the filtration and counts in
   /// the budget of the context that the filtration was built with. Sorting takes 32 more bytes per
-  /// voxel; `context` limits the memory, sees the progress and can stop the work. O(cells).
+  /// voxel; `context` limits the memory, receives the progress and can stop the work. O(cells).
   /// Thread-safe.
-  /// @throws Error (resource), also on more than 2^32 - 2 voxels, and Error (cancelled); another
-  ///         call can try again.
+  /// @throws Error (resource), also on more than 2^32 - 2 voxels, and Error (cancelled); after
+  ///         either error, another call can try again.
   void prepare(const RunContext& context) const;
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
-  /// Declared in ph/custom.hpp. The first call does the work of `prepare`, unless that was called,
+  /// Defined in ph/custom.hpp. The first call does the work of `prepare`, unless that was called,
   /// with the context of the construction.
   /// @throws Error (resource) and (cancelled) in that case.
   inline double value(const Cell& c) const;
@@ -95,7 +95,7 @@ class Cubical {
   /// The place of a vertex among all vertices in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
-  // Declared in ph/custom.hpp, like `value`: the members that engines call. The first call may
+  // The members that engines call are defined in ph/custom.hpp, like `value`. The first call may
   // throw and takes O(cells), as with `value`.
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
@@ -111,7 +111,7 @@ class Cubical {
     std::uint64_t length = 0;  // doubled coordinates
     bool periodic = false;
   };
-  /// The table that cells are made from.
+  /// The keys of all cells and the sorted values.
   struct Table;
   struct Lazy;
   inline const Table& table() const;
@@ -131,7 +131,7 @@ class Cubical {
   Voxels voxels_;
   CubicalImage grid_;  // points to voxels_
   const RunContext* context_;
-  std::shared_ptr<const MemoryClaim> claim_;  // counts the voxels
+  std::shared_ptr<const MemoryClaim> claim_;  // counts the memory of the voxels
   std::shared_ptr<Lazy> lazy_;
 };
 

@@ -62,7 +62,8 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 /// threads compute. @throws Error (usage) if its name is taken.
 template <class E>
 void add_engine();
-/// Also adds it to a complex of your own, which has the engines for any filtration.
+/// Adds an engine to a complex of your own, which otherwise has the engines for any filtration. To
+/// be called after `add_engine`.
 template <class E, Filtration F>
 void add_engine_for();
 

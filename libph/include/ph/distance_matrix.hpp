@@ -20,7 +20,7 @@ class DistanceMatrix {
   DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births = {});
 
   Index size() const { return size_; }
-  /// By point; if empty, all points enter at 0.
+  /// One birth per point; if empty, all points enter at 0.
   std::span<const double> births() const { return numbers_->births; }
   double operator()(Index i, Index j) const {
     if (i == j) return 0.0;

@@ -28,7 +28,8 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours,
 
 namespace detail {
 void check_neighbours(Index neighbours, Index size);
-/// The root mean square of these distances and one more distance, which is 0.
+/// The root mean square of `distances` and one more distance, which is 0: the point's distance from
+/// itself.
 double root_mean_square(std::span<const double> distances);
 }  // namespace detail
 

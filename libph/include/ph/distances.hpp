@@ -15,29 +15,30 @@ namespace ph {
 
 /// The accuracy to which a distance must be known.
 struct DistanceLimits {
-  /// The search may stop once value <= (1 + relative_error) · lower. With 0, the result is the
-  /// distance itself. Must be finite and at least 0.
+  /// The search may stop once its bounds, see DistanceBounds, satisfy value <= (1 + relative_error)
+  /// · lower. With 0, the result is the distance itself. Must be finite and at least 0.
   double relative_error = 0;
   /// The search may stop once lower > at_most: it does not matter how much larger the distance is.
   /// Must not be NaN.
   double at_most = kInfinity;
 };
 
-/// Bounds for a distance: lower <= distance <= value. If the distance is infinite, both bounds are.
+/// Bounds for a distance: lower <= distance <= value. If the distance is infinite, both bounds are
+/// infinite.
 struct DistanceBounds {
   double value = 0;
   double lower = 0;
 };
 
-/// The bottleneck distance W∞ of two persistence diagrams: the least d such that bars can be
-/// paired, each in at most one pair, where births and deaths of a pair differ by at most d, and
-/// bars without a partner are at most 2 d long. The result is exact: the largest of the differences
-/// that decide it, as computed in double precision, without approximation. The ground norm is the
-/// maximum norm.
+/// The bottleneck distance W∞ of two persistence diagrams: the least d such that bars of one
+/// diagram can be paired with bars of the other, where births and deaths of a pair differ by at
+/// most d, and bars without a partner are at most 2 d long. The result is not approximated: it is
+/// the deciding difference itself, as computed in double precision. The ground norm is the maximum
+/// norm.
 ///
-/// Bars that never die are paired only with each other, by birth; bars that were always there are
-/// paired with each other by death. The distance is infinite if the numbers of such bars differ.
-/// Bars of length 0 do not count.
+/// Bars that never die are paired only with each other, by birth; bars born at -infinity are paired
+/// only with each other, by death. The distance is infinite if the diagrams have different numbers
+/// of such bars. Bars of length 0 do not count.
 ///
 /// Sources: Efrat, Itai, Katz, Geometry helps in bottleneck matching and related problems, 2001
 /// (matchings in which a search structure finds and removes neighbours); Kerber, Morozov, Nigmetov,
@@ -52,8 +53,8 @@ struct DistanceBounds {
 double bottleneck_distance(std::span<const Bar> a, std::span<const Bar> b,
                            const RunContext& context = default_context());
 
-/// The bottleneck distance to the accuracy that `limits` asks for: the same as without limits
-/// otherwise.
+/// The bottleneck distance, computed to the accuracy that `limits` asks for. Everything else is as
+/// for bottleneck_distance.
 /// @throws Error (usage) on limits out of their range; otherwise as bottleneck_distance.
 DistanceBounds bottleneck_bounds(std::span<const Bar> a, std::span<const Bar> b,
                                  const DistanceLimits& limits,
@@ -67,9 +68,9 @@ struct BottleneckMatching {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
 };
 
-/// The pairing behind the bottleneck distance. Both ends of a pair differ by at most the distance,
-/// and bars without a pair are at most twice as long as it. Cost, parameters and errors are as for
-/// bottleneck_distance, for fewer than 2³² bars each.
+/// A pairing that attains the bottleneck distance. Births and deaths of a pair differ by at most
+/// that distance, and bars without a pair are at most twice that distance long. Cost, parameters
+/// and errors are as for bottleneck_distance, for fewer than 2³² bars each.
 BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
                                        const RunContext& context = default_context());
 
@@ -89,13 +90,13 @@ struct WassersteinOptions {
 /// 1) · length, to the power of p.
 ///
 /// Bars that never die are paired only with each other, by birth, at a cost of |difference|^p; bars
-/// that were always there are paired with each other by death. The distance is infinite if the
-/// numbers of such bars differ. Bars of length 0 do not count.
+/// born at -infinity are paired only with each other, by death. The distance is infinite if the
+/// diagrams have different numbers of such bars. Bars of length 0 do not count.
 ///
 /// The result is certified: `value` is the cost of a matching, and prices of the bars prove that no
 /// matching costs less than `lower` (duality of linear programs). Without a relative error, both
-/// bounds are the distance up to rounding: the costs to the power of p agree to 1e-13, or to 2e-15
-/// of the cost of putting all bars on the diagonal.
+/// bounds equal the distance up to rounding: their p-th powers agree to 1e-13 of their size, or to
+/// 2e-15 of the cost of pairing all bars with the diagonal.
 ///
 /// Sources: Bertsekas, The auction algorithm: a distributed relaxation method for the assignment
 /// problem, 1988; Bertsekas, Castañon, A forward/reverse auction algorithm for asymmetric
@@ -103,9 +104,9 @@ struct WassersteinOptions {
 /// diagrams, 2017 (bids by a k-d tree with weights). There is one diagonal instead of a copy of
 /// each bar on it.
 ///
-/// About 3 to 5 rounds reach 1 %, and 20 the end; each round makes some searches in a k-d tree per
-/// bar; memory O(n). Where an auction takes too many bids, shortest augmenting paths follow
-/// (Jonker, Volgenant, 1987), with at most O(n) searches per bar.
+/// About 3 to 5 rounds reach a relative error of 1 %, and about 20 rounds reach the end. Each round
+/// makes a few searches in a k-d tree per bar. Memory: O(n). Where an auction takes too many bids,
+/// shortest augmenting paths follow (Jonker, Volgenant, 1987), with at most O(n) searches per bar.
 /// @param a, b the bars of one dimension each, in any order; their dimension is ignored.
 /// @throws Error (usage) on options out of their range; Error (bad_data) on a NaN, or a death
 ///         before its birth; Error (resource, cancelled).
@@ -117,25 +118,25 @@ DistanceBounds wasserstein_distance(std::span<const Bar> a, std::span<const Bar>
 struct WassersteinMatching {
   DistanceBounds distance;  ///< infinite: there are no pairs in that case
   /// Positions in `a` and in `b`, ascending; -1 is the diagonal and comes last. Each bar of both
-  /// diagrams is in one pair; bars of length 0 are paired with the diagonal.
+  /// diagrams is in exactly one pair; bars of length 0 are paired with the diagonal.
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
 };
 
-/// The matching behind the Wasserstein distance: it costs distance.value. Cost, parameters and
-/// errors are as for wasserstein_distance.
+/// A matching that attains the upper bound of the Wasserstein distance: its cost is distance.value.
+/// Cost, parameters and errors are as for wasserstein_distance.
 WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const Bar> b,
                                          const WassersteinOptions& options = {},
                                          const RunContext& context = default_context());
 
-/// The sliced Wasserstein distance of two persistence diagrams (order 1), approximated by
-/// directions. The points of each diagram, and the points on the diagonal nearest to the points of
-/// the other diagram, are projected to a line. The difference of the two sorted lists of numbers,
-/// the sum of
-/// |x_i - y_i|, is averaged over the directions of the line: angles k π / directions, k = 0 …
-/// directions - 1. The directions cover half a turn, because the line at π is the line at 0.
+/// The sliced Wasserstein distance of two persistence diagrams (order 1), approximated by a finite
+/// number of directions. The points of each diagram, and the points on the diagonal nearest to the
+/// points of the other diagram, are projected to a line. The difference of the two sorted lists of
+/// numbers, Σ |x_i - y_i|, is averaged over the directions of the line: angles k π / directions, k
+/// = 0 … directions - 1. The directions cover half a turn, because the line at π is the line at 0.
 ///
-/// Bars that never die, and bars that were always there, add the same as in wasserstein_distance.
-/// The distance is infinite if the numbers of such bars differ. Bars of length 0 do not count.
+/// Bars that never die, and bars born at -infinity, add as much as they do in wasserstein_distance.
+/// The distance is infinite if the diagrams have different numbers of such bars. Bars of length 0
+/// do not count.
 ///
 /// It is equivalent to wasserstein_distance of order 1, not equal to it: it is at most 2 √2 times
 /// as large, whatever the number of directions. exp(-distance) is a positive definite kernel.
@@ -152,8 +153,8 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
 using DiagramDistance =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 
-/// The distances of all pairs of diagrams. Threads share the pairs, largest first; the result
-/// depends neither on the threads nor on the order in which pairs are done.
+/// The distance between each pair of diagrams. Threads share the pairs, the largest first; the
+/// result depends neither on the threads nor on the order in which pairs are done.
 /// @param distance symmetric; it is called once per pair, with a context of one thread that can be
 ///        stopped and that has an equal share of the remaining memory.
 /// @throws what `distance` throws; Error (cancelled).
@@ -161,8 +162,8 @@ DistanceMatrix diagram_distances(std::span<const std::span<const Bar>> diagrams,
                                  const DiagramDistance& distance,
                                  const RunContext& context = default_context());
 
-/// The distances from each of some diagrams to each of some others, row by row; everything else is
-/// as above.
+/// The distance from each of `diagrams` to each of `others`, row by row; everything else is as
+/// above.
 /// @returns diagrams.size() · others.size() numbers.
 std::vector<double> diagram_distances(std::span<const std::span<const Bar>> diagrams,
                                       std::span<const std::span<const Bar>> others,
@@ -180,18 +181,18 @@ struct Barycentre {
   std::vector<Bar> bars;        ///< ascending by birth, then death; of dimension 0
   double root_mean_square = 0;  ///< root mean square of the distances to the diagrams
   int rounds = 0;               ///< rounds that lowered the mean square
-  bool converged = false;       ///< true if it ended before the most rounds
+  bool converged = false;       ///< true if the search ended before most_rounds
 };
 
 /// A barycentre (Fréchet mean) of persistence diagrams: a local minimum of the mean square of the
 /// Wasserstein distances (order 2, Euclidean ground norm) from a diagram to the given ones. The
 /// search begins at their medoid, the diagram with the least sum of squares (the first one among
-/// equals; distances within 1 %). It then alternates two steps: each diagram is matched with the
-/// current one, and each bar of the current one moves to the mean of its partners, where a partner
-/// on the diagonal counts as the point nearest to the mean of the others. A bar without a partner
-/// in the current diagram becomes a new bar, moved towards the diagonal by all diagrams that lack
-/// it; a bar with all its partners on the diagonal is removed. The result may therefore have bars N
-/// times as short as a bar of one of the N diagrams.
+/// equals, with distances accurate to 1 %). It then alternates two steps: each diagram is matched
+/// with the current one, and each bar of the current one moves to the mean of its partners, where a
+/// partner on the diagonal counts as the point nearest to the mean of the others. A bar without a
+/// partner in the current diagram becomes a new bar, moved towards the diagonal by all diagrams
+/// that lack it; a bar with all its partners on the diagonal is removed. The result may therefore
+/// have bars that are 1/N as long as a bar of one of the N diagrams.
 ///
 /// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
 /// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence

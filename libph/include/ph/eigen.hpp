@@ -8,7 +8,7 @@
 
 namespace ph {
 
-/// One point per row.
+/// A matrix with one point per row.
 using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The points as a matrix, without a copy; they must outlive it.

@@ -12,7 +12,7 @@
 
 namespace ph {
 
-/// The kind of an error, in classes that a caller can act on. The programs turn each kind into an
+/// The kinds of errors, by what a caller can do about them. The programs turn each kind into an
 /// exit code.
 enum class ErrorKind {
   usage,          ///< an argument or option makes no sense
@@ -140,8 +140,8 @@ struct Remedy {
 
 /// The names of settings in a program or a language.
 struct Words {
-  /// The text for a setting with a value; the value may be empty or several, see `alternatives`. An
-  /// empty text means that the program has no such setting.
+  /// The text for a setting with a value; there may be no value, or several values separated by
+  /// '|', see `alternatives`. An empty text means that the program has no such setting.
   std::string (*setting)(Setting setting, std::string_view value);
 };
 
@@ -149,13 +149,13 @@ struct Words {
 /// @param quote is put before and after each value.
 std::string alternatives(std::string_view values, std::string_view quote = {});
 
-/// A setting, with a value if there is one, as a part of the text of a message or an error: each
-/// program and language puts it into its own words. @param value several values are separated by
-/// '|'.
+/// Marks a setting, and its value if there is one, for the text of a message or an error: each
+/// program and language replaces the mark by its own words. @param value may be several values,
+/// separated by '|'.
 std::string mark(Setting setting, std::string_view value = {});
-/// The same for the place of an error, see Message::place.
+/// Marks the place of an error, see Message::place.
 std::string mark_place(std::string_view place);
-/// The same for the value found there, see Message::found.
+/// Marks the value found at that place, see Message::found.
 std::string mark_found(std::string_view found);
 
 /// One line for the user: text in which settings are marked.
@@ -215,7 +215,7 @@ class Error : public std::runtime_error {
 
  private:
   ErrorKind kind_;
-  std::shared_ptr<const std::string> marked_;  // null if `what()` has no marks
+  std::shared_ptr<const std::string> marked_;  // null if the line has no marks
 };
 
 }  // namespace ph

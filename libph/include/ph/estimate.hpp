@@ -9,27 +9,28 @@ namespace ph {
 
 /// A forecast of a computation's time and memory.
 struct Estimate : RunPlan {
-  /// The facts of the complex; empty if its edges were not made.
+  /// Facts about the complex; empty if its edges were not made.
   RunFacts built;
   /// Cells by dimension, as far as the engine lists them: the sweep of edge links and union-find
   /// list only vertices and edges, `gradient` lists none. Counted after the collapse, if there is
   /// one.
   std::vector<double> cells;
-  /// Cells of dimensions below this one are counted; above, they are estimated from a sample,
-  /// usually within a few per cent.
+  /// Cells of dimensions below this one are counted; the numbers of all other cells are estimated
+  /// from a sample, usually within a few per cent.
   int counted_dims = 0;
-  /// True if the cells are counted before a collapse that takes too long for an estimate.
+  /// True if `cells` are upper bounds, counted before a collapse that would take too long for an
+  /// estimate.
   bool cells_at_most = false;
   double bytes_held = 0;  ///< memory that the complex already takes
-  double bytes_low = 0;   ///< memory of the complex and the computation: at least this
-  double bytes_high = 0;  ///< and at most this; see docs/explanation/engines/estimates.md
+  double bytes_low = 0;   ///< lower bound of the memory of the complex and the computation
+  double bytes_high = 0;  ///< upper bound of that memory; see docs/explanation/engines/estimates.md
 };
-/// Takes a fraction of the computation's time and memory: it counts up to a million cells, or a few
-/// thousand samples, and collapses edges if there are few. It makes the parts of the complex that
-/// the plan needs, and these stay in the complex. Edges of a Rips filtration that do not fit the
-/// memory limit or the machine are not made: a sample of the pairs of points estimates their
-/// number.
-/// @throws as `persistence`, except for the memory of those edges.
+/// Forecasts a computation in a fraction of its time and memory: it counts up to a million cells,
+/// or a few thousand samples, and collapses edges if there are few. It makes the parts of the
+/// complex that the plan needs, and these stay in the complex. Edges of a Rips filtration that do
+/// not fit the memory limit or the machine are not made: a sample of the pairs of points estimates
+/// their number.
+/// @throws as `persistence`, but not if those edges need too much memory.
 Estimate estimate(const AnyComplex& complex, const Options& options = {},
                   const RunContext& context = default_context());
 
@@ -39,9 +40,9 @@ struct Fit {
   double bytes_low = 0, bytes_high = 0;  ///< as in Estimate
 };
 /// Looks for changes that make a computation fit the limit of `context` after it ran out of memory.
-/// It checks each change with an estimate, and has made the form of a Rips filtration within the
-/// limit. It tries another engine, no representatives and lower dimensions; for a Rips filtration
-/// it then tries a subsample, a lower threshold and an edge collapse.
+/// It checks each change with an estimate; for a Rips filtration it also makes the form of the
+/// filtration within the limit. It tries another engine, no representatives and lower dimensions;
+/// for a Rips filtration it then tries a subsample, a lower threshold and an edge collapse.
 /// @return at most three changes; the search stops after a few CPU seconds.
 /// @throws Error (cancelled) on a stop request.
 std::vector<Fit> what_fits(const AnyComplex& complex, const Options& options,

@@ -12,22 +12,24 @@
 
 namespace ph {
 
-/// An integer-valued step function: 0 before at[0], and value[i] from at[i] to before at[i + 1].
+/// An integer-valued step function: 0 before at[0], then value[i] on the interval [at[i], at[i +
+/// 1]).
 struct StepFunction {
   std::vector<double> at;           ///< ascending, each once; the first may be -infinity
-  std::vector<std::int64_t> value;  ///< as many as places; each differs from the one before
+  std::vector<std::int64_t> value;  ///< one per place; each differs from the one before
 
   /// @throws Error (usage) if the numbers of values and places differ.
   std::int64_t operator()(double t) const;
-  /// @param out grid.points numbers. @throws Error (usage) also as betti_curve.
+  /// Writes the values at the places of a grid. @param out has grid.points numbers. @throws Error
+  /// (usage) as the operator, and as betti_curve.
   void sample(const Grid& grid, std::span<double> out) const;
   friend bool operator==(const StepFunction&, const StepFunction&) = default;
 };
 
 /// The Euler characteristic curve of a barcode: Σ (-1)^dimension over the bars alive at t, birth <=
 /// t < death. It is the curve of the complex if the barcode has all its dimensions and the bars
-/// that never die: `threshold`, `max_dim` and `min_persistence` must not have cut off any. O(n log
-/// n).
+/// that never die: `threshold`, `max_dim` and `min_persistence` must not have cut off any bar. O(n
+/// log n).
 /// @throws Error (bad_data) on a NaN, or a death before its birth.
 StepFunction euler_curve(std::span<const Bar> bars);
 
@@ -36,16 +38,16 @@ StepFunction euler_curve(std::span<const Bar> bars);
 /// and without bars. The curve equals the curve of the barcode.
 ///
 /// Each voxel counts the cells whose value it decides: for each of the 3^d - 1 directions in which
-/// a cell may lie, it is compared with a neighbour, many voxels of a row at a time. Three layers
-/// along the first axis are in memory. Bytes and 16-bit numbers go into one histogram; for floats,
-/// the voxels at which the curve may change are sorted. Threads share the layers; the result does
-/// not depend on them. Source: Heiss, Wagner, Streaming algorithm for Euler characteristic curves
-/// of multidimensional images, 2017 (a voxel counts the cells that enter with it). O(voxels · 3^d)
-/// time and O(changes) memory.
+/// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Three
+/// layers along the first axis are in memory. Bytes and 16-bit numbers go into one histogram; for
+/// floats, the voxels at which the curve may change are sorted. Threads share the layers; the
+/// result does not depend on them. Source: Heiss, Wagner, Streaming algorithm for Euler
+/// characteristic curves of multidimensional images, 2017 (a voxel counts the cells that enter with
+/// it). O(voxels · 3^d) time and O(changes) memory.
 /// @throws Error (resource, cancelled).
 StepFunction euler_curve(const Cubical& image, const RunContext& context = default_context());
 
-/// The same at the values of a grid, in O(grid.points) memory for any type of number.
+/// The curve at the values of a grid, in O(grid.points) memory for any type of voxel.
 /// @param out grid.points numbers.
 /// @throws Error (usage) as betti_curve; Error (resource, cancelled).
 void euler_curve(const Cubical& image, const Grid& grid, std::span<double> out,

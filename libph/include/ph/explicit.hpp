@@ -34,7 +34,8 @@ struct SimplexList {
 };
 
 /// A boundary matrix by columns: column i is cell i of dimension dims[i], with the facets
-/// rows[offsets[i] … offsets[i+1]) and their incidence numbers beside them.
+/// rows[offsets[i] … offsets[i+1]) and their incidence numbers at the same positions of
+/// `incidences`.
 struct BoundaryMatrix {
   std::vector<int> dims;
   std::vector<std::size_t> offsets{0};
@@ -45,7 +46,8 @@ struct BoundaryMatrix {
   std::size_t size() const { return dims.size(); }
 };
 
-/// Names a cell of the input in an error message ("mesh.txt:12"); by default it gives the position.
+/// Names a cell of the input in an error message ("mesh.txt:12"); by default, the message gives the
+/// cell's position.
 using CellNamer = std::function<std::string(std::size_t)>;
 
 /// A filtered complex stored cell by cell, with facets and cofacets. A cell of value +infinity
@@ -59,13 +61,14 @@ class ExplicitComplex {
   };
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
-  /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is older
-  ///         than one of its facets or has a NaN value; also if sizes disagree.
+  /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, enters
+  ///         before one of its facets or has a NaN value; also if the sizes of the arrays disagree.
   static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
                                         const RunContext& context = default_context());
-  /// @throws Error (bad_data) if a facet is out of range, is not exactly one dimension lower or is
-  ///         younger than its coface; also if sizes disagree, a value is NaN, or the boundary of a
-  ///         boundary is not zero (over the integers, or over Z/2 without incidences).
+  /// @throws Error (bad_data) if a facet is out of range, is not exactly one dimension lower or
+  ///         enters after its coface; also if the sizes of the arrays disagree, a value is NaN, or
+  ///         the boundary of a boundary is not zero (over the integers, or over Z/2 without
+  ///         incidences).
   static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {},
                                        const RunContext& context = default_context());
 
@@ -143,7 +146,7 @@ class ExplicitComplex {
   bool edges_join_vertices_ = true;
   std::pmr::vector<double> values_;                 // distinct values, ascending
   std::pmr::vector<std::uint32_t> key_;             // by id: index into values_
-  std::pmr::vector<std::uint32_t> input_position_;  // by id: its cell of the input
+  std::pmr::vector<std::uint32_t> input_position_;  // by id: the cell's position in the input
   std::pmr::vector<std::uint32_t> id_of_;           // the inverse, for all cells of the input
   // Positions of the vertices in the input, ascending.
   std::pmr::vector<std::uint32_t> vertices_;

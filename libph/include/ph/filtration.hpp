@@ -49,7 +49,8 @@ inline constexpr std::array names_of<CellKind>{
 
 // clang-format off
 
-/// A filtered complex, lazy or stored, as far as the oracle and the homology engine need it.
+/// A filtered complex, lazy or stored, with the members that the oracle (Engine::standard) and the
+/// homology engine need.
 template <class F>
 concept Filtration =
     std::regular<typename F::Cell> &&
@@ -70,7 +71,7 @@ concept Filtration =
     };
 
 /// A filtration that can also list cofacets: enough for implicit cohomology and for the shortcuts
-/// of both engines.
+/// of homology and cohomology.
 template <class F>
 concept CofacetFiltration =
     Filtration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
@@ -115,13 +116,13 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
 /// and memory. A function with its own context has the data made beforehand, by prepare_cells.
 template <class F>
 concept LazyFiltration = Filtration<F> && requires(const F& f, const RunContext& context) {
-  /// Makes these data, unless they exist. `context` limits, watches and stops it; the context need
-  /// not outlive the filtration.
+  /// Makes these data, unless they exist. `context` limits, watches and stops the work; it need not
+  /// outlive the filtration.
   f.prepare(context);
 };
 
 /// Capability: each 1-cell has the boundary (vertex) - (other vertex), or none at all (a loop).
-/// Union-find computes H0 then. For complexes read from files, this depends on the data.
+/// Union-find can then compute H0. For complexes read from files, this depends on the data.
 template <class F>
 concept GraphFiltration = Filtration<F> && requires(const F& f) {
   { f.edges_join_vertices() } -> std::same_as<bool>;
@@ -130,7 +131,7 @@ concept GraphFiltration = Filtration<F> && requires(const F& f) {
 // clang-format on
 
 /// Makes the data that a lazy filtration needs for its cells. Code that lists cells calls it first.
-/// @throws Error (resource) and (cancelled), by the limits of that context.
+/// @throws Error (resource) and (cancelled), by the limits of `context`.
 template <Filtration F>
 void prepare_cells(const F& filtration, const RunContext& context) {
   if constexpr (LazyFiltration<F>) filtration.prepare(context);

@@ -36,9 +36,9 @@ struct GreedyPermutation {
 // Both functions take O(n k) distances for k points of n and O(n) memory.
 //
 // The quality of a subsample: Let e be its covering radius, and let the triangle inequality hold.
-// The Rips barcodes of the entire set and of the subsample can be matched such that in the
-// subsample bars are born and die at the same value or later, by at most 2e; only bars no longer
-// than 2e, of either, are left unmatched. See docs/explanation/approximation.md.
+// The Rips barcodes of the entire set and of the subsample can be matched such that the bars of the
+// subsample are born and die at the same value or later, by at most 2e; only bars of length 2e or
+// less, of either barcode, are left unmatched. See docs/explanation/approximation.md.
 
 /// For points: the same permutation as for the metric.
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.

@@ -16,7 +16,7 @@
 
 namespace ph {
 
-/// The types that the numbers of an image may have: those that VoxelType names.
+/// The types that the numbers of an image may have: the types that VoxelType names.
 template <class T>
 concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
     std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
@@ -26,16 +26,18 @@ struct BorrowedVoxels {
   VoxelType type;
   const void* data;  ///< the first number, aligned; the others follow
   std::size_t count;
-  /// Lives until the last copy of the numbers is gone; if null, the caller keeps them that long.
+  /// Keeps the memory until the last copy of this object is gone; if null, the caller must keep it
+  /// that long.
   std::shared_ptr<const void> owner = nullptr;
-  /// True if they are a mapped file: numbers already read may leave the memory and come back from
-  /// the file (ph/detail/core/file_pages.hpp). Numbers of an array would be lost that way.
+  /// True if the numbers lie in a mapped file: numbers already read may leave the memory and come
+  /// back from the file (ph/detail/core/file_pages.hpp). Numbers of an array would be lost that
+  /// way.
   bool is_file = false;
 };
 
 /// The numbers of an image, stored as they came: a byte stays a byte. They are read as doubles.
-/// Copies share the numbers; changing a copy gives it numbers of its own. Threads may use a copy
-/// each as if it were not shared. A moved-from object is empty.
+/// Copies share the numbers; changing a copy gives it numbers of its own. Each thread may use its
+/// own copy as if nothing were shared. A moved-from object is empty.
 class Voxels {
   using Numbers =
       std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
@@ -90,9 +92,9 @@ class Voxels {
     return std::visit([](const auto& all) { return size_of(all); }, shared_->numbers);
   }
   bool empty() const { return size() == 0; }
-  /// True if they stay in a file: they take memory only while they are read.
+  /// True if the numbers stay in a file: they take memory only while they are read.
   bool is_in_file() const { return is_borrowed() && borrowed()->is_file; }
-  /// True if they belong to somebody else.
+  /// True if the numbers are used in place, see BorrowedVoxels.
   bool is_borrowed() const { return borrowed() != nullptr; }
   /// Memory that the numbers take; borrowed numbers take none.
   std::size_t bytes() const { return is_borrowed() ? 0 : size() * bytes_of(type()); }
@@ -202,9 +204,9 @@ struct Image {
 /// in its own type. The caller must not change borrowed numbers as long as there is a copy of the
 /// image, or a Cubical made from it.
 /// @param strides one per axis, negative ones allowed; if empty, C order without gaps.
-/// @param owner keeps the array; if null, the caller does.
+/// @param owner keeps the array in memory; if null, the caller must.
 /// @throws Error (usage) on a negative extent, if there is not one stride per axis, or on more
-/// voxels than a size can count.
+/// voxels than std::size_t can count.
 Image image_of_array(VoxelType type, const void* data, std::vector<Index> extents,
                      std::span<const std::ptrdiff_t> strides = {},
                      std::shared_ptr<const void> owner = nullptr);
