@@ -9,32 +9,32 @@ namespace ph {
 
 /// The loops of the bars of H1, as walks from vertex to vertex.
 ///
-/// With tightening, loops of a Rips filtration become as short as is cheap; loops of all other
-/// complexes, and of bars of length zero, are the chain split by `closed_walks`. The loops of a bar
-/// [b, d) sum to a cycle of edges of value <= b, in which the birth cell occurs as often as in the
-/// chain. This cycle is homologous to the chain in the complex just before d, or in the last
-/// complex if the bar never dies; it therefore represents the bar as well as the chain does.
-/// Tightness::shortest means the following: consider the closed walks that pass the birth cell
-/// once, continue along older edges and, multiplied by the coefficient of the birth cell, are such
-/// a cycle; none of them is shorter. Lengths are sums of the values of edges.
+/// With tightening, loops of a Rips filtration become as short as moderate work allows. Loops of
+/// all other complexes, and loops of bars of length zero, are the bar's chain, split by
+/// `closed_walks`. The loops of a bar [b, d) sum to a cycle of edges of value <= b, in which the
+/// birth cell occurs as often as in the chain. This cycle is homologous to the chain in the complex
+/// just before d, or in the last complex if the bar never dies; it therefore represents the bar as
+/// well as the chain does. Tightness::shortest means the following: consider the closed walks that
+/// pass the birth cell once, continue along older edges and, multiplied by the coefficient of the
+/// birth cell, are such a cycle; none of them is shorter. Lengths are sums of the values of edges.
 ///
 /// The method: A closed walk through the birth edge is a path between its ends. It is homologous to
-/// the chain, in the sense above, if all cocycles that are born before and live at least as long
-/// agree on both (persistent cohomology has a basis of cocycles at every value). Mostly there are
-/// no such cocycles, and the shortest path is the answer; otherwise paths are searched in the cover
-/// whose sheets are the values of the cocycles. Where the cocycles or that search would take too
-/// long, the loop is changed step by step over existing triangles. The choice is made by counting
-/// steps, never by time: the result is a function of the input.
+/// the chain, in the sense above, if all cocycles that are born before the bar and live at least as
+/// long as the bar have the same value on both (persistent cohomology has a basis of cocycles at
+/// every value). Usually there are no such cocycles, and the shortest path is the answer; otherwise
+/// paths are searched in the cover whose sheets are the values of the cocycles. Where the cocycles
+/// or that search would take too long, the loop is changed step by step over existing triangles.
+/// The choice is made by counting steps, never by time: the result is a function of the input.
 ///
 /// Takes O(edges up to the last birth) memory and at most a few times 10^8 steps. If the memory
 /// limit does not allow it, loops stay untightened, if necessary even without lengths.
 ///
-/// @param cycles the bars of that complex with Representatives::cycles (or ::voxels: bars with a
-///        cycle get loops). @param options the options that the bars were computed with, or
-///        RunPlan::options, which avoids planning again and leaves less to search. @param tighten
-///        true if loops should be tightened.
-/// @return by bar; nothing for bars of other dimensions, bars without a chain, or bars whose cells
-///         are rows of a boundary matrix.
+/// @param cycles the bars of the complex, computed with Representatives::cycles, or with ::voxels,
+///        where only bars with a cycle get loops. @param options the options that the bars were
+///        computed with, or RunPlan::options, which avoids planning again and leaves less to
+///        search. @param tighten true if loops should be tightened.
+/// @return the loops of each bar; no loops for bars of other dimensions, bars without a chain, or
+///         bars whose cells are rows of a boundary matrix.
 /// @throws Error (usage) if the bars have no cycles; Error (resource, cancelled).
 std::vector<BarLoops> loops(const Rips& rips, const Barcode& cycles, const Options& options = {},
                             bool tighten = true, const RunContext& context = default_context());

@@ -25,7 +25,7 @@ struct Merge {
   Index younger = 0;       ///< vertex that gave birth to the component that dies here
   Index elder_size = 0;    ///< vertices of the surviving component just before the merge
   Index younger_size = 0;  ///< vertices of the dying component just before the merge
-  double elder_birth = 0;  ///< filtration value at which each was born
+  double elder_birth = 0;  ///< filtration values at which the two components were born
   double younger_birth = 0;
 
   double persistence() const { return value == younger_birth ? 0 : value - younger_birth; }
@@ -37,11 +37,11 @@ struct Merge {
 };
 
 /// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
-/// the Rips filtration, this is the single-linkage dendrogram, and `u`, `v` are the edges of the
-/// Euclidean minimum spanning tree (Gower & Ross 1969), which takes near-linear time for millions
-/// of points.
+/// the Rips filtration, this is the single-linkage dendrogram, and the pairs (u, v) are the edges
+/// of the Euclidean minimum spanning tree (Gower & Ross 1969), which takes near-linear time for
+/// millions of points.
 struct MergeTree {
-  std::vector<double> births;  ///< by vertex; kInfinity for a vertex that never enters
+  std::vector<double> births;  ///< one per vertex; kInfinity for a vertex that never enters
   std::vector<Merge> merges;   ///< in the order of the filtration
 
   Index size() const { return static_cast<Index>(births.size()); }
@@ -54,8 +54,8 @@ struct MergeTree {
   /// reaches it, which makes a basin grow until it meets another one, as in ToMATo (Chazal, Guibas,
   /// Oudot & Skraba 2013). O(vertices); every cut is as quick as the first.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
-  /// A class of H0: the component that a vertex gave birth to, until it merges into something
-  /// older.
+  /// A class of H0: the component that a vertex gave birth to, until it merges into an older
+  /// component.
   struct Class {
     double birth, death;
     Index vertex;
@@ -64,7 +64,7 @@ struct MergeTree {
   /// All classes, including those of length zero, by (birth, death, vertex): the order of a
   /// barcode.
   std::vector<Class> classes() const;
-  /// The same classes as branches, by the vertex that gave birth to each.
+  /// The same classes as branches, in the order of the vertices that gave birth to them.
   std::vector<Branch> branches() const;
 };
 

@@ -21,7 +21,7 @@ namespace ph {
 /// Controls the collapse of edges before the homology of a Rips complex is computed. Bars of
 /// positive length stay the same, see docs/explanation/engines/edge-collapse.md.
 enum class Collapse {
-  automatic,  ///< where it is allowed, and worthwhile by a sample of the edges
+  automatic,  ///< on if it is allowed and a sample of the edges shows that it is worthwhile
   on,
   off,
 };
@@ -38,8 +38,9 @@ struct Options {
   /// Highest dimension of homology that is reported; default: 1 for Rips, otherwise all dimensions.
   std::optional<int> max_dim = std::nullopt;
   int min_dim = 0;  ///< lowest dimension reported; lower ones are not computed if that saves work
-  std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
-  Engine engine = Engine::automatic;  ///< the engine
+  std::int64_t field = 2;  ///< characteristic of the coefficients: a prime < 2^31
+  Engine engine =
+      Engine::automatic;  ///< the engine to use; `automatic` chooses the most suitable one
   /// Rips only. With a collapse, birth and death cells have the values of their bar, but a
   /// different cell of the same value may be named; zero-length bars and cocycles exclude a
   /// collapse.
@@ -52,9 +53,9 @@ struct Options {
 };
 
 /// The barcode of a filtered complex: `plan`, then `run`.
-/// @throws Error (usage) on an invalid field, a negative dimension, a NaN, an engine that cannot do
-///         the task or a collapse that would spoil it; Error (resource) beyond the memory limit;
-///         Error (cancelled) on a stop request.
+/// @throws Error (usage) on an invalid field, a negative dimension, a NaN among the options, an
+///         engine that cannot do the task or a collapse that the task excludes; Error (resource)
+///         beyond the memory limit; Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
                     const RunContext& context = default_context());
 /// Frees the input once the planned form is made, unless there are other copies.
@@ -91,8 +92,8 @@ Barcode persistence(const AnyComplex& complex, const Options& options = {},
 /// The plan of a computation. It is a function of complex and options alone: it depends neither on
 /// earlier computations nor on threads or memory.
 struct RunPlan {
-  Options options;  ///< decided: engine, highest dimension, and collapse on or off
-  /// The form of a Rips filtration that it needs; empty for other complexes.
+  Options options;  ///< with engine, highest dimension and collapse (on or off) decided
+  /// The form of a Rips filtration that the computation needs; empty for other complexes.
   std::optional<RipsForm> form;
   std::string reason;  ///< the reason for this engine, in one phrase
   /// The reason to collapse edges or not; empty unless it is a Rips filtration.

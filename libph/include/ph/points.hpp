@@ -134,7 +134,7 @@ class Points {
     void operator()(double* data) const { std::free(data); }
   };
   // Allocated by calloc: pages that nobody writes to take no memory, and realloc gives back the
-  // end.
+  // unused end.
   using Data = std::unique_ptr<double, Free>;
   static Data zeros(Index rows, Index columns);
   static std::size_t to_size(Index n) { return static_cast<std::size_t>(n); }
@@ -148,8 +148,8 @@ class Points {
   Data data_;
 };
 
-/// Points whose coordinates lie side by side: the points of a view if they do, otherwise a copy.
-/// PointMetric has one; code that reads entire rows uses its points.
+/// Points whose coordinates lie side by side: the points of a view if it has whole rows, otherwise
+/// a copy. PointMetric holds one, for code that reads entire rows.
 class WholeRows {
  public:
   explicit WholeRows(PointsView view) : view_(view) {
@@ -176,7 +176,7 @@ class WholeRows {
 ///         short for one point.
 Points delay_embedding(PointsView series, Index dimension, Index delay = 1);
 
-/// The largest absolute value of a coordinate, ignoring NaN; 0 if there is none.
+/// The largest absolute value of a coordinate, ignoring NaN; 0 if there is no other coordinate.
 double largest_coordinate(PointsView points);
 
 }  // namespace ph

@@ -17,7 +17,7 @@
 
 namespace ph {
 
-/// The edges under a Vietoris-Rips filtration; see ph/custom.hpp.
+/// The graph of the edges of a Vietoris-Rips filtration; see ph/custom.hpp.
 class RipsGraph;
 
 /// Options that define a Vietoris-Rips filtration. They do not decide the form in which it is held
@@ -32,16 +32,16 @@ struct RipsOptions {
   /// The points that are vertices, ascending, numbered as in the input; if empty, all points are.
   /// The filtration is the filtration of these points alone.
   std::vector<std::uint32_t> vertices = {};
-  /// The diameter at which each point enters, by point of the input: finite, >= 0; default: 0, or
-  /// the births of a DistanceMatrix that has some. An edge enters when the balls of its ends meet,
-  /// see VertexWeights. A point born after the threshold is left out.
+  /// The diameter at which each point enters, one per point of the input: finite, >= 0; default: 0,
+  /// or the births of a DistanceMatrix that has some. An edge enters when the balls around its two
+  /// ends meet, see VertexWeights. A point born after the threshold is left out.
   std::vector<double> births = {};
   /// K: each point is born at twice its distance to the measure of its K nearest points, which
   /// include the point itself (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp).
   /// K is from 1 to the number of points; it needs all distances and replaces `births`.
   std::optional<Index> dtm_neighbours = std::nullopt;
-  /// Growth of the balls after their births; default: WeightExponent::one with dtm_neighbours,
-  /// otherwise WeightExponent::infinity.
+  /// The law by which balls grow after their births; default: WeightExponent::one with
+  /// dtm_neighbours, otherwise WeightExponent::infinity.
   std::optional<WeightExponent> weight_exponent = std::nullopt;
   /// Farthest-point sampling chooses the vertices, instead of `vertices`: see greedy_permutation.
   /// It needs all distances.
@@ -138,22 +138,23 @@ class Rips {
   /// True if it holds points or distances that were not freed.
   bool has_input() const;
   bool has_births() const;  ///< true if vertices enter at births of their own
-  /// The distance that no point exceeds to the nearest vertex chosen by the subsample; nothing if
+  /// The largest distance from a point to the nearest vertex chosen by the subsample; nothing if
   /// there is no subsample. Chooses the vertices if necessary. @throws Error (resource, cancelled).
   std::optional<double> covering_radius(const RunContext& context = default_context()) const;
 
   /// True if a form can be made from the input, was made, or is the given graph.
   bool has_form(RipsForm form) const;
   /// The graph of a form, made if necessary; it lives as long as a copy of the filtration. The form
-  /// `edges` evaluates O(n^2) distances or, for Euclidean points with a threshold, the distances
-  /// within it.
+  /// `edges` evaluates O(n^2) distances or, for Euclidean points with a threshold, only the
+  /// distances within that threshold.
   /// @throws Error (usage) if it does not have that form, or if the input was freed before the form
   /// was made; Error (bad_data) on a distance that is negative or NaN; Error (resource, cancelled).
   /// For a forest on another device also: Error (usage) if that device cannot do the task, Error
-  /// (not_built_in) if there is none, Error (resource) if its memory is too small.
+  /// (not_built_in) if there is no such device, Error (resource) if its memory is too small.
   const RipsGraph& graph(RipsForm form, const RunContext& context = default_context()) const;
 
-  /// Evaluates about 20 000 distances and, without a threshold, all distances of 32 points.
+  /// Estimates the edges: evaluates about 20 000 distances and, without a threshold, all distances
+  /// of 32 points.
   /// @throws Error (usage) if the input was freed; Error (bad_data) as a metric.
   RipsSample sample(const RunContext& context = default_context()) const;
 

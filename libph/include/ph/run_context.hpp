@@ -92,8 +92,8 @@ struct Progress {
   std::uint64_t total = 0;
 };
 
-/// The caller's control over a long computation: it can stop it, watch it and limit it. It must
-/// outlive every object that was built with it.
+/// The caller's means to stop, watch and limit a long computation. A context must outlive every
+/// object that was built with it.
 struct RunContext {
   RunContext() = default;
   /// A context whose memory counts in another budget, which must outlive it.
@@ -104,7 +104,8 @@ struct RunContext {
   mutable MemoryBudget memory;                       ///< unlimited unless `set_limit` is called
   int threads = 0;                                   ///< threads to use; 0: one per core
   /// Images: number of layers along the first axis that are processed together. 0: all layers if
-  /// the memory limit allows it, otherwise as many as it allows. The result does not depend on it.
+  /// the memory limit allows it, otherwise as many as it allows. The result does not depend on this
+  /// number.
   int slab_layers = 0;
 
   /// @throws Error (cancelled) once a stop was requested.
@@ -116,11 +117,12 @@ struct RunContext {
   mutable std::chrono::steady_clock::time_point last_report_ = std::chrono::steady_clock::now();
 };
 
-/// Without limits, progress and stop: used by functions that were given no context.
+/// A context without limits, progress reports or stop requests, for functions that were given no
+/// context.
 const RunContext& default_context();
 
-/// Counts the steps of a stage, and polls and reports now and then; a ticker without a name suits
-/// any thread.
+/// Counts the steps of a stage, and polls and reports now and then. A ticker whose stage has no
+/// name never reports, and can therefore be used on any thread.
 class Ticker {
  public:
   Ticker(const RunContext& context, std::string_view stage, std::uint64_t total = 0);
@@ -131,8 +133,8 @@ class Ticker {
     progress_.done += steps;
     work(steps);
   }
-  /// Counts work that is not progress (an addition inside a column): it polls without counting
-  /// steps.
+  /// Counts work that is not progress (an addition inside a column): it leads to polls, but is not
+  /// reported as steps.
   void work(std::uint64_t steps = 1) {
     pending_ += steps;
     if (pending_ >= interval_) poll();

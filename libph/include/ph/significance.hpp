@@ -31,7 +31,7 @@ struct BarPValues {
   /// such ratio.
   std::vector<double> p;
   /// The same, corrected for the number of bars tested (Bonferroni): with probability 1 - alpha,
-  /// all bars with at most alpha here are real.
+  /// all bars whose number here is at most alpha are real.
   std::vector<double> corrected;
   std::size_t tested = 0;  ///< number of bars with a ratio: finite and longer than 0
 };
@@ -54,15 +54,15 @@ BarPValues universal_p_values(std::span<const Bar> bars, DistanceFiltration filt
 struct ConfidenceOptions {
   double alpha = 0.05;           ///< the probability of error: above 0, below 1
   std::size_t subsamples = 100;  ///< at least 1
-  std::size_t size = 0;          ///< points of each; 0: n / ln n; otherwise 1 to n
+  std::size_t size = 0;          ///< points per subsample; 0: n / ln n; otherwise 1 to n
   std::uint64_t seed = 0;
 };
 
-/// The possible distance of a sample of points from the entire set that it was drawn from: a number
-/// c such that the Hausdorff distance is at most c with probability 1 - alpha, as the number of
-/// points grows. The bottleneck distance between the barcodes of the distance function is then at
-/// most c, and bars longer than 2 c are real. A Vietoris-Rips filtration by diameters has numbers
-/// twice as large: there, bars longer than 4 c are real.
+/// A bound for the distance between a sample of points and the entire set that it was drawn from: a
+/// number c such that their Hausdorff distance is at most c with probability 1 - alpha, as the
+/// number of points grows. The bottleneck distance between the barcodes of the distance function is
+/// then at most c, and bars longer than 2 c are real. The values of a Vietoris-Rips filtration are
+/// diameters, which are twice as large: there, bars longer than 4 c are real.
 ///
 /// Source: Fasy, Lecci, Rinaldo, Wasserman, Balakrishnan, Singh, Confidence sets for persistence
 /// diagrams, 2014, section 4.1: twice the (1 - alpha)-quantile of the distances between the set and
@@ -113,11 +113,11 @@ struct PermutationOptions {
 };
 
 struct PermutationTest {
-  /// (shuffles whose loss is at most the observed loss + 1) / (shuffles + 1): if the groups came
-  /// from one distribution, it would be at most t with probability t.
+  /// (1 + the number of shuffles whose loss is at most the observed loss) / (1 + the number of all
+  /// shuffles). If the groups came from one distribution, p would be at most t with probability t.
   double p = 1;
-  /// The observed loss: Σ over groups of half the mean, within the group, of the distances to that
-  /// power; infinite if doubles cannot hold it.
+  /// The observed loss: Σ over groups of half the mean, within the group, of the distances raised
+  /// to `power`; infinite if doubles cannot hold it.
   double loss = 0;
 };
 
@@ -126,8 +126,8 @@ struct PermutationTest {
 ///
 /// Source: Robinson, Turner, Hypothesis testing for topological data analysis, 2017. O(shuffles ·
 /// n²); threads share the shuffles.
-/// @param distances of all pairs, finite. @param groups by barcode: the number of its group; there
-///        must be at least two groups, each with at least two members.
+/// @param distances the distances of all pairs of barcodes, finite. @param groups the group number
+///        of each barcode; there must be at least two groups, each with at least two members.
 /// @throws Error (usage) on other groups or an option out of its range; Error (bad_data) on an
 ///         infinite distance; Error (cancelled).
 PermutationTest permutation_test(const DistanceMatrix& distances,

@@ -25,7 +25,8 @@ class SparseDistances {
 
   /// All pairs of points at Euclidean distance <= radius: O(n log n + edges).
   /// @param points one point per row. @param radius in units of the coordinates, >= 0.
-  /// @throws Error (usage) on another radius; Error (bad_data) on a coordinate that is not finite.
+  /// @throws Error (usage) on a radius that is negative or NaN; Error (bad_data) on a coordinate
+  ///        that is not finite.
   static SparseDistances within(PointsView points, double radius);
 
   Index size() const { return size_; }

@@ -26,8 +26,8 @@ Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 /// PCD 0.7 (and 0.5, 0.6): ascii, binary, binary_compressed; organised or not; all fields.
 Cloud read_pcd(const Input& input, const ReadOptions& options = {});
 
-/// PLY 1.0: ascii, both byte orders. Reads the vertices with all their scalar properties; lists of
-/// a vertex and all other elements are checked and skipped.
+/// PLY 1.0: ascii, both byte orders. Reads the vertices with all their scalar properties; list
+/// properties of vertices and all other elements are checked and skipped.
 Cloud read_ply(const Input& input, const ReadOptions& options = {});
 
 /// Text, one point per line: x y z, then more columns. A header line, if there is one, names the
@@ -43,31 +43,31 @@ Cloud read_pts(const Input& input, const ReadOptions& options = {});
 /// @throws Error (bad_data) if x, y or z is missing.
 Points points_of(const Cloud& cloud);
 
-/// NumPy array (.npy) of floats: shape (n, 3) or more columns, or (rows, columns, 3) or more for an
-/// organised cloud. The columns have the meaning of read_xyz without a header; red green blue may
-/// also be numbers in 0…1. NaN is a hole.
+/// NumPy array (.npy) of floats: shape (n, 3), or (rows, columns, 3) for an organised cloud; the
+/// last axis may be longer. The columns mean the same as in read_xyz without a header; red green
+/// blue may also be numbers in 0…1. NaN is a hole.
 Cloud read_npy_cloud(const Input& input, const ReadOptions& options = {});
 
-/// A depth image in the form of its file.
+/// A depth image as its file stores it.
 struct DepthImage {
   Image depth;          ///< two axes: rows, columns
-  double scale = 1000;  ///< depth units per metre if nothing else says so: floats are metres, whole
-                        ///< numbers millimetres
+  double scale = 1000;  ///< default number of depth units per metre: 1 for floats in NPY (metres),
+                        ///< 1000 for whole numbers (millimetres)
 };
 /// A PNG of one channel, PGM, or a NumPy array (.npy) with two axes. NaN is an absent pixel: a hole
 /// for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
 
-/// Counts of the pixels of a depth image by what became of them.
+/// Counts of the pixels of a depth image that have a depth but become holes, by reason.
 struct DepthCounts {
-  Index negative = 0;  ///< depth below 0: holes
-  Index unseen = 0;    ///< have a depth, but the lens shows no ray there: holes
+  Index negative = 0;  ///< pixels with a depth below 0
+  Index unseen = 0;    ///< pixels at which the lens shows no ray
 };
 
 /// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
 /// and, with a colour image, rgba (uint32). Depth is along z. A depth that is not finite and above
 /// 0 is a hole.
-/// @param depth two axes. @param colour grey or RGB(A), of the same size.
+/// @param depth an image with two axes. @param colour grey or RGB(A), of the same size.
 /// @param camera its size must be the size of the image, or 0.
 /// @param depth_scale depth units per metre: 1000 for millimetres.
 /// @param counts receives the counts; may be null.

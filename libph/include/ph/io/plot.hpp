@@ -17,7 +17,8 @@ namespace ph {
 /// The kinds of plots of a barcode.
 enum class PlotKind {
   barcode,  ///< one line per bar over the filtration value; a triangle ends an infinite bar
-  diagram,  ///< one point per bar: birth across, death up, infinity on a line of its own
+  diagram,  ///< one point per bar: birth on the horizontal axis, death on the vertical axis,
+            ///< infinite deaths on a line of their own
   betti,    ///< number of living bars over the filtration value, one curve per dimension
 };
 std::optional<PlotKind> plot_kind_named(std::string_view name);
@@ -40,7 +41,7 @@ struct PlotOptions {
   std::string title;                             ///< empty if there is none
   std::string value_label = "Filtration value";  ///< names the axis and, in brackets, its unit
   std::vector<int> dims = {};                    ///< dimensions of a barcode to draw; empty: all
-  /// The picture fits into it, with white around; default: 88 mm.
+  /// The picture is fitted into this size, with white around it; default: 88 mm wide.
   std::optional<PlotSize> size = {};
   PlotAxis axis = {};
   /// True if values belong to negated data (superlevel sets): the axis shows the data's own values,
@@ -49,16 +50,16 @@ struct PlotOptions {
 };
 
 /// A picture of a barcode as a complete SVG document, sized for a column of a paper (88 mm). Text
-/// stays text. The file stays below 1 MB for any number of bars: bars that cannot be told apart are
-/// drawn once.
+/// is stored as text. The file stays below 1 MB for any number of bars: bars that cannot be told
+/// apart are drawn once.
 /// @throws Error (usage) on an empty axis: low >= high, or a logarithmic one that starts at 0 or
 /// below.
 std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 
-/// The same for a merge tree (MergeTree::branches): one line per class over the filtration value,
+/// A picture of a merge tree (MergeTree::branches): one line per class over the filtration value,
 /// and at its death a line to the class that it joins. Classes of little persistence are drawn as a
-/// density. `options.kind` is ignored. @throws Error (bad_data) on NaN, or an elder branch that
-/// does not exist.
+/// density. `options.kind` is ignored. @throws Error (bad_data) on NaN, or if a branch names an
+/// elder branch that does not exist.
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
 
 /// A picture made of points or pixels whose colours have names.
@@ -72,15 +73,15 @@ struct ColouredPicture {
     double x, y;  ///< its centre, in pixels of the raster
     std::string text;
   };
-  Raster raster;  ///< at most 1040 pixels wide to fill the column in a PNG without scaling
+  Raster raster;  ///< at most 1040 pixels wide; a PNG shows such a raster without scaling
   std::vector<Mark> marks;
   std::string heading;        ///< says what the names and the values mean
   std::vector<Entry> legend;  ///< in columns below the picture; if empty, nothing is below it
-  std::string description;    ///< for readers who cannot see it
+  std::string description;    ///< describes the picture for readers who cannot see it
 };
 
-/// Embeds the raster unchanged, with the legend as text. `options.title` is above it;
-/// `options.kind` and `options.value_label` are ignored.
+/// Embeds the raster unchanged, with the legend as text. `options.title` is written above the
+/// picture; `options.kind` and `options.value_label` are ignored.
 /// @throws Error (bad_data) if the sizes of the raster disagree.
 std::string svg_plot(const ColouredPicture& picture, const PlotOptions& options = {});
 
@@ -89,7 +90,8 @@ std::string svg_plot(const ColouredPicture& picture, const PlotOptions& options 
 std::string png_plot_support();
 
 /// The pictures of svg_plot() as complete PNG files: 1040 pixels wide, which is 88 mm at 300 dots
-/// per inch, as the file says. The same input gives the same pixels, whatever fonts are installed.
+/// per inch, the resolution stored in the file. The same input gives the same pixels, whatever
+/// fonts are installed.
 /// @throws Error (not_built_in) if the library was built without FreeType; Error (resource) if the
 /// pixels exceed the memory limit.
 std::string png_plot(const Barcode& barcode, const PlotOptions& options = {},

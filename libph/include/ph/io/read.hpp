@@ -63,7 +63,7 @@ inline constexpr std::array names_of<NanPolicy>{
     Named{NanPolicy::drop, "drop"},
 };
 
-/// The content of a two-dimensional array (NPY), or of a text of numbers.
+/// The content of a two-dimensional array (NPY), or of a text file of numbers.
 enum class ArrayMeaning {
   automatic,  ///< decided by shape, type and diagonal, with a note; by default an image (NPY) or
               ///< points (text)
@@ -80,7 +80,7 @@ inline constexpr std::array names_of<ArrayMeaning>{
     Named{ArrayMeaning::distances, "distances"},
 };
 
-/// The number of a pixel that is its value.
+/// The channel of a picture that gives each pixel its value.
 enum class Channel {
   automatic,  ///< the only channel, or the value that all channels share
   grey,       ///< for colours: their luma by ITU-R BT.601, 0.299 R + 0.587 G + 0.114 B, to the
@@ -114,13 +114,14 @@ struct ReadOptions {
   Diagonal diagonal = Diagonal::zero;            ///< for square matrices
   NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
-  std::vector<std::string> columns = {};         ///< for tables: names, "3", "2-5"; empty: all
-  Channel channel = Channel::automatic;          ///< for pictures
-  std::optional<RawLayout> raw = {};             ///< used by read_any for Format::raw
+  std::vector<std::string> columns =
+      {};  ///< for tables: names of columns, numbers ("3") or ranges ("2-5"); empty: all columns
+  Channel channel = Channel::automatic;  ///< for pictures
+  std::optional<RawLayout> raw = {};     ///< used by read_any for Format::raw
   /// Budget and stop token for an input that is opened by its path; null if there are none. An open
   /// Input has its own context.
   const RunContext* context = nullptr;
-  std::function<void(Message)> note = {};  ///< receives the assumptions, one line each
+  std::function<void(Message)> note = {};  ///< receives the reader's assumptions, one line each
   std::vector<Index>* dropped = nullptr;   ///< receives the rows that were left out, ascending
 };
 
@@ -134,7 +135,7 @@ struct ReadOptions {
 // They need linear time, and never allocate more than in proportion to the size of the input.
 
 /// Points, one per line: numbers separated by blanks, commas or semicolons. A first row without any
-/// number is skipped with a note. Also takes NPY (2-D), NPZ, PCD and PLY, by content.
+/// number is skipped with a note. Also takes NPY (2-D), NPZ, PCD and PLY, recognised by content.
 /// @return one point per row. An input without points is an error unless options.allow_empty.
 Points read_points(const std::filesystem::path& path, const ReadOptions& options = {});
 Points read_points(const Input& input, const ReadOptions& options = {});
@@ -169,12 +170,12 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA or NIfTI, by content. The axes are the
-/// axes of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z). +-infinity
-/// is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that would take
-/// more than a third of the memory left in the budget stays in its file, or in a temporary file if
-/// its stored form differs from the form in memory; the file must not change meanwhile. Arrays of
-/// an archive do not stay in the file.
+/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA or NIfTI, recognised by content. The
+/// axes are the axes of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
+/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
+/// would take more than a third of the memory left in the budget stays in its file, or in a
+/// temporary file if its stored form differs from the form in memory; the file must not change
+/// while the image exists. Arrays of an archive do not stay in the file.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
@@ -182,14 +183,13 @@ Image read_image(const Input& input, const ReadOptions& options = {});
 /// Input::member names ("scans.npz:brain").
 Image read_npy_image(const Input& input, const ReadOptions& options = {});
 
-/// NIfTI-1 in one file (.nii): integers and floats of up to 8 bytes, both byte orders, 1 to 7 axes
-/// without the trailing ones of size 1; values are scaled by scl_slope and scl_inter.
+/// NIfTI-1 in one file (.nii): integers and floats of up to 8 bytes, both byte orders, 1 to 7 axes,
+/// of which trailing axes of size 1 are dropped; values are scaled by scl_slope and scl_inter.
 Image read_nifti(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_nifti(const Input& input, const ReadOptions& options = {});
 
-/// The numbers of an image and nothing else, apart from the bytes to skip: exactly as many numbers
-/// as there are voxels. @throws also Error (usage) on a layout without axes or with an unknown
-/// type.
+/// The numbers of an image, one per voxel; apart from the bytes to skip, the file must hold nothing
+/// else. @throws also Error (usage) on a layout without axes or with an unknown type.
 Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& options = {});
 
 /// An image with a list of the axes that close up on themselves.
@@ -200,9 +200,9 @@ struct PerseusImage {
 
 /// Perseus' cubical text. Either a grid: dimension, a size for each axis (negative: periodic, as in
 /// GUDHI), the values with the first axis fastest. Or a list of cubes: dimension, then one cube per
-/// line, coordinates from 0 and its value; other cubes never enter. A value of -1 never enters if
-/// all other values are positive integers, as in Perseus; otherwise it is a value, as in GUDHI. A
-/// note says which applies.
+/// line with its coordinates, counted from 0, and its value; other cubes never enter. A value of -1
+/// never enters if all other values are positive integers, as in Perseus; otherwise it is a value,
+/// as in GUDHI. A note says which applies.
 PerseusImage read_perseus(const std::filesystem::path& path, const ReadOptions& options = {});
 PerseusImage read_perseus(const Input& input, const ReadOptions& options = {});
 
@@ -214,7 +214,7 @@ struct SimplicesInput {
   /// Values on the vertices 0, 1, …, from a file of their own (read_any); otherwise empty.
   std::vector<double> vertex_values;
 
-  /// "name:line" for messages about a simplex; a copy that may outlive this object.
+  /// Names a simplex in messages as "name:line". The result may outlive this object.
   CellNamer namer() const;
 };
 
@@ -225,26 +225,27 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options = {
 /// A boundary matrix with the place of each column in its file.
 struct BoundaryInput {
   BoundaryMatrix matrix;
-  std::vector<std::size_t> places;  ///< of column i: line (text, from 1) or byte offset (binary)
+  std::vector<std::size_t>
+      places;  ///< places[i] is the line of column i (text, from 1) or its byte offset (binary)
   bool binary = false;
   std::string name;  ///< printable name of the file
 
   CellNamer namer() const;
 };
 
-/// PHAT's boundary matrices over Z/2. Text: one cell per line, its dimension, then the indices of
-/// its facets. Binary: int64 little endian: number of cells, then the dimension, number of facets
-/// and facets of each cell. Indices count from 0 and name earlier columns, ascending. Also takes
-/// DIPHA's weighted boundary matrices, whose columns may come in any order.
-/// @param values_path one value per cell: text, or float64 little endian; if empty, positions are
-/// values.
+/// PHAT's boundary matrices over Z/2. Text: one cell per line with its dimension, then the indices
+/// of its facets. Binary: int64 little endian: number of cells, then the dimension, number of
+/// facets and facets of each cell. Indices count from 0 and name earlier columns, ascending. Also
+/// takes DIPHA's weighted boundary matrices, whose columns may come in any order.
+/// @param values_path a file with one value per cell: text, or float64 little endian; if empty, the
+/// value of a cell is its position.
 BoundaryInput read_phat(const std::filesystem::path& path,
                         const std::filesystem::path& values_path = {},
                         const ReadOptions& options = {});
 BoundaryInput read_phat(const Input& input, const ReadOptions& options = {});
 
-/// Reads `count` numbers, as text or as raw float64 little endian. @param owner the things that
-/// have one number each, for messages. @throws Error (bad_data) on another count or a NaN.
+/// Reads `count` numbers, as text or as raw float64 little endian. @param owner names the things
+/// that have one number each, for messages. @throws Error (bad_data) on another count or a NaN.
 std::vector<double> read_values(const Input& input, std::size_t count,
                                 const ReadOptions& options = {}, std::string_view owner = "cell");
 
@@ -326,16 +327,16 @@ const FormatInfo& format_info(Format format);
 /// The format that a value of `--format` names ("lower-distance").
 std::optional<Format> format_from_name(std::string_view name);
 
-/// Decides by magic numbers, then by extension, then by the shape of the first lines. Never returns
-/// Format::automatic; a text of numbers without further evidence is `points`. Reads no options:
-/// read_any uses them to learn more about text.
+/// Detects the format by magic numbers, then by extension, then by the shape of the first lines.
+/// Never returns Format::automatic; a text of numbers without further evidence is `points`. Ignores
+/// options; read_any uses options to learn more about text.
 Format detect_format(const Input& input);
 
 /// Reads any format.
-/// @param path "-" is standard input. @param format for Format::automatic see detect_format.
-/// @param values_path values of the cells of a boundary matrix or of the vertices of a mesh; empty:
-///        none. @throws Error as the readers do; Error (not_built_in) if the format is not built
-///        in; Error (usage) if values are given for a format that takes none.
+/// @param path "-" is standard input. @param format with Format::automatic, see detect_format.
+/// @param values_path a file with the values of the cells of a boundary matrix or of the vertices
+///        of a mesh; empty: none. @throws Error as the readers do; Error (not_built_in) if the
+///        format is not built in; Error (usage) if values are given for a format that takes none.
 ReadResult read_any(const std::filesystem::path& path, Format format = Format::automatic,
                     const ReadOptions& options = {}, const std::filesystem::path& values_path = {});
 ReadResult read_any(const Input& input, Format format = Format::automatic,

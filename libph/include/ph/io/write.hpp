@@ -28,33 +28,34 @@ enum class BarcodeFormat {
   none,    ///< nothing
 };
 
-// Not nested in BarcodeInfo, where they have aliases: Clang does not let std::optional make an
-// object whose members have initialisers while the enclosing class is incomplete.
+// The next structs are not nested in BarcodeInfo, which has aliases of them: Clang does not let
+// std::optional make an object whose members have initialisers while the enclosing class is
+// incomplete.
 
-/// The way in which points were chosen.
+/// A subsample: `points` points, chosen from `of` points.
 struct BarcodeSubsample {
   Index points = 0, of = 0;
   double covering_radius = 0;
 };
 
-/// The voxels that points were turned into.
+/// The grid of voxels that points were turned into.
 struct BarcodeVoxelGrid {
   double voxel = 0;           ///< edge length
   std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
   std::string value;          ///< "distance", "occupancy" or "density"
 };
 
-/// The meaning of the values of an alpha complex.
+/// Facts about an alpha complex: its values, its space and its hidden points.
 struct BarcodeAlphaValues {
   bool squared = false;  ///< values are squares of radii
-  /// Length of each axis, 0 if it does not close up; empty if none does.
+  /// Length of each axis, 0 if the axis does not close up; empty if no axis does.
   std::vector<double> period;
-  std::vector<Index> hidden;  ///< points that are not part of it
+  std::vector<Index> hidden;  ///< points that are not part of the complex
 };
 
-/// The origin of a barcode: everything that the JSON format says besides the bars. Empty fields are
-/// left out; without a complex, the field of coefficients, the dimension and the threshold are left
-/// out as well.
+/// The origin of a barcode: everything that the JSON format says besides the bars. Empty members
+/// are left out; if `complex` is empty, the field of coefficients, the dimension and the threshold
+/// are left out as well.
 struct BarcodeInfo {
   std::string program;            ///< name and version
   std::string input;              ///< path of the input
@@ -63,7 +64,7 @@ struct BarcodeInfo {
   std::int64_t field = 2;
   int max_dim = 0;
   std::optional<double> threshold;
-  /// For a Rips complex, the meaning of distances: "euclidean", "minkowski:3", see metric_name;
+  /// For a Rips complex, the kind of distance: "euclidean", "minkowski:3", see metric_name;
   /// "precomputed" (given by the user), "function" (a function of the user).
   std::string metric;
   /// For an image: "vertices" or "cells", as CubicalOptions::Construction.
@@ -82,15 +83,16 @@ struct BarcodeInfo {
   std::optional<AlphaValues> alpha;
   bool superlevel = false;              ///< values are the negated values of the image
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
-  /// By bar of the barcode that is written, as ph::loops returns them: they are written beside the
-  /// cycles. Empty if there are none.
+  /// The loops of each bar, as ph::loops returns them, which are written beside the cycles. Empty
+  /// if there are none.
   std::span<const BarLoops> loops;
-  /// By bar, in CSV and JSON; NaN if a bar has none. Empty if there are none.
+  /// The p-value of each bar, written in CSV and JSON; NaN if a bar has none. Empty if no bar has
+  /// one.
   std::span<const double> p_values;
   std::optional<double> min_persistence;  ///< bars of this length or less were left out
   int min_dim = 0;                        ///< bars of lower dimensions were left out
   std::string engine;
-  std::vector<std::pair<std::string, double>> timings;  ///< stages with seconds
+  std::vector<std::pair<std::string, double>> timings;  ///< each stage with its seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0 if unknown
 };
 
@@ -116,9 +118,9 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
 
-/// Reads a barcode file of any format, also compressed with gzip; JSON brings back its cells and
-/// representatives, the other formats have none. `pers` is accepted with and without GUDHI's
-/// leading column of the characteristic; Ripser's text may have anything before its first heading.
+/// Reads a barcode file of any format, also compressed with gzip; Cells and representatives come
+/// back from JSON; the other formats have none. `pers` is accepted with and without GUDHI's leading
+/// column of the characteristic; Ripser's text may have anything before its first heading.
 /// @param format if empty, decided by content, then by extension. @param path "-" is standard
 /// input.
 /// @return the bars in the order of Barcode.
@@ -133,19 +135,20 @@ Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = s
 struct StoredBarcode {
   Barcode bars;
   BarcodeInfo info;  ///< without loops and p-values; empty for all formats except JSON
-  /// Members of the JSON that are not kept here, by name: "loops", "voxels", "p" and unknown ones.
+  /// The names of JSON members that are not kept here: "loops", "voxels", "p" and unknown names.
   std::vector<std::string> left_out;
 };
 StoredBarcode read_stored_barcode(const Input& input,
                                   std::optional<BarcodeFormat> format = std::nullopt);
 
 /// True if a file is certainly a barcode: a header `dim,birth,death`, JSON, text of Ripser, DIPHA's
-/// diagram, or a name in .pers. Rows of numbers alone, in text or NPY, may be anything.
+/// diagram, or a file name that ends in .pers. Rows of numbers alone, in text or NPY, may be
+/// anything.
 bool is_barcode(const Input& input);
 
 /// The file formats of a surface.
 enum class SurfaceFormat {
-  ply,  ///< binary; vertices with the number of their point, triangles with a mark `singular`
+  ply,  ///< binary; each vertex has the number of its point, each triangle has a flag `singular`
   off,  ///< text; the singular triangles come last
 };
 /// The format that a file name's extension stands for (.ply, .off), or nothing for an unknown one.
@@ -154,13 +157,15 @@ std::optional<SurfaceFormat> surface_format_of_path(std::string_view path);
 /// @param points the points of the mesh, in R³ or in R², where the third coordinate is written as
 /// 0.
 /// @param ids the numbers of the points in the input, one per point, below 2^32; if empty, their
-/// own positions.
-/// @throws Error (usage) on points of another space, on corners that are not points, on more
-///         regular triangles than triangles, and on invalid `ids`; Error (io) as OutputFile.
+/// positions.
+/// @throws Error (usage) on points of a space other than R² and R³, on corners that are not points,
+///         on more regular triangles than triangles, and on invalid `ids`; Error (io) as
+///         OutputFile.
 void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
                    SurfaceFormat format, std::span<const Index> ids = {});
 
-/// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 becomes 0.
+/// The shortest text that reads back to the same double. Infinities and NaN become `inf`, `-inf`
+/// and `nan`; -0 becomes 0.
 std::string shortest(double value);
 
 }  // namespace ph

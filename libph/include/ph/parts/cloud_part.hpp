@@ -14,39 +14,40 @@
 
 namespace ph {
 
-/// Options of a cloud that is computed in parts; all parts must have the same.
+/// Options of a cloud that is computed in parts; all parts must have the same options.
 struct CloudPartOptions {
   /// Largest distance at which two points are joined, inclusive. By default there is no limit.
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< parts support no other distance
   /// A part goes through this many blocks, one after another, and holds one block at a time. 0: as
-  /// many as give a block about four million points. The result does not depend on it.
+  /// many as give a block about four million points. The result does not depend on this number.
   int blocks = 0;
-  /// Number of points drawn to cut the cloud, and to find which points are far apart. 0: enough.
+  /// Number of points drawn to cut the cloud, and to find which points are far apart. 0: chosen by
+  /// the part.
   Index sample = 0;
 };
 
 /// A forecast for the parts of a cloud, from the numbers of points and blocks. The points, which
 /// may be a mapped file, are not counted.
 struct CloudPartForecast {
-  /// Bytes, at least and at most.
+  /// A lower and an upper bound, in bytes.
   struct Bytes {
     double low = 0, high = 0;
   };
   Bytes memory;  ///< of one part
   Bytes file;    ///< of one part, as CloudPart::bytes
   Bytes join;    ///< memory to join all parts and compute the bars
-  Bytes sent;    ///< by all ranks together, if each has one part
+  Bytes sent;    ///< sent by all ranks together, one part per rank
 };
 
-/// The components of a point cloud, as far as some blocks of it and the points near these determine
-/// them: edges of its minimum spanning tree. Parts are computed separately, by any processes that
-/// can read the cloud, on any machines, and can be joined in any grouping and order: all parts
-/// together give, bit by bit, the spanning forest of Rips for the entire cloud. See
-/// docs/explanation/engines/cloud-parts.md.
+/// The components of a point cloud, as far as some of its blocks, and the points near these blocks,
+/// determine them: edges of the cloud's minimum spanning tree. Parts are computed separately, by
+/// any processes that can read the cloud, on any machines, and can be joined in any grouping and
+/// order: all parts together give, bit by bit, the spanning forest of Rips for the entire cloud.
+/// See docs/explanation/engines/cloud-parts.md.
 ///
 /// The points have at most eight coordinates and Euclidean distances. A cloud may have any number
-/// of points; the parts that are joined must have fewer than 2^32 - 1.
+/// of points; the parts that are joined must have fewer than 2^32 - 1 points.
 class CloudPart {
  public:
   /// Reads the points from first to last, once, and once more per block. Holds the points of a
@@ -59,7 +60,8 @@ class CloudPart {
   /// (cancelled).
   CloudPart(PointsView points, int part, int parts, const CloudPartOptions& options = {},
             const RunContext& context = default_context());
-  /// Reads no coordinates. @throws Error (usage) as the constructor.
+  /// Forecasts memory and file sizes without reading coordinates. @throws Error (usage) as the
+  /// constructor.
   static CloudPartForecast forecast(PointsView points, int parts,
                                     const CloudPartOptions& options = {});
   CloudPart(CloudPart&&) noexcept;
@@ -77,27 +79,27 @@ class CloudPart {
   Index points() const;
   Index coordinates() const;
   std::optional<double> threshold() const;
-  /// True if it is exactly part `part` of `parts` of a cloud of that many points and axes, with
-  /// those options. The coordinates are not compared.
+  /// True if this is exactly part `part` of `parts` of a cloud with as many points and coordinates
+  /// as `points`, and with these options. The coordinates are not compared.
   bool is_of(PointsView points, int part, int parts, const CloudPartOptions& options) const;
   /// Takes in another part of the same cloud.
   /// @throws Error (bad_data) if it is a part of another cloud, has other options or shares a part
-  ///         with this one; nothing has changed then. Error (resource, cancelled): neither part can
+  ///         with this one; this part is then unchanged. Error (resource, cancelled): neither part can
   ///         be used afterwards.
   void join(CloudPart other, const RunContext& context = default_context());
 
   /// The bars of H0 of positive length, without cells: 24 bytes each. Precondition: is_whole().
-  /// @throws Error (bad_data) if the parts lack edges of the forest: every part knows which points
-  ///         must be joined, and by edges of which length.
+  /// @throws Error (bad_data) if the parts lack edges of the forest. This is noticed, because every
+  ///         part knows which points must be joined, and how long the edges between them are.
   Barcode barcode(const RunContext& context = default_context()) const;
   /// The filtration of the entire cloud, held only as its minimum spanning forest: for
   /// `persistence` with max_dim 0 and cells, and for `merge_tree`. Precondition: is_whole().
   /// @throws Error (bad_data) as barcode, (resource) as Rips.
   Rips rips(const RunContext& context = default_context()) const&;
-  /// The same, but leaves a part that can only be assigned to.
+  /// The same filtration; this object can afterwards only be assigned to or destroyed.
   Rips rips(const RunContext& context = default_context()) &&;
 
-  /// The part as bytes: the same on every machine, however it was joined.
+  /// The part as bytes: the same on every machine, whatever the order of joins.
   std::vector<std::byte> bytes() const;
   /// @throws Error (bad_data) on anything that `bytes` did not make.
   static CloudPart of_bytes(std::span<const std::byte> bytes,

@@ -13,9 +13,9 @@
 namespace ph {
 
 /// The loops of one part of a volume: bars that need all layers together, above all in dimension 1.
-/// Parts work side by side, in any processes on any machines, and send each other messages until
-/// none is on its way. The order of work and of messages does not matter: the bars are always the
-/// bars of the entire volume. See docs/explanation/engines/slabs.md.
+/// Parts work side by side, in any processes on any machines, and send each other messages until no
+/// message is on its way. The order of work and of messages does not matter: the bars are always
+/// the bars of the entire volume. See docs/explanation/engines/slabs.md.
 ///
 ///     ImageLoops loops(part);                      // then `part` is joined with the others
 ///     loops.begin(whole.told_to_loops(number));    // a few bytes from the process with the whole
@@ -28,7 +28,8 @@ namespace ph {
 class ImageLoops {
  public:
   /// @param part must have just been computed, as a single part with has_loops(). It lends its
-  ///        voxels and its data on loops; it keeps bars and seams.
+  ///        voxels and its data on loops to this object; it keeps its bars and the data at its two
+  ///        ends.
   /// @param field the characteristic of the coefficients; the same in all parts.
   /// @param context must outlive this object.
   /// @throws Error (usage) on any other part, or on an invalid field.
@@ -48,8 +49,8 @@ class ImageLoops {
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
   bool is_idle() const;
-  /// Works on up to `most` columns, until all are done or wait for other parts. @throws Error
-  /// (cancelled).
+  /// Reduces up to `most` columns, or until all columns are done or wait for other parts. @throws
+  /// Error (cancelled).
   void work(std::size_t most = SIZE_MAX);
 
   struct Message {
@@ -63,8 +64,8 @@ class ImageLoops {
   /// sent has been received.
   Barcode barcode() const;
 
-  /// Amounts sent and received until now. Once no message is on its way, the sums over all parts
-  /// are equal.
+  /// Amounts sent and received until now. Once no message is on its way, the amounts sent and
+  /// received by all parts together are equal.
   struct Traffic {
     std::uint64_t columns_sent = 0, columns_received = 0, bytes_sent = 0;
     std::uint64_t messages_sent = 0, messages_received = 0;

@@ -13,7 +13,7 @@
 
 namespace ph {
 
-/// Options of an image that is computed in parts; all parts must have the same.
+/// Options of an image that is computed in parts; all parts must have the same options.
 struct ImagePartOptions {
   CubicalOptions cubical = {};
   int min_dim = 0;
@@ -31,28 +31,29 @@ struct ImagePartOptions {
 struct ImagePartForecast {
   /// Values of ImagePartOptions::first_layers with which no part takes much longer than the others.
   std::vector<Index> first_layers;
-  /// Time of the longest of equally large parts, relative to their mean.
+  /// Time of the slowest part if all parts are equally large, relative to the mean time of a part.
   double longest = 1;
-  /// Bytes, at least and at most.
+  /// A lower and an upper bound, in bytes.
   struct Bytes {
     double low = 0, high = 0;
   };
-  Bytes memory;  ///< of the part that takes most; includes voxels of a mapped file
-  Bytes file;    ///< for the largest part, as ImagePart::bytes
+  Bytes memory;  ///< of the part that takes most memory, including voxels of a mapped file
+  Bytes file;    ///< size of the largest part's file, see ImagePart::bytes
   Bytes join;    ///< memory to join all parts
-  Bytes sent;    ///< by all ranks together, if each has one part; with ImageLoops
+  Bytes
+      sent;  ///< sent by all ranks together, one part per rank; includes the messages of ImageLoops
 };
 
-/// The barcode of some layers of an image, as far as these layers determine it: pairs that no other
-/// layer can change, and the data at its two ends that other layers can change. Parts are computed
-/// separately, by any processes on any machines, and can be joined in any grouping: the bars are
-/// the bars of the entire image. See docs/explanation/engines/slabs.md.
+/// The barcode of some layers of an image, as far as these layers determine it: the pairs that no
+/// other layer can change, and the data at the first and last of these layers that other layers can
+/// change. Parts are computed separately, by any processes on any machines, and can be joined in
+/// any grouping: the bars are the bars of the entire image. See docs/explanation/engines/slabs.md.
 ///
 /// The image has two to eight axes and any number of voxels above one; with loops, a part must have
 /// fewer than about 2^31 voxels. With d >= 3 axes, bars of dimensions 1 to d - 2 need all layers;
-/// if an axis closes up, so do bars of higher dimensions. These bars are refused, unless the image
-/// is a volume and option `loops` promises that ImageLoops will find them. Max_dim 0 and min_dim d
-/// - 1 are always possible.
+/// if an axis closes up, so do bars of higher dimensions. Requests for these bars are refused,
+/// unless the image is a volume and option `loops` promises that ImageLoops will find them. Max_dim
+/// 0 and min_dim d - 1 are always possible.
 class ImagePart {
  public:
   /// Computes layers n · part / parts up to n · (part + 1) / parts of the n layers of the slowest
@@ -68,7 +69,7 @@ class ImagePart {
   /// The largest number of parts: one per layer.
   /// @throws Error (usage) on images that cannot be divided.
   static int most_parts(const Image& image, const CubicalOptions& options = {});
-  /// Reads about one voxel in twenty.
+  /// Forecasts from about one voxel in twenty.
   /// @throws Error (usage, bad_data) as the constructor.
   static ImagePartForecast forecast(const Image& image, int parts,
                                     const ImagePartOptions& options = {});
@@ -76,7 +77,7 @@ class ImagePart {
   ImagePart& operator=(ImagePart&&) noexcept;
   ~ImagePart();
 
-  /// The parts that it covers, first() to last(), of how many.
+  /// This object covers the parts first() to last() of parts() parts.
   int first() const;
   int last() const;
   int parts() const;
@@ -85,20 +86,20 @@ class ImagePart {
   const std::vector<Index>& extents() const;
   VoxelType type() const;
   const ImagePartOptions& options() const;
-  /// True if it is exactly part `part` of `parts` of an image of that shape and type, with those
-  /// options, as the constructor would make it. The voxels are not compared.
+  /// True if this is exactly part `part` of `parts` of an image with the shape and type of `image`,
+  /// and with these options, as the constructor would make it. The voxels are not compared.
   bool is_of(const Image& image, int part, int parts, const ImagePartOptions& options) const;
   /// Takes in the part that follows directly.
   /// @throws Error (bad_data) if it does not follow, belongs to another image or has other options;
-  ///         nothing has changed then.
+  ///         this part is then unchanged.
   void join(ImagePart next, const RunContext& context = default_context());
-  /// The bars of positive length, except bars of ImageLoops. Precondition: is_whole().
+  /// The bars of positive length, except the bars that ImageLoops finds. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;
 
-  /// True if ImageLoops has bars that are wanted.
+  /// True if ImageLoops is needed for bars that the options ask for.
   bool has_loops() const;
-  /// The findings of the joins about the loops of one part, as bytes. Precondition: is_whole(),
-  /// has_loops().
+  /// The results of the joins that ImageLoops::begin needs for one part, as bytes. Precondition:
+  /// is_whole(), has_loops().
   std::vector<std::byte> told_to_loops(int part) const;
 
   /// The part as bytes with a checksum: the same on every machine.
