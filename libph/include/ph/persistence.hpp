@@ -38,9 +38,8 @@ struct Options {
   /// Highest dimension of homology that is reported; default: 1 for Rips, otherwise all dimensions.
   std::optional<int> max_dim = std::nullopt;
   int min_dim = 0;  ///< lowest dimension reported; lower ones are not computed if that saves work
-  std::int64_t field = 2;  ///< characteristic of the coefficients: a prime < 2^31
-  Engine engine =
-      Engine::automatic;  ///< the engine to use; `automatic` chooses the most suitable one
+  std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
+  Engine engine = Engine::automatic;  ///< automatic: the engine that suits the task best
   /// Rips only. With a collapse, birth and death cells have the values of their bar, but a
   /// different cell of the same value may be named; zero-length bars and cocycles exclude a
   /// collapse.

@@ -114,8 +114,8 @@ struct ReadOptions {
   Diagonal diagonal = Diagonal::zero;            ///< for square matrices
   NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
-  std::vector<std::string> columns =
-      {};  ///< for tables: names of columns, numbers ("3") or ranges ("2-5"); empty: all columns
+  /// For tables: names of columns, numbers ("3") or ranges ("2-5"); empty: all columns.
+  std::vector<std::string> columns = {};
   Channel channel = Channel::automatic;  ///< for pictures
   std::optional<RawLayout> raw = {};     ///< used by read_any for Format::raw
   /// Budget and stop token for an input that is opened by its path; null if there are none. An open
@@ -225,8 +225,8 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options = {
 /// A boundary matrix with the place of each column in its file.
 struct BoundaryInput {
   BoundaryMatrix matrix;
-  std::vector<std::size_t>
-      places;  ///< places[i] is the line of column i (text, from 1) or its byte offset (binary)
+  /// places[i] is the line of column i (text, from 1) or its byte offset (binary).
+  std::vector<std::size_t> places;
   bool binary = false;
   std::string name;  ///< printable name of the file
 

@@ -40,8 +40,8 @@ struct ImagePartForecast {
   Bytes memory;  ///< of the part that takes most memory, including voxels of a mapped file
   Bytes file;    ///< size of the largest part's file, see ImagePart::bytes
   Bytes join;    ///< memory to join all parts
-  Bytes
-      sent;  ///< sent by all ranks together, one part per rank; includes the messages of ImageLoops
+  /// Sent by all ranks together, one part per rank; includes the messages of ImageLoops.
+  Bytes sent;
 };
 
 /// The barcode of some layers of an image, as far as these layers determine it: the pairs that no

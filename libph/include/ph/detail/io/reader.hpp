@@ -176,8 +176,8 @@ std::vector<std::string> header_names(std::string_view line);
 enum class Allow {
   finite,
   infinite,
-  any,      ///< also an empty cell, before a separator or between quotes: NaN
-  missing,  ///< also an empty cell, before a separator or between quotes: NaN
+  any,      ///< also NaN and marks of missing values, which are read as NaN
+  missing,  ///< also an empty cell before a separator or between quotes, read as NaN
 };
 
 /// Advice for the user about a cell that is not a number, if the cell does not explain itself.
