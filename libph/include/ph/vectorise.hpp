@@ -6,7 +6,7 @@
 /// function says otherwise; `finite_bars` leaves out, caps or refuses infinite bars. Births and
 /// deaths are at most 1e100 in absolute value. Results have the unit of the values unless another
 /// unit is named, are written to `out`, a block of doubles in C order, and depend only on the bars
-/// and the parameters. Errors: (usage) on a parameter out of its range or on an `out` of another
+/// and the parameters. Errors: (usage) on a parameter out of its range or on an `out` of the wrong
 /// size; (bad_data) on a NaN, a death before its birth, a bar that is not finite, or a number that
 /// is too large.
 #pragma once
@@ -26,12 +26,12 @@ namespace ph {
 
 // ---- input
 
-/// The treatment of bars without an end.
+/// The treatment of bars that never die.
 struct InfiniteBars {
   enum class Rule {
-    drop,    ///< they are left out
-    cap,     ///< they die at `cap`
-    refuse,  ///< they are an error
+    drop,    ///< these bars are left out
+    cap,     ///< these bars die at `cap`
+    refuse,  ///< these bars are an error
   };
   Rule rule = Rule::drop;
   double cap = 0;  ///< finite; not before the birth of a bar that never dies
@@ -42,8 +42,8 @@ struct FiniteBars {
   std::size_t dropped = 0;  ///< number of bars left out
 };
 
-/// Bars with both ends finite. Bars that were always there (born at -infinity) cannot be capped:
-/// both `cap` and `refuse` refuse them.
+/// Bars with both ends finite. Bars born at -infinity cannot be capped: `cap` refuses them as well
+/// as `refuse`.
 FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule = {});
 
 /// The values at which a function is evaluated: `points` values, equally spaced, with both ends
@@ -78,8 +78,8 @@ struct ImageFrame {
 };
 
 /// The frame from the smallest to the largest birth in a batch, and from 0 to the largest length.
-/// If all births are equal, the frame around them is as wide as it is high; it has height 1 if
-/// there are no bars.
+/// If all births are equal, the frame around them is as wide as it is high. If there are no bars,
+/// the frame has height 1.
 ImageFrame fit_image_frame(std::span<const std::span<const Bar>> diagrams, std::size_t births = 20,
                            std::size_t lengths = 20);
 
@@ -93,15 +93,15 @@ inline constexpr std::size_t kStatistics = 38;
 /// no bars.
 ///
 /// Source: Ali et al., A survey of vectorization methods in topological data analysis, 2023, where
-/// these did best. O(n log n).
+/// these numbers did best. O(n log n).
 void statistics(std::span<const Bar> bars, std::span<double> out);
 
 /// Names of the columns of `statistics`: birth_mean, birth_sd, …, count, entropy.
 const std::array<std::string_view, kStatistics>& statistics_names();
 
-/// The persistent entropy: -Σ p ln p over the shares p of the bars in the sum of their lengths; in
-/// nats. 0 if there are no bars. `normalised`: divided by ln n, its largest value for n bars,
-/// without a unit; 0 for one bar.
+/// The persistent entropy: -Σ p ln p, where p is a bar's share of the sum of all lengths. The unit
+/// is nats. 0 if there are no bars. If `normalised`, the entropy is divided by ln n, its largest
+/// value for n bars, and has no unit; it is then 0 for one bar.
 ///
 /// Source: Chintakunta et al., An entropy-based persistence barcode, 2015. O(n).
 double entropy(std::span<const Bar> bars, bool normalised = false);
@@ -122,8 +122,8 @@ void betti_curve(std::span<const Bar> bars, const Grid& grid, std::span<double> 
 void life_entropy_curve(std::span<const Bar> bars, const Grid& grid, std::span<double> out);
 
 /// The silhouette: Σ w max(0, min(t - birth, death - t)) / Σ w, with w = length^power; 0 if there
-/// are no bars. There is no factor √2, which definitions have whose heights are distances from the
-/// diagonal.
+/// are no bars. Definitions that measure heights as distances from the diagonal have a factor √2;
+/// this one has none.
 ///
 /// Source: Chazal et al., Stochastic convergence of persistence landscapes and silhouettes, 2014.
 /// O(n + m), with sums in double-double precision.
@@ -132,26 +132,27 @@ void silhouette(std::span<const Bar> bars, const Grid& grid, double power, std::
 
 /// The first persistence landscapes: layer k at t is the k-th largest of max(0, min(t - birth,
 /// death - t)), to the last bit. There is no factor √2. Bars that never die are allowed and grow
-/// forever; bars that were always there are not.
+/// forever; bars born at -infinity are refused.
 ///
 /// Source: Bubenik, Statistical topological data analysis using persistence landscapes, 2015. Bars
 /// that grow at t and bars that shrink are sorted into grid cells by their turning point; the best
-/// of each are kept while the grid is walked once down and once up. O((n + m) layers) at most.
+/// bars of either kind are kept while the grid is walked once down and once up. O((n + m) layers)
+/// at most.
 /// @param layers at least 1. @param out layers × grid.points, one row per layer.
 void landscape(std::span<const Bar> bars, const Grid& grid, std::size_t layers,
                std::span<double> out, const RunContext& context = default_context());
 
-/// A continuous function, linear between its critical points; 0 before the first and after the
-/// last.
+/// A continuous function, linear between its critical points; 0 before the first and after the last
+/// of these points.
 struct PiecewiseLinear {
   std::vector<double> at;     ///< ascending
-  std::vector<double> value;  ///< as many as places
+  std::vector<double> value;  ///< one per place
   /// @throws Error (usage) if the numbers of values and places differ.
   double operator()(double t) const;
 };
 
-/// The first persistence landscapes, exact: all their critical points. There are fewer layers if
-/// the others are 0 everywhere.
+/// The first persistence landscapes, exact: all their critical points. The result has fewer than
+/// `layers` layers if all further layers are 0 everywhere.
 ///
 /// Source: Bubenik, Dłotko, A persistence landscapes toolbox for topological statistics, 2017: the
 /// upper hull of the tents is peeled off. O(n log n + n · layers), with at most n layers.
@@ -161,8 +162,9 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> bars, std::siz
 // ---- pictures
 
 /// The persistence image: each bar is a normal distribution around (birth, length) with standard
-/// deviation `sigma` along both axes, times length^power; a pixel holds the integral over it. The
-/// part of a bar more than 8 sigma away, less than 2e-15 of it, is left out.
+/// deviation `sigma` along both axes, times length^power; a pixel holds the integral over its area.
+/// The part of a distribution that is more than 8 sigma from its centre, less than 2e-15 of the
+/// whole, is left out.
 ///
 /// Source: Adams et al., 2017, Persistence images: a stable vector representation of persistent
 /// homology. O(n · pixels within 8 sigma). Unit: the unit of the values to the power of `power`; no
@@ -175,15 +177,14 @@ void persistence_image(std::span<const Bar> bars, const ImageFrame& frame, doubl
 
 // ---- learned from a batch
 
-/// The result of fitting ATOL to a batch: places in the plane (birth, death), and the reach of
-/// each.
+/// The result of fitting ATOL to a batch: centres in the plane (birth, death), each with a width.
 struct Atol {
   enum class Contrast {
     laplace,  ///< exp(-distance / width)
     gauss,    ///< exp(-distance² / width²)
   };
   std::vector<std::array<double, 2>> centres;  ///< ascending
-  std::vector<double> widths;                  ///< as many as centres, > 0
+  std::vector<double> widths;                  ///< one per centre, > 0
   Contrast contrast = Contrast::laplace;
   friend bool operator==(const Atol&, const Atol&) = default;
 };
@@ -197,7 +198,7 @@ inline constexpr std::array names_of<Atol::Contrast>{
 struct AtolOptions {
   std::size_t centres = 10;  ///< at least 1
   Atol::Contrast contrast = Atol::Contrast::laplace;
-  std::uint64_t seed = 0;  ///< seed of the first centres
+  std::uint64_t seed = 0;  ///< seed for the choice of the first centres
   int most_rounds = 300;   ///< limit for the rounds of k-means, at least 0
 };
 
@@ -215,18 +216,19 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
               const RunContext& context = default_context());
 
 /// For each centre, the sum of `contrast` over the bars. It has no unit. O(n · centres).
-/// @param out as many numbers as centres. @throws Error (usage) on an invalid `Atol`.
+/// @param out one number per centre. @throws Error (usage) on an invalid `Atol`.
 void atol_vector(std::span<const Bar> bars, const Atol& fitted, std::span<double> out);
 
 // ---- kernels
 
-/// The persistence scale-space kernel of two diagrams: 1 / (8 π sigma) · Σ exp(-|p - q|² / (8
-/// sigma)) - exp(-|p - q'|² / (8 sigma)) over bars p of one and q of the other, where q' is q with
-/// birth and death exchanged. It is positive definite. sigma has the squared unit of the values.
+/// The persistence scale-space kernel of two diagrams: 1 / (8 π sigma) · Σ (exp(-|p - q|² / (8
+/// sigma)) - exp(-|p - q'|² / (8 sigma))) over bars p of one diagram and q of the other, where q'
+/// is q with birth and death exchanged. It is positive definite. sigma has the squared unit of the
+/// values.
 ///
 /// Source: Reininghaus et al., A stable multi-scale kernel for topological machine learning, 2015.
-/// Pairs with |p - q|² > 320 sigma are left out: each is below 5e-18 of a pair of equal bars. O(n
-/// m) at most.
+/// Pairs with |p - q|² > 320 sigma are left out: each contributes less than 5e-18 of what a pair of
+/// equal bars contributes. O(n m) at most.
 /// @param sigma finite, > 0.
 double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double sigma,
                           const RunContext& context = default_context());
@@ -241,12 +243,12 @@ struct WeightedGaussian {
 /// sigma²)). It is positive definite.
 ///
 /// Source: Kusano, Fukumizu, Hiraoka, Persistence weighted Gaussian kernel for topological data
-/// analysis, 2016. Pairs with |p - q|² > 80 sigma² are left out, as above.
+/// analysis, 2016. Pairs with |p - q|² > 80 sigma² are left out, as in scale_space_kernel.
 double weighted_gaussian_kernel(std::span<const Bar> a, std::span<const Bar> b,
                                 const WeightedGaussian& options = {},
                                 const RunContext& context = default_context());
 
-/// A kernel of two diagrams. Several threads call it.
+/// A kernel of two diagrams. Several threads may call it at once.
 using DiagramKernel =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 

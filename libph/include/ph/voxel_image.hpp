@@ -19,14 +19,14 @@ struct PointImage {
 
 /// The value of a voxel of a point cloud. Low values enter first.
 enum class VoxelValue {
-  /// The distance from its centre to the centre of the nearest voxel that contains a point.
+  /// The distance from the voxel's centre to the centre of the nearest voxel that contains a point.
   /// Sublevel sets are growing balls around the points, as in the alpha filtration, at a cost that
   /// depends only on the volume: with `Cubical` they tell how many pieces, loops and hollows the
-  /// cloud has, and how wide these are. It differs from the distance to the points by at most voxel
-  /// * sqrt(d), which bounds the error of every bar (Cohen-Steiner, Edelsbrunner & Harer, Stability
-  /// of persistence diagrams, 2007).
+  /// cloud has, and how wide these are. This value differs from the distance to the points by at
+  /// most voxel * sqrt(d), which bounds the error of every bar (Cohen-Steiner, Edelsbrunner &
+  /// Harer, Stability of persistence diagrams, 2007).
   distance,
-  occupancy,  ///< 0 if it contains a point; otherwise absent, see Image::masked
+  occupancy,  ///< 0 if the voxel contains a point; otherwise absent, see Image::masked
   density,    ///< the negated number of points in it; absent if there are none
 };
 

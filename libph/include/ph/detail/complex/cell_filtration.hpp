@@ -14,8 +14,8 @@ namespace ph {
 ///   void for_each_cell(int dim, visit) const    calls visit(Cell) for each cell of that dimension
 ///   void for_each_facet(int dim, Cell, visit) const    calls visit(Cell, int incidence)
 ///
-/// ph/filtration.hpp explains them. Derived may replace the other members, defined below. It can
-/// also add members of further capabilities, such as edges_join_vertices().
+/// ph/filtration.hpp explains these members. Derived may replace the members that are defined
+/// below. It can also add members of further capabilities, such as edges_join_vertices().
 /// @tparam TopDim the highest dimension of a cell.
 /// @tparam C the type of a cell; it has the operator <.
 template <class Derived, int TopDim, std::totally_ordered C = Index>
@@ -25,7 +25,7 @@ class CellFiltration {
  public:
   using Cell = C;
 
-  /// Found by listing the cells.
+  /// Lists the cells of each dimension, from TopDim down, until a dimension has a cell.
   int top_dim() const {
     for (int dim = TopDim; dim >= 0; --dim) {
       bool has_cell = false;
@@ -34,7 +34,7 @@ class CellFiltration {
     }
     return -1;
   }
-  /// Orders by value, and cells of equal value by <.
+  /// Compares cells by value, and cells of equal value by <.
   bool precedes(const Cell& a, const Cell& b) const {
     const double x = derived().value(a), y = derived().value(b);
     return x != y ? x < y : a < b;

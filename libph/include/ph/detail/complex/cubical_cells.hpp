@@ -38,7 +38,7 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
   if (dim < 0 || dim > dim_ || cells_ == 0) return;
   const auto& keys = table().keys;
   const auto axes = static_cast<std::size_t>(dim_);
-  // One set of odd axes after the other; the cells of a set come in grid order.
+  // One set of axes with odd coordinates after the other; the cells of a set come in grid order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
     std::array<std::uint64_t, kMaxDim> at{};

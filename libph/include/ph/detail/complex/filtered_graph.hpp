@@ -12,16 +12,16 @@
 
 namespace ph {
 
-/// A graph whose vertices and edges have values, as a filtration: it is enough for H0 and its merge
+/// A graph whose vertices and edges have values, as a filtration: it is enough for H0 and the merge
 /// tree, and takes 16 bytes per edge. Vertices and edges of value +infinity never enter. Order:
 /// (value, dimension, vertex number or position of the edge).
 class FilteredGraph {
  public:
   using Cell = std::uint32_t;  ///< vertex v is v; the edge at position i of the order is size() + i
 
-  /// @param births a value for each vertex 0 … size-1. @param edges in any order, parallel ones and
-  /// loops allowed; ties are broken by position. O(vertices log vertices + edges).
-  /// @throws Error (bad_data) on NaN, on a vertex out of range and on an edge that is older than
+  /// @param births a value for each vertex 0 … size-1. @param edges in any order; parallel edges
+  /// and loops are allowed; ties are broken by position. O(vertices log vertices + edges).
+  /// @throws Error (bad_data) on NaN, on a vertex out of range and on an edge that enters before
   ///         one of its ends; Error (resource) beyond 2^32 - 2 cells or the memory limit.
   FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,
                 const RunContext& context = default_context());
@@ -81,7 +81,7 @@ class FilteredGraph {
   /// The edge with the value of its later end. @throws Error (bad_data) on a vertex out of range.
   Edge edge_between(const WeightedEdge& edge) const;
 
-  /// Edges that never enter come last in the order.
+  /// Removes the edges that never enter, which come last in the order.
   void leave_out_what_never_enters();
 
   std::pmr::vector<double> births_;

@@ -18,7 +18,7 @@ struct ValuedSimplex {
   double value = 0;
   std::array<Index, TopDim + 1> vertices{};  ///< ascending; 0 beyond the dimension
 
-  /// The vertices of a simplex of that dimension.
+  /// The vertices, if the simplex has dimension `dim`.
   std::span<const Index> span(int dim) const {
     return std::span(vertices).first(static_cast<std::size_t>(dim) + 1);
   }
@@ -45,8 +45,9 @@ namespace detail {
 /// enter before one of its faces. An engine that notices a violation or a NaN throws an Error
 /// (bad_data). Several threads may call these members at once.
 ///
-/// Nothing is stored. Listing the facets of a cell of dimension d costs up to d + 1 calls; listing
-/// its cofacets costs one call per vertex. Order: (value, dimension, vertices).
+/// Nothing is stored. Listing the facets of a cell of dimension d costs up to d + 1 calls of
+/// simplex_value; listing its cofacets costs one call per vertex. Order: (value, dimension,
+/// vertices).
 /// @tparam TopDim simplices of higher dimensions are left out, which does not change the homology
 /// below TopDim.
 template <class Derived, int TopDim>
@@ -103,7 +104,8 @@ class SimplexFiltration {
     }
   }
 
-  /// The new vertex ascends, and the order of the cofacets ascends with it.
+  /// The new vertex ascends from one cofacet to the next; cofacets of equal value therefore come in
+  /// the order of the filtration.
   template <class Visit>
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     if (dim >= TopDim) return;
@@ -131,7 +133,7 @@ class SimplexFiltration {
   static Index at(const Cell& cell, int i) { return cell.vertices[static_cast<std::size_t>(i)]; }
 
   /// Visits the simplices of dimension `dim` that begin with the first `count` vertices of a cell,
-  /// until `visit` returns false. @return true if it never did.
+  /// until `visit` returns false. @return true if `visit` never did.
   template <class Visit>
   bool extend(Cell& cell, int count, int dim, const Visit& visit) const {
     const Index n = derived().vertex_count();

@@ -5,7 +5,7 @@
 namespace ph {
 
 /// A class of H0 as a branch of the merge tree: from its birth to the value at which it joins the
-/// branch of an elder one.
+/// branch of an elder class.
 struct Branch {
   double birth = 0;
   double death = kInfinity;

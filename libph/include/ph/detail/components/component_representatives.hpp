@@ -13,9 +13,9 @@
 
 namespace ph {
 
-/// Gives the bars of H0 their representatives, if they are wanted: the cycle is the difference of
-/// the oldest vertices of the two components that join, and the cocycle is one on the component
-/// that dies.
+/// Gives the bars of H0 their representatives, if representatives are wanted: the cycle is the
+/// difference of the oldest vertices of the two components that join, and the cocycle is one on the
+/// component that dies.
 template <Filtration F, Field K>
 class ComponentRepresentatives {
  public:
@@ -28,8 +28,8 @@ class ComponentRepresentatives {
 
   /// Sets the representative of the last bar added. @param cell_of maps a vertex to its cell.
   /// @param v the oldest vertex of the component.
-  /// @param elder the oldest vertex of the component that v's is about to join, or none if v's
-  /// lives on.
+  /// @param elder the oldest vertex of the component that v's component is about to join, or none
+  /// if v's component lives on.
   template <class CellOf>
   void give(std::uint32_t v, std::optional<std::uint32_t> elder, CellOf&& cell_of) {
     if (is_wanted(Representatives::none)) return;

@@ -28,9 +28,11 @@ class DisjointSets {
   }
   /// To be called some time before `find`, because memory is slower than the other work on a set.
   void prefetch(std::uint32_t v) const { __builtin_prefetch(&parent_[v]); }
-  /// To be called once `prefetch` has had its time: it prefetches what `find` reads next.
+  /// To be called when `prefetch` has had time to finish: it prefetches the entry that `find` reads
+  /// next.
   void prefetch_parent(std::uint32_t v) const { __builtin_prefetch(&parent_[parent_[v]]); }
-  /// Makes `root` the parent of `child`. Precondition: `child` is a root of another set.
+  /// Makes `root` the parent of `child`. Precondition: `child` is the root of a set that does not
+  /// contain `root`.
   void link(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
 
  private:

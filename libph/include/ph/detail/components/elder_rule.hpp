@@ -13,7 +13,7 @@
 
 namespace ph {
 
-/// The vertices of each component as a ring, which any of its vertices gives.
+/// The vertices of each component, linked in a ring, which can be walked from any of them.
 class ComponentRings {
  public:
   ComponentRings(std::size_t size, std::pmr::memory_resource* memory) : next_(size, memory) {
@@ -32,8 +32,8 @@ class ComponentRings {
   std::pmr::vector<std::uint32_t> next_;
 };
 
-/// By vertex: its position in the order of (birth, number). @param births if empty, all births are
-/// equal.
+/// Returns the position of each vertex in the order of (birth, number). @param births if empty, all
+/// births are equal.
 inline std::pmr::vector<std::uint32_t> vertex_ages(std::size_t size, std::span<const double> births,
                                                    std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> order(size, memory);
@@ -53,8 +53,9 @@ struct GraphEdge {
 };
 
 /// Kruskal's algorithm with the elder rule (Edelsbrunner & Harer, Computational Topology, VII.2):
-/// when an edge joins two components, the one whose oldest vertex is younger dies.
-/// @param age by vertex: its position in the order of the filtration.
+/// when an edge joins two components, the component whose oldest vertex is the younger of the two
+/// dies.
+/// @param age the position of each vertex in the order of the filtration.
 /// @param edges in the order of the filtration.
 /// @param on_merge called with (position of the edge, oldest vertex of the elder component, oldest
 ///        vertex of the younger one).

@@ -36,10 +36,10 @@ struct OneSkeleton {
   }
 
   std::pmr::vector<Cell> vertices;
-  /// By vertex number: position in the order of the filtration.
+  /// The position of each vertex in the order of the filtration, by vertex number.
   std::pmr::vector<std::uint32_t> age;
   std::pmr::vector<Cell> edges;      ///< in the order of the filtration
-  std::pmr::vector<GraphEdge> ends;  ///< by edge: vertex numbers; a loop joins 0 to 0
+  std::pmr::vector<GraphEdge> ends;  ///< the vertex numbers of each edge; a loop joins 0 to 0
 
  private:
   void take_flag_graph(const F& filtration) {

@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// Collects the pairs of an engine: it turns cells into bars and drops bars that the user does not
-/// want.
+/// Collects the pairs that an engine reports: it turns cells into bars and drops bars that the user
+/// does not want.
 template <Filtration F>
 class BarcodeBuilder {
  public:
@@ -34,7 +34,7 @@ class BarcodeBuilder {
         barcode_(filtration.cell_kind()) {}
 
   int max_dim() const { return max_dim_; }
-  /// Bars of lower dimensions are dropped as well; an engine need not compute them.
+  /// Bars of dimensions below this one are dropped as well; an engine need not compute them.
   int min_dim() const { return min_dim_; }
   void set_min_dim(int dim) { min_dim_ = dim; }
   /// The representatives that an engine must pass with each bar.
@@ -49,7 +49,8 @@ class BarcodeBuilder {
     require_room(count, 0);
     barcode_.reserve_more(count);
   }
-  /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
+  /// Adds a class of H_dim that is born with `birth` and killed by `death`, a cell of dimension dim
+  /// + 1.
   /// @return true if the bar is kept; only then is a representative wanted.
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
     if (!wants(dim)) return false;
@@ -59,7 +60,7 @@ class BarcodeBuilder {
     add(bar, birth, &death);
     return true;
   }
-  /// A class of H_dim that never dies. A class that would be born at infinity is left out.
+  /// Adds a class of H_dim that never dies. A class that would be born at infinity is left out.
   bool add_essential(int dim, const Cell& birth) {
     if (!wants(dim) || filtration_.value(birth) == kInfinity) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
@@ -83,7 +84,8 @@ class BarcodeBuilder {
       if (keeps(bar)) barcode_.add(bar);
     claim_.grow_to(barcode_.bytes());
   }
-  /// Gives the last bar kept its representative: terms with `cell` and `coefficient()`.
+  /// Sets the representative of the last bar kept. @param terms cells (`cell`) with coefficients
+  /// (`coefficient()`).
   template <class Terms, Field K>
   void add_representative(int dim, const Terms& terms, const K& field) {
     numbers_.clear();
@@ -102,13 +104,13 @@ class BarcodeBuilder {
     barcode_.set_representative(representatives_, numbers, coefficients);
     claim_.grow_to(barcode_.bytes());
   }
-  /// @return the position of the first place among all that are kept.
+  /// Stores places of voxels. @return the position of the first of them among all stored places.
   std::size_t store_voxels(std::span<const std::uint32_t> places) {
     require_room(0, 0, 0, places.size());
     claim_.grow_to(barcode_.bytes() + places.size_bytes());
     return barcode_.store_voxels(places);
   }
-  /// Gives the last bar kept, which must have a representative, its voxels.
+  /// Sets the voxels of the last bar kept, which must have a representative.
   void add_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
                   std::span<const Index> death_voxel) {
     barcode_.set_voxels(voxels, birth_voxel, death_voxel);
@@ -126,8 +128,8 @@ class BarcodeBuilder {
     return wants(bar.dim) && bar.birth < kInfinity &&
            (bar.is_infinite() || bar.persistence() > min_persistence_);
   }
-  /// @throws Error (resource) if the arrays that are moved to make room would exceed the budget
-  /// meanwhile.
+  /// @throws Error (resource) if the old copies of arrays that are moved to make room would exceed
+  /// the budget.
   void require_room(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                     std::size_t voxels = 0) const {
     constexpr std::size_t little = std::size_t{4} << 20;  // too little to count in any budget

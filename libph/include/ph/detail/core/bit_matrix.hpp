@@ -27,8 +27,8 @@ class BitMatrix {
   std::pmr::vector<Word> bits_;
 };
 
-/// The inner loops of the sweep of edge links on rows of bits, compiled for several instruction
-/// sets; the best one is chosen at run time.
+/// The inner loops of Engine::edge_links, which work on rows of bits. They are compiled for several
+/// instruction sets, of which the best is chosen at run time.
 namespace bits {
 
 using Word = BitMatrix::Word;
@@ -59,7 +59,8 @@ std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 /// row ^= other.
 void add(Word* row, const Word* other, std::size_t words);
 
-/// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return true if that is not zero.
+/// Sets the bits of `out` that are in the mask to a ^ b ^ constant, and leaves all others
+/// unchanged. @return true if any of the new bits is 1.
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words);
 

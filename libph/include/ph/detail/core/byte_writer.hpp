@@ -29,19 +29,19 @@ class ByteWriter {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
   void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  /// Seven bits per byte, low bits first: for numbers that are usually small.
+  /// Writes seven bits per byte, low bits first: for numbers that are usually small.
   void put_short(std::uint64_t value) {
     constexpr std::uint64_t more = 0x80;
     for (; value >= more; value >>= 7) put(static_cast<std::uint8_t>(value | more));
     put(static_cast<std::uint8_t>(value));
   }
-  /// Writes the length first.
+  /// Writes the length of the text, then its bytes.
   void put(std::string_view text) {
     put(std::uint64_t{text.size()});
     const auto* const data = reinterpret_cast<const std::byte*>(text.data());
     bytes_.insert(bytes_.end(), data, data + text.size());
   }
-  /// Writes the size first. @param put_one writes one item.
+  /// Writes the size of the list, then its items. @param put_one writes one item.
   template <class List, class Put>
   void put_list(const List& list, Put&& put_one) {
     put(std::uint64_t{list.size()});

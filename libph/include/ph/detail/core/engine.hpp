@@ -22,7 +22,7 @@ class Engine {
   friend constexpr bool operator==(Engine, Engine) = default;
 
   static const Engine automatic;   ///< chosen from the complex and the task
-  static const Engine standard;    ///< the oracle: textbook reduction, slow, for any filtration
+  static const Engine standard;    ///< the oracle: slow textbook reduction
   static const Engine twist;       ///< boundary matrix with clearing
   static const Engine cohomology;  ///< coboundary matrix with clearing and shortcuts
   static const Engine union_find;  ///< H0 only
@@ -46,7 +46,7 @@ inline constexpr Engine Engine::gradient{"gradient"};
 
 /// The engine with that name or that earlier name ("lens", "arrows", "union_find"), or nothing.
 std::optional<Engine> engine_named(std::string_view name);
-/// The names of all engines: "auto" first, engines that the program added last.
+/// The names of all engines: "auto" comes first, and engines that the program added come last.
 std::vector<std::string_view> engine_names();
 
 /// The form in which a Rips filtration is held while something is computed from it. Each form is
@@ -67,13 +67,13 @@ struct Task {
   Representatives representatives = Representatives::none;
   bool zero_length = false;  ///< pairs of equal value are wanted as well
   bool collapses = false;    ///< an edge collapse is wanted
-  /// True if the bars need chains at most, and no sets of voxels.
+  /// True if no sets of voxels are asked for: the bars need chains at most.
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
 /// How well an engine suits a task.
 struct Suitability {
-  /// The engine with the highest rank is chosen; one with rank 0 only on request.
+  /// The engine with the highest rank is chosen; an engine with rank 0 runs only on request.
   int rank = 0;
   std::string_view reason;  ///< the reason for choosing it, in one phrase
 };
@@ -87,17 +87,17 @@ struct EngineFacts {
   /// The highest dimension of the cells that it lists for homology up to max_dim, or -1 if it lists
   /// none.
   int (*listed_dim)(int max_dim) = nullptr;
-  /// Bytes that it takes for a Rips complex, whatever the homology; null if it takes as much as the
-  /// adjacency.
+  /// Bytes that the engine takes for a Rips complex, whatever dimensions are asked for; null if it
+  /// takes as much as the adjacency of the graph.
   double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
   /// The forms of a Rips filtration that it accepts, best first; empty if it takes all edges or the
   /// edges of the distinct points.
   std::span<const RipsForm> rips_forms = {};
-  /// The condition that keeps it from taking the best of these forms; empty if nothing does. If
-  /// null, can_run decides by the edges.
+  /// Returns the condition that keeps the engine from taking the best of these forms, or an empty
+  /// text if there is none. If null, can_run decides from the edges.
   std::string_view (*rips_obstacle)(const RipsInput&, const Task&) = nullptr;
-  /// How well it suits a task by the best of these forms; if null, suitability is decided by the
-  /// edges.
+  /// Returns how well the engine suits a task that it does in the best of these forms; if null,
+  /// `suitability` decides from the edges.
   Suitability (*rips_suitability)(const RipsInput&, const Task&) = nullptr;
 };
 /// The facts of an engine. @throws Error (usage) if none has that name.

@@ -6,7 +6,8 @@
 namespace ph {
 
 /// A field of coefficients: seven operations. An `Element` is a small value; zero is never stored
-/// in a chain. `from_int` maps an incidence number to the field, `to_int` back to the user.
+/// in a chain. `from_int` maps an incidence number to the field; `to_int` maps an element to the
+/// integer that the user sees.
 template <class K>
 concept Field = requires(const K& k, typename K::Element a, typename K::Element b) {
   { k.from_int(1) } -> std::same_as<typename K::Element>;
@@ -68,7 +69,7 @@ void require_field(std::int64_t p);
 namespace detail {
 
 /// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if there is
-/// none.
+/// no such field.
 template <class Use>
 decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
   if (characteristic == 2) return use(Z2{});

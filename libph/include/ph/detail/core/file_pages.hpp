@@ -33,7 +33,7 @@ class ScratchFile {
   char* data() { return data_; }
   const char* data() const { return data_; }
   std::size_t size() const { return size_; }
-  /// Keeps the content; addresses change. @throws as the constructors.
+  /// Changes the size and keeps the content; addresses change. @throws as the constructors.
   void resize(std::size_t bytes);
 
  private:
@@ -49,7 +49,8 @@ class ResidentFiles {
   ResidentFiles(const ResidentFiles&) = delete;
   ResidentFiles& operator=(const ResidentFiles&) = delete;
   ~ResidentFiles();
-  /// 0 if the system does not say. Quick; several threads may call it.
+  /// The number of these bytes; 0 if the system does not say. Quick; several threads may call it at
+  /// once.
   std::size_t bytes() const;
 
  private:

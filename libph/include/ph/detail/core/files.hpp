@@ -45,9 +45,9 @@ bool close(int file);
 /// Opens a file to read its bytes unchanged. It does not wait for a writer of a FIFO. @return -1 if
 /// it failed; errno is EISDIR for a folder.
 int open_to_read(const std::filesystem::path& path);
-/// Makes standard input and output pass bytes unchanged as well.
+/// Makes standard input or output pass bytes unchanged. @param standard its descriptor.
 void pass_bytes(int standard);
-/// True if nothing has been read from it yet.
+/// True if nothing has been read from the file yet.
 bool is_at_start(int file);
 /// @return the number of bytes read, 0 at the end, -1 if it failed. EAGAIN means that no bytes
 /// came: wait and ask again. Where the system allows it, the call returns this way after some
@@ -63,7 +63,7 @@ void unmap(char* data, std::size_t bytes);
 /// The descriptor that a name like /dev/stdout or /dev/fd/3, or a link to such a name, stands for.
 /// The descriptor need not be open.
 std::optional<int> descriptor_named(std::filesystem::path path);
-/// True if it is open for writing.
+/// True if the descriptor is open for writing.
 bool may_write(int file);
 
 /// The name of the file itself, without links: replacing it affects all names of the file.
@@ -76,18 +76,19 @@ int open_to_write(const std::filesystem::path& path);
 /// Creates a file in a folder. Where the system supports it, the file has no name and vanishes with
 /// the process. @return -1 if it failed. @param name receives its name; empty if it has none.
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name);
-/// Takes over the mode of an existing file, and its owner and group if that is allowed. @return
-/// true if the mode could be set.
+/// Gives a file the mode of the existing file `of`, and also the owner and group if that is
+/// allowed. @return true if the mode could be set.
 bool take_mode(int file, const std::filesystem::path& of);
-/// Waits for room. @return the number of bytes written, or -1 if it failed; errno is EPIPE if
-/// nobody reads them.
+/// Writes some of the bytes; waits until there is room. @return the number of bytes written, or -1
+/// if it failed; errno is EPIPE if nobody reads them.
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most);
 /// Waits until the written bytes are on the disk. A file system that cannot do this does not count
 /// as a failure.
 bool sync(int file);
-/// Gives a nameless file a name that nobody else uses. Empty if it failed.
+/// Gives a nameless file an unused name in a folder. @return the name; empty if it failed.
 std::filesystem::path name_in(int file, const std::filesystem::path& folder);
-/// Replaces or creates a file; the source must be closed. @return true if it was done.
+/// Renames `from` to `to`, and replaces a file that has this name; `from` must be closed. @return
+/// true if it was done.
 bool rename(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Waits until a new name is on the disk, if the system supports that.
 void sync_folder(const std::filesystem::path& folder);

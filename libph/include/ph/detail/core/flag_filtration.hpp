@@ -26,20 +26,20 @@ class BinnedEdges;
 
 // clang-format off
 
-/// Capability: the clique complex of a graph with vertices 0 … vertex_count() - 1, in the order of
-/// (birth, number), whose simplices enter with the last of their edges: by (position of that edge,
-/// dimension, vertices read from the largest down).
+/// Capability: the clique complex of a graph. Its vertices 0 … vertex_count() - 1 have the order
+/// (birth, number). A simplex enters with the last of its edges; the order is (position of that
+/// edge, dimension, vertices read from the largest down).
 template <class F>
 concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
   { f.vertex_count() } -> std::convertible_to<std::size_t>;
-  /// By vertex; if empty, all vertices enter first.
+  /// One birth per vertex; if empty, all vertices enter before all edges.
   { f.vertex_births() } -> std::convertible_to<std::span<const double>>;
-  /// All edges in the order of the filtration, sorted as far as anyone has asked.
+  /// All edges in the order of the filtration, sorted on demand.
   { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
   /// The edge at a position in the order.
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
-  /// The reverse: from the vertices of an edge to its position.
+  /// The position, in the order, of the edge with these two vertices.
   { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;
   /// The triangle of the edge at a position and another vertex; that edge is the last of its three.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;

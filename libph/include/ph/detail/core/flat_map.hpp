@@ -11,8 +11,8 @@
 namespace ph {
 
 /// A hash table from 64-bit numbers to small values, in one array with linear probing; several
-/// times faster than std::unordered_map for the look-ups of inner loops. Every number is a key.
-/// Nothing is ever erased.
+/// times faster than std::unordered_map for the look-ups of inner loops. Any 64-bit number can be a
+/// key. Nothing is ever erased.
 template <class Value>
 class FlatMap {
  public:
@@ -50,7 +50,7 @@ class FlatMap {
     }
     return {&slot.value, is_new};
   }
-  /// Keeps a small array, which makes frequent clearing cheap.
+  /// Removes all keys, but keeps a small array, which makes frequent clearing cheap.
   void clear() {
     last_ = Value{};  // mutant: map-last-value
     has_last_ = false;
@@ -92,8 +92,8 @@ class FlatMap {
 
   std::pmr::vector<Slot> slots_;  // a power of two, at most half full
   std::size_t size_ = 0;          // number of keys in the slots
-  Value last_{};                  // value of kFree,
-  bool has_last_ = false;         // true if it is present
+  Value last_{};                  // value of the key kFree
+  bool has_last_ = false;         // true if the key kFree is present
 };
 
 }  // namespace ph

@@ -24,9 +24,9 @@ struct Loop {
   friend bool operator==(const Loop&, const Loop&) = default;
 };
 
-/// The state of knowledge about the length of loops.
+/// The guarantee about the length of loops.
 enum class Tightness {
-  none,      ///< nothing
+  none,      ///< no guarantee
   locally,   ///< no step across one or two triangles shortens a loop
   shortest,  ///< no closed walk that could replace a loop is shorter, see ph/loops.hpp
 };

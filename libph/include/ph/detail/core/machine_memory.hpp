@@ -17,8 +17,8 @@ std::uint64_t physical_memory();
 std::size_t machine_memory();
 
 /// The smallest memory limit of the control groups of a process, of either version.
-/// @param memberships the process's /proc/self/cgroup. @param root where control groups are
-/// mounted.
+/// @param memberships the content of the process's /proc/self/cgroup. @param root where control
+/// groups are mounted.
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root);
 

@@ -12,8 +12,8 @@ struct Member {
   Value Options::*member;
 };
 
-/// The members of a struct of options that a keyword of Python sets as they are. The struct
-/// specialises it beside its definition.
+/// The members of a struct of options that keywords in Python set without conversion. A
+/// specialisation for each such struct stands beside the struct's definition.
 template <class Options>
 inline constexpr std::tuple<> members_of{};
 

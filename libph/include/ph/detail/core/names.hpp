@@ -14,8 +14,8 @@ struct Named {
   std::string_view name;
 };
 
-/// The values of an enum with their names, in the order of the help. Each enum that has names
-/// specialises it beside its definition.
+/// The values of an enum with their names, in the order of the help. A specialisation for each enum
+/// with names stands beside the enum's definition.
 template <class Enum>
 inline constexpr std::array<Named<Enum>, 0> names_of{};
 

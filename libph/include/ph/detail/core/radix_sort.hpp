@@ -44,11 +44,11 @@ void sort_few(std::span<T> items, const Precedes& precedes) {
 
 }  // namespace detail
 
-/// Sorts by a double, ascending; equal values keep their order. Values must not be NaN, and zero
-/// must have one sign. Makes two passes (three for many items) of 12 bits, least significant first,
-/// over the bits that begin with the highest one in which two values differ: enough for bytes,
-/// 16-bit integers and float32 of one magnitude. Items that are equal in these bits, usually a few
-/// neighbours, are sorted by comparison.
+/// Sorts by a double, ascending; equal values keep their order. Values must not be NaN, and all
+/// zeros must have the same sign. Makes two passes (three for many items) of 12 bits, least
+/// significant first, over the bits that begin with the highest one in which two values differ:
+/// enough for bytes, 16-bit integers and float32 of one magnitude. Items that are equal in these
+/// bits, usually a few neighbours, are sorted by comparison.
 /// @param buffer as long as items. @param value_of maps an item to its value.
 /// @param context is polled between passes.
 /// @return the span that holds the sorted items: `items` or `buffer`.
@@ -101,7 +101,7 @@ std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueO
   return items;
 }
 
-/// The same, with its own buffer.
+/// Sorts a vector in the same way, with a buffer of its own.
 template <class T, class Allocator, class ValueOf>
 void radix_sort_by_value(std::vector<T, Allocator>& items, ValueOf&& value_of,
                          const RunContext& context = default_context()) {

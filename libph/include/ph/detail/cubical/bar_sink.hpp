@@ -7,12 +7,12 @@
 
 namespace ph::cubical {
 
-/// Receives bars: from one thread at a time, not always the same thread.
+/// Receives bars from one thread at a time, though not always the same thread.
 struct BarSink {
   /// Adds one bar with its cells, in doubled grid coordinates of the input.
   std::function<void(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
       add;
-  /// Adds some bars without cells, which are not wanted.
+  /// Adds several bars without cells; used if cells are not wanted.
   std::function<void(std::span<const Bar> bars)> add_all;
   /// Announces that about `count` bars may come next.
   std::function<void(std::size_t count)> expect;

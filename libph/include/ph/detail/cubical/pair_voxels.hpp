@@ -13,17 +13,17 @@ namespace ph::cubical {
 /// that are not periodic). For three axes, the other bars are refused when they are asked for, from
 /// about 2^31 voxels on; for more axes, they need fewer than 2^32 cells (2^d per voxel).
 bool can_pair_voxels(const CubicalImage& grid, int max_dim);
-/// The bytes that it takes in addition to the image, without critical cells and bars. Precondition:
-/// `can_pair_voxels`.
-double bytes_to_pair_voxels(const CubicalImage& grid);
-/// The same if memory is so short that it processes some layers at a time; larger, if it cannot do
-/// so. Precondition: `can_pair_voxels`.
-double least_bytes_to_pair_voxels(const CubicalImage& grid);
-/// True if that is enough apart from the bars: no bars are wanted that need all layers at once.
+/// The bytes that `pair_voxels` takes in addition to the image, without critical cells and bars.
 /// Precondition: `can_pair_voxels`.
+double bytes_to_pair_voxels(const CubicalImage& grid);
+/// The same bytes if memory is so short that `pair_voxels` processes some layers at a time; the
+/// larger number above if it cannot do so. Precondition: `can_pair_voxels`.
+double least_bytes_to_pair_voxels(const CubicalImage& grid);
+/// True if least_bytes_to_pair_voxels, and the bars, are all the memory needed: no bars are wanted
+/// that need all layers at once. Precondition: `can_pair_voxels`.
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted);
 
-/// True if it processes some layers at a time on request.
+/// True if `pair_voxels` can process some layers at a time on request.
 bool can_be_cut(const CubicalImage& grid, const BarRequest& wanted);
 
 /// The pairs of positive length of the cubical filtration of an image. Values of bars are values of

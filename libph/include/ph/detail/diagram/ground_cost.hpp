@@ -21,7 +21,7 @@ class GroundCost {
   static double to_diagonal(double ground) {
     return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);  // mutant: diagonal-norm
   }
-  /// The same before it is raised to the power, in any unit: squares neither overflow nor
+  /// The distance of a pair, not raised to the power, in any unit: squares neither overflow nor
   /// underflow.
   double distance(const Point& p, const Point& q) const {
     const double x = std::abs(p[0] - q[0]), y = std::abs(p[1] - q[1]);
@@ -37,7 +37,7 @@ class GroundCost {
   }
   /// The cost of moving to the nearest point of the diagonal.
   double alone(const Point& p) const { return power(to_diagonal_ * ((p[1] - p[0]) / 2)); }
-  /// A lower bound for the cost of any point of the node.
+  /// A lower bound for the cost of pairing p with a point of the box of a tree's node.
   double pair_with_box(const Point& p, const double* box) const {
     return power(norm(std::max({0.0, box[0] - p[0], p[0] - box[1]}),
                       std::max({0.0, box[2] - p[1], p[1] - box[3]})));

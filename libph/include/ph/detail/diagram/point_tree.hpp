@@ -10,10 +10,10 @@
 
 namespace ph::diagram {
 
-/// Birth and death of a bar, both finite.
+/// The birth and the death of a bar, both finite.
 using Point = std::array<double, 2>;
 
-/// No point, or no partner.
+/// Stands for no point, or no partner.
 inline constexpr std::uint32_t kNone = UINT32_MAX;
 
 inline double distance(const Point& p, const Point& q) {
@@ -38,7 +38,7 @@ class PointTree {
 
   std::size_t size() const { return tree_.size(); }
   const Point& point(Position q) const { return points_[q]; }
-  /// By position: the place of the point in the input.
+  /// The place in the input of each point, by position.
   std::span<const std::uint32_t> places() const { return tree_.rows(); }
 
   Node node_count() const { return tree_.node_count(); }
@@ -51,8 +51,8 @@ class PointTree {
   }
   /// Smallest and largest birth, smallest and largest death.
   const double* box(Node node) const { return tree_.box(node); }
-  /// In the maximum metric. Rounding keeps the order of distances; no point of the node is
-  /// therefore nearer than this.
+  /// The distance from p to the node's box in the maximum metric. Rounding keeps the order of
+  /// distances; no point of the node is therefore nearer than this.
   double distance_to_box(const Point& p, Node node) const {
     const double* const b = box(node);
     return std::max({0.0, b[0] - p[0], p[0] - b[1], b[2] - p[1], p[1] - b[3]});

@@ -16,13 +16,13 @@ Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
 /// The same for loops of vertices. @throws Error (usage) on a vertex without an id.
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
-/// A tree whose vertex v becomes ids[v] among `size` vertices of the input. The other vertices
-/// never enter. Precondition: there is one id per vertex, below `size`.
+/// The tree with vertex v renamed to ids[v], one of the `size` vertices of the input. The input's
+/// other vertices never enter. Precondition: there is one id per vertex, below `size`.
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
 /// The barcode of the subcomplex of all cells up to a value: a bar born later is left out, and a
 /// class that dies later is alive. Cocycles are restricted to the subcomplex.
-/// @param barcode of the whole complex, with all bars of positive length.
+/// @param barcode the barcode of the whole complex, with all bars of positive length.
 /// @param min_persistence bars that die in the subcomplex and are no longer than this are left out.
 Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,
                double min_persistence);

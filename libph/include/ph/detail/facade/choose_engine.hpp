@@ -10,7 +10,7 @@ namespace ph::detail {
 /// @throws Error (usage) on dimensions below 0, on a min_persistence that is NaN, and on an invalid
 ///         field.
 void check(const Options& options);
-/// For a complex without an edge collapse.
+/// Checks the options for a complex that allows no edge collapse.
 /// @throws Error (usage) as check, and also on an edge collapse or a field that needs incidence
 /// numbers.
 void check_as_it_is(const Options& options, bool has_incidences);
@@ -26,7 +26,7 @@ struct EngineChoice {
 [[noreturn]] void refuse(Engine asked, const Task& task);
 
 /// The engine asked for, or the engine that suits the task best.
-/// @throws Error (usage) if the engine asked for cannot do it.
+/// @throws Error (usage) if the engine asked for cannot do the task.
 template <Filtration F>
 EngineChoice<F> choose_engine(const F& f, Engine asked, const Task& task) {
   EngineChoice<F> choice;

@@ -13,7 +13,7 @@
 
 namespace ph::detail {
 
-/// @tparam E an engine as ph/custom.hpp describes it.
+/// The facts of an engine. @tparam E an engine as ph/custom.hpp describes it.
 template <class E>
 constexpr EngineFacts facts() {
   EngineFacts facts{.id = E::id, .listed_dim = [](int max_dim) { return E::listed_dim(max_dim); }};

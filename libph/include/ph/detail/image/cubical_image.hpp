@@ -39,13 +39,13 @@ inline std::size_t bytes_of(VoxelType type) {
 /// an absent voxel.
 struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
-  std::vector<bool> periodic;  ///< as many as `extents`
+  std::vector<bool> periodic;  ///< one per axis
   VoxelType type = VoxelType::float64;
   const void* voxels = nullptr;     ///< null if there are none
   bool is_in_file = false;          ///< see ph/detail/core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; otherwise the voxels are top cubes (T)
   bool superlevel = false;          ///< values are the values of -f
-  /// Values above it never enter; below +infinity.
+  /// Voxels of values above this limit never enter; the limit is below +infinity.
   double limit = std::numeric_limits<double>::max();
 
   std::size_t size() const {

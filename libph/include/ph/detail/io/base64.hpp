@@ -16,7 +16,7 @@ class Base64 {
   void finish(std::string& text);
 
  private:
-  std::uint32_t waiting_ = 0;  // bits
+  std::uint32_t waiting_ = 0;  // the bits that wait for more bytes
   int count_ = 0;              // number of waiting bytes
 };
 

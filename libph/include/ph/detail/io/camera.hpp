@@ -31,7 +31,7 @@ struct Lens {
   /// The place where the ray (x, y, 1) meets the image, in focal lengths from the principal point.
   std::array<double, 2> bent(double x, double y) const;
   /// The distance from the axis up to which rays (x, y, 1) meet the image one to one; beyond it, a
-  /// polynomial that has turned back may rise again. Infinity if there is no such limit.
+  /// polynomial may fall and rise again. Infinity if there is no such limit.
   double reach() const;
   /// The inverse of `bent`, by Newton's method: x and y of the ray that meets the image there, or
   /// nothing if there is none in the part of the image where the model is one to one.
@@ -47,7 +47,8 @@ struct Camera {
   /// True if images of another shape show the same height and a different part at the sides: the
   /// driver crops them. Only presets set it.
   bool crops_sides = false;
-  double depth_scale = 0;  ///< depth units per metre of its images of whole numbers; 0 if not known
+  /// Depth units per metre in depth images of whole numbers; 0 if not known.
+  double depth_scale = 0;
 
   /// The same camera for images of another size and the same shape, scaled.
   /// @throws Error (usage), which names both sizes, if the shape differs.
@@ -66,8 +67,8 @@ Camera read_camera(const std::filesystem::path& path, const RunContext* context 
 /// A camera with a name.
 struct CameraPreset {
   std::string_view name;
-  Camera camera;            ///< nominal, without a lens: each device differs by a few per cent
-  std::string_view images;  ///< the depth images that it is for; others may differ by far more
+  Camera camera;            ///< nominal values without lens: each device differs by a few per cent
+  std::string_view images;  ///< the depth images it is for; other modes may differ far more
 };
 std::span<const CameraPreset> camera_presets();
 

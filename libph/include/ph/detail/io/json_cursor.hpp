@@ -21,8 +21,8 @@ class JsonCursor {
   void expect(char mark);
   /// Takes the word null if it comes next. @return true if it did.
   bool accept_null();
-  /// The next member of an object whose '{' was taken: takes its name and the colon; false at its
-  /// '}'.
+  /// Goes to the next member of an object whose '{' was taken: takes the member's name and the
+  /// colon. @return false at the object's '}'.
   /// @param first true for the first member; the cursor sets it to false.
   bool next_member(bool& first, std::string& name);
   /// The same for the elements of an array whose '[' was taken.
@@ -46,7 +46,7 @@ class JsonCursor {
   std::string found();
   std::string_view number_word();
   std::uint32_t hex4();
-  // The code after a \u that was taken; half of a pair becomes U+FFFD.
+  // The code point after a \u that was taken; an unpaired surrogate becomes U+FFFD.
   std::uint32_t escaped_code();
 
   std::string_view text_;

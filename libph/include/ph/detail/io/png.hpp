@@ -12,7 +12,7 @@
 namespace ph {
 
 /// A picture: `channels` samples per pixel (1 grey, 2 grey + alpha, 3 RGB, 4 RGBA), row by row from
-/// the top, each 0 … 2^bits - 1.
+/// the top. Each sample is 0 … 2^bits - 1.
 struct Raster {
   Index width = 0;
   Index height = 0;
@@ -36,8 +36,8 @@ struct Raster {
 Raster read_png(const Input& input);
 Raster read_png(const std::filesystem::path& path, const RunContext* context = nullptr);
 
-/// Writes 8 or 16 bits, as the raster says. @throws Error (bad_data) if its sizes disagree; Error
-/// (io) if the stream fails.
+/// Writes 8 or 16 bits, as the raster says. @throws Error (bad_data) if the number of samples does
+/// not match the size; Error (io) if the stream fails.
 void write_png(std::ostream& out, const Raster& raster);
 
 }  // namespace ph

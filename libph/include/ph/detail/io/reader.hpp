@@ -50,7 +50,7 @@ class Input {
   enum class Excess {
     refused,
     stays_in_file,  ///< mapped (unpacked data in a temporary file), not counted
-    is_expected,    ///< the same, except for small files: only a part will be read
+    is_expected,    ///< as stays_in_file, except for small files: the caller will read only a part
   };
 
   /// @param path a file, a FIFO, or "-" for standard input; for a part of a file see split_member.
@@ -99,7 +99,7 @@ class Input {
   /// @throws Error (resource) if the run's budget does not allow `bytes` more bytes. Allocates
   /// nothing.
   void require_memory(std::size_t bytes) const;
-  /// Reports to the run how many bytes are done, if it asked for progress. @throws Error
+  /// Reports to the run how many bytes are done, if the run asked for progress. @throws Error
   /// (cancelled) once a stop was requested.
   void poll(std::size_t done = 0) const;
 
@@ -193,7 +193,8 @@ struct CellHints {
 /// between double quotes; separators inside them belong to the cell.
 class Cells {
  public:
-  /// @param separator of skipped cells: they may hold blanks, unless the separator is a blank.
+  /// @param separator the separator after skipped cells, which may hold blanks unless it is a
+  ///        blank.
   explicit Cells(const TextLines& lines, CellHints hints = {}, char separator = ' ')
       : lines_(&lines),
         hints_(std::move(hints)),
@@ -221,7 +222,8 @@ class Cells {
   /// Skips the next cell, whatever it holds, even if it is empty. @return the cell as it is
   /// written.
   std::string_view skip();
-  /// @throws Error (bad_data) naming the next cell, if there is one. @param expected "i j distance"
+  /// @throws Error (bad_data) naming the next cell, if there is one. @param expected the cells of a
+  ///        line, for the message: "i j distance".
   void expect_end(std::string_view expected);
 
  private:

@@ -16,7 +16,7 @@ struct TableLayout {
   std::vector<std::string> header = {};
   std::size_t width = 0;                  ///< cells of the first row; 0 if there is no row
   std::vector<std::size_t> columns = {};  ///< the columns that hold numbers to be read, ascending
-  bool names_rows = false;                ///< columns before them are an index of the rows
+  bool names_rows = false;                ///< the columns before these are an index of the rows
   std::vector<Message> notes = {};        ///< assumptions that were made
   char separator = ' ';     ///< separator of the first row: ',', ';', a tab, or blanks
   bool keeps_tabs = false;  ///< each tab separates two cells
@@ -44,8 +44,8 @@ std::optional<double> number_in(std::string_view cell);
 bool is_missing_value(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
-/// Cells of a line of names, without the quotes around them, an empty last cell, and two slashes
-/// before the first.
+/// The cells of a line of names, without quotes around the cells, an empty last cell, or two
+/// slashes before the first cell.
 /// @param names_only return nothing if a cell is a number or empty.
 /// @param keeps_tabs each tab separates two cells; otherwise any number of tabs does.
 std::vector<std::string> header_cells(std::string_view line, bool names_only,
@@ -55,7 +55,7 @@ std::vector<std::string> header_cells(std::string_view line, bool names_only,
 char separator_in(std::string_view line);
 /// Number of cells in the current line, without an empty last one. @param separator see Cells.
 std::size_t count_cells(const TextLines& lines, char separator = ' ');
-/// True if a line ends in a separator: its last cell is empty if another cell is expected.
+/// True if a line ends in a separator: if another cell is expected, that cell is empty.
 bool ends_empty(std::string_view line);
 
 /// Advice about a cell of a table that is not a number.
@@ -75,15 +75,16 @@ enum class SquareKind {
   zeros,                ///< a diagonal of zeros, but asymmetric or with negative entries
   distances,            ///< symmetric, not negative, with a diagonal of zeros
   correlations,         ///< symmetric, from -1 to 1, with a diagonal of ones
-  symmetric,            ///< symmetric only
-  nearly_correlations,  ///< the same, except for at most one pair in ten or small differences
+  symmetric,            ///< symmetric, but none of the above
+  nearly_correlations,  ///< as correlations, except for at most one pair in ten or small
+                        ///< differences
   nearly_symmetric,     ///< symmetric, except for at most one pair in ten
 };
 
 /// Largest number of rows in a submatrix for `kind_of_square`.
 constexpr std::size_t kMostLookedAt = 64;
-/// Rounding errors, relative to the largest entry, on a diagonal, between the two entries of a
-/// pair, and below 0.
+/// The rounding errors that are tolerated, relative to the largest entry, on a diagonal, between
+/// the two entries of a pair, and below 0.
 constexpr double kRounding = 1e-6;
 
 /// @param block the entries of a principal submatrix, row by row, `side`^2 of them. NaN is
@@ -96,7 +97,8 @@ bool is_mostly_zero(std::span<const double> block, std::size_t side);
 
 /// The shape of a table's rows, as far as they were read.
 struct TableShape {
-  /// Counted up to one more than columns; 0 if they differ in length.
+  /// The number of rows, counted up to one more than the number of columns; 0 if rows differ in
+  /// length.
   std::size_t rows = 0;
   SquareKind square = SquareKind::nothing;  ///< for a square table
   bool same_names = false;                  ///< its rows have the names of its columns
@@ -123,7 +125,8 @@ struct TextGuess {
 };
 TextGuess guess_text(const Input& input, const ReadOptions& options);
 
-/// "a JPEG picture" and advice, for files that this library recognises but does not read.
+/// A kind of file that this library recognises but does not read ("a JPEG picture"), with advice
+/// for the user.
 struct ForeignKind {
   std::string_view name;
   std::string_view advice;

@@ -27,7 +27,7 @@ class KdTree {
   std::size_t size() const { return rows_.size(); }
   /// The points in the order of the tree.
   PointsView points() const { return points_; }
-  /// By position: the row of the point.
+  /// The row of each point, by position.
   std::span<const std::uint32_t> rows() const { return rows_; }
 
   Node first_leaf() const { return Node{1} << levels_; }

@@ -100,7 +100,7 @@ class PointMetric {
   /// The points, with their coordinates side by side.
   PointsView points() const { return points_.view(); }
   /// True if distances are square roots of sums of squares, none of which overflows; only a
-  /// non-zero sum below the least plain square may have lost digits.
+  /// non-zero sum below kLeastPlainSquare may have lost digits.
   bool is_plain_euclidean() const {
     return distance_ == PointDistance::euclidean && !may_need_scaling_;
   }

@@ -14,8 +14,8 @@
 
 namespace ph {
 
-/// A coboundary under reduction: the coboundary of a cell plus that of the chain that was added to
-/// the cell.
+/// A coboundary under reduction: the coboundary of a cell plus the coboundary of the chain that was
+/// added to the cell.
 ///
 /// Over a RangeFiltration the column holds only the cofacets up to a key, the limit. When all of
 /// them are gone, the limit rises: the cofacets up to the next limit are listed from the cell and
@@ -76,7 +76,7 @@ class CoboundaryColumn {
       add_coboundary(term.cell, field_.multiply(scale, term.coefficient()));
   }
 
-  /// The cells that were added, by age, each once.
+  /// The cells that were added, each once, oldest first.
   std::span<const Term> chain() {
     chain_.resize(add_up<F, K>(chain_, f_, field_));
     return chain_;
@@ -119,7 +119,7 @@ class CoboundaryColumn {
     for (const Term& term : chain_) append(term.cell, term.coefficient());  // mutant: limit-chain
     terms_.heapify();
   }
-  /// Lists cofacets up to the limit. Nobody needs those before `first`.
+  /// Lists cofacets up to the limit. Cofacets before `first` are not needed.
   template <class Visit>
   void list(const Cell& cell, Key first, Visit&& visit) {
     const std::size_t before = terms_.size();

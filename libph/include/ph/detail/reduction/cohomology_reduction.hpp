@@ -24,13 +24,13 @@ namespace ph {
 
 /// Reduces coboundary columns, one dimension after the other, youngest first, with clearing (Chen &
 /// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
-/// of its own in the next dimension. A column that others were added to is kept as the cochain
-/// whose coboundary it is (a cocycle until the death), because coboundaries are far longer than the
-/// cochains.
+/// of its own in the next dimension. A column to which others were added is kept as the cochain of
+/// which it is the coboundary (a cocycle until the death), because coboundaries are far longer than
+/// the cochains.
 ///
 /// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on the
 /// number of threads: every reduction that adds younger columns to older ones has the same outcome.
-/// The cochains may depend on it; if cocycles are asked for, there is one thread.
+/// The cochains may depend on that number; if cocycles are asked for, there is one thread.
 template <CofacetFiltration F, Field K>
 class CohomologyReduction {
  public:
@@ -108,13 +108,15 @@ class CohomologyReduction {
   void reduce_side_by_side();
   void report_pairs();
 
-  /// Reduces column `number`, and the columns that it drives out.
+  /// Reduces column `number`, and each column that is driven out of its pivot on the way, see
+  /// PivotTable.
   void reduce(std::uint32_t number, Worker& worker);
-  /// Fills the working column with the plain coboundary of a column. True if the pivot was found on
-  /// the way, as an emergent pair (Bauer, Ripser, section 3.5); the working column is unfinished
-  /// then.
+  /// Fills the working column with the coboundary of the column's cell alone. @return true if the
+  /// pivot was found on the way, as an emergent pair (Bauer, Ripser, section 3.5); the working
+  /// column is then unfinished.
   bool start_column(std::uint32_t number, Worker& worker, Term& pivot) const;
-  /// Cancels the pivot with a column that has it. @return true if there is one.
+  /// Cancels the pivot with another column that has the same pivot. @return true if there is such a
+  /// column.
   bool cancel_pivot(std::uint32_t number, const Term& pivot, Worker& worker) const;
   /// A permanent copy of the chain, with the pivot if there is one.
   const Column* keep(const Term* pivot, Worker& worker) const;

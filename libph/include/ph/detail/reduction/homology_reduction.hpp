@@ -18,7 +18,7 @@ namespace ph {
 
 /// Reduces boundary columns, one dimension after the other, oldest first, with clearing (Chen &
 /// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
-/// of its own in the next dimension. A column that nothing was added to is not stored but listed
+/// of its own in the next dimension. A column to which nothing was added is not stored but listed
 /// again when needed. Other columns are kept as the reduced boundary, a cycle that is a boundary
 /// from the death on: the representative of a finite bar. An infinite bar needs the chain whose
 /// boundary vanished; with representatives, the chains are kept as well.
@@ -93,14 +93,14 @@ class HomologyReduction {
   struct Column {
     Cell cell;
     typename K::Element pivot{};  // coefficient of the pivot in the reduced boundary
-    Range terms;                  // the reduced boundary; if empty, the plain boundary of `cell`
+    Range terms;                  // the reduced boundary; if empty, the boundary of `cell` itself
     // The cells that were added to `cell`, without `cell`; only with representatives.
     Range chain;
   };
 
   void collect_columns();
   void reduce_column(const Cell& cell, Ticker& ticker);
-  // Reports the pair of a column that is the plain boundary of its cell.
+  // Reports the pair of a column to which nothing was added: it is the boundary of its cell.
   void report_plain(const Cell& column, const Cell& pivot);
 
   // Adds the multiple of `owner` to the working column that cancels the pivot, which was just
@@ -108,9 +108,9 @@ class HomologyReduction {
   void cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker);
   // The column whose pivot `cell` is, or null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
-  // In dimension 1 the boundary of an edge is the difference of two vertices and stays one under
-  // reduction, which makes a heap unnecessary. Both entries are reduced to the end: later columns
-  // that meet the stored column get there in one step.
+  // In dimension 1 the boundary of an edge is the difference of two vertices and stays such a
+  // difference under reduction, which makes a heap unnecessary. Both entries are reduced to the
+  // end: later columns that meet the stored column get there in one step.
   void reduce_edge(const Cell& edge, Ticker& ticker);
   // The other entry of a column of two entries.
   Cell other_end(const Column& column, const Cell& pivot) const;

@@ -121,7 +121,7 @@ class PivotTable {
 
   const F* filtration_ = nullptr;
   std::pmr::vector<std::atomic<const Column*>> published_;  // by column
-  // A power of two, at most half full; or one slot per cell.
+  // A number of slots that is a power of two, at most half of them full; or one slot per cell.
   std::pmr::vector<std::atomic<Slot>> slots_;
 };
 

@@ -14,9 +14,9 @@ namespace ph {
 
 /// THE ORACLE. Persistent homology as in the textbook (Edelsbrunner & Harer, Computational
 /// Topology, chapter VII.1; over a field: Zomorodian & Carlsson, Computing Persistent Homology):
-/// write down the boundary matrix, reduce its columns from left to right, read off the pairs. It
-/// shares no code with the other engines and is never optimised; they are right if they agree with
-/// it.
+/// write down the boundary matrix, reduce its columns from left to right, read off the pairs. This
+/// engine shares no code with the other engines and is never optimised; the others are right if
+/// they agree with it.
 struct StandardEngine {
   static constexpr Engine id = Engine::standard;
   template <Filtration F>
@@ -44,7 +44,7 @@ struct StandardEngine {
 
     const int top = std::min(bars.max_dim() + 1, f.top_dim());
     std::pmr::vector<Cell> rows(memory);  // the cells of dimension dim - 1, oldest first
-    // By row: true if its own column was reduced to zero.
+    // For each row: true if the column of the same cell was reduced to zero.
     std::pmr::vector<bool> is_positive(memory);
     for (int dim = 0; dim <= top; ++dim) {
       std::pmr::vector<Cell> columns(memory);
@@ -53,7 +53,7 @@ struct StandardEngine {
         ticker.work();
       });
       std::sort(columns.begin(), columns.end(), precedes);
-      std::pmr::map<std::size_t, Column> reduced(memory);  // R, by lowest row
+      std::pmr::map<std::size_t, Column> reduced(memory);  // R: columns by lowest row
       std::pmr::map<std::size_t, std::size_t> killer(memory);
       std::pmr::vector<bool> next_is_positive(columns.size(), false, memory);
 

@@ -16,9 +16,9 @@
 
 namespace ph {
 
-/// Weighted edges in the order of a flag filtration, (value, u, v), sorted as far as anybody has
-/// asked: edges lie in bins of nearly equal values, and a bin is sorted when its edges are first
-/// needed in order. A caller that stops early never pays for the rest. Thread-safe.
+/// Weighted edges in the order of a flag filtration, (value, u, v), sorted on demand: edges lie in
+/// bins of nearly equal values, and a bin is sorted when its edges are first needed in order. A
+/// caller that stops early does not pay for sorting the rest. Thread-safe.
 class BinnedEdges {
  public:
   /// @param edges sorted, with ties in any order.
@@ -83,8 +83,8 @@ class BinnedEdges {
 };
 
 /// Bins of nearly equal values: the values of a bin share their first bits. The number of these
-/// bits depends on the number of values; it ends at most after the exponent and four bits of the
-/// mantissa. (Non-negative doubles are ordered as their bits.)
+/// bits depends on the number of values; the shared bits are at most the exponent and four bits of
+/// the mantissa. (Non-negative doubles are ordered as their bits.)
 class ValueBins {
  public:
   /// @param values their approximate number.

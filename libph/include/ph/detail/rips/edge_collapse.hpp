@@ -12,8 +12,9 @@ enum class CollapseLayout {
   lists,      ///< lists of neighbours
 };
 
-/// Returns fewer edges, some of them later, with the same persistent homology in every dimension:
-/// the flag complexes of the two graphs have the same bars of positive length, over any field.
+/// Returns a graph that has fewer edges, some of which enter later, and the same persistent
+/// homology in every dimension: the flag complexes of the two graphs have the same bars of positive
+/// length, over any field.
 ///
 /// An edge is dominated at a value if its link, the common neighbours of its ends, has a vertex
 /// joined to all others. Such an edge can be removed from the flag complex without changing
@@ -25,9 +26,9 @@ enum class CollapseLayout {
 ///
 /// Each edge kept is an edge of `graph`, at its value or at a later value that occurs in `graph`;
 /// vertices, their names and the threshold are the same. Among edges of equal value, edges that
-/// were moved there come first. As a result, the cells that an engine reports for a bar of positive
-/// length have the diameter stated by the bar, and its cycles are born and die in the flag complex
-/// of `graph` at those values.
+/// were moved to that value come first. As a result, the cells that an engine reports for a bar of
+/// positive length have the diameter stated by the bar, and its cycles are born and die in the flag
+/// complex of `graph` at those values.
 ///
 /// Takes collapse_bytes() and up to 64 bytes per edge kept, 16 of which remain.
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.

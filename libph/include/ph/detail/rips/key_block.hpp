@@ -19,7 +19,7 @@ class KeyBlock {
   /// @param rows the rows of the simplex's vertices in the matrix of keys. @param begin the first
   /// vertex.
   /// @param size the number of vertices. @param key the key of the simplex. @param first, last the
-  /// range of keys.
+  /// range of keys for `within`.
   KeyBlock(std::span<const Key* const> rows, std::uint32_t begin, std::uint32_t size, Key key,
            Key first, Key last);
 

@@ -30,7 +30,7 @@ class RipsAdjacency {
   RipsAdjacency(std::size_t vertices, std::span<const FlagEdge> edges,
                 std::pmr::memory_resource* memory);
 
-  /// True if such a graph gets the dense layout.
+  /// True if a graph of this size gets the dense layout.
   static bool is_dense(std::size_t vertices, std::size_t edges);
 
   /// True if the layout is dense.

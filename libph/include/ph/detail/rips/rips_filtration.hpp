@@ -21,8 +21,8 @@
 
 namespace ph {
 
-/// Where keys are looked up: in a square matrix, in sorted neighbour lists, or in whichever the
-/// graph has.
+/// The place where keys are looked up: a square matrix, sorted neighbour lists, or whichever of the
+/// two the graph has.
 enum class RipsLayout { dense, sparse, any };
 
 /// A simplex with the key of its longest edge.
@@ -53,7 +53,7 @@ class RipsFiltration {
                               static_cast<std::uint64_t>(std::max<Index>(graph.size() - 1, 0)))))) {
   }
 
-  /// Number of vertices that a cell of `words` words can hold for a graph of that size.
+  /// The number of vertices that a cell of `Words` words can hold for a graph of that size.
   static int capacity(const RipsGraph& graph) {
     return std::min(kMostVertices, Vertices::kBits / RipsFiltration(graph).bits_);
   }
@@ -179,7 +179,8 @@ class RipsFiltration {
   static constexpr std::uint32_t kNoVertex = UINT32_MAX;
   static constexpr int kNoSlot = -1;
 
-  /// Extends a clique by every smaller vertex that edges up to `limit` join to all of it.
+  /// Extends a clique by every smaller vertex that edges up to `limit` join to all vertices of the
+  /// clique.
   template <class Visit>
   void extend_clique(const Cell& clique, std::span<const Neighbour> candidates, int missing,
                      Key limit, std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;

@@ -7,7 +7,8 @@ namespace ph {
 
 // A simplex is its longest edge e and a clique of the link of e; m is the least vertex of the
 // clique. Its oldest cofacet of equal key has the least vertex w of the link that is joined to all
-// of the clique. The youngest facet of equal key of that is the simplex if and only if w < m.
+// of the clique. The youngest facet of equal key of this cofacet is the simplex if and only if w <
+// m.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) const
     -> std::optional<Cell> {
@@ -24,7 +25,8 @@ auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) 
   return Cell{cell.key, frame | Vertices(w) << (place * bits_)};
 }
 
-// The same pair seen from its cofacet: the facet lacks m, which is to be the first to join it.
+// The same pair seen from its cofacet: the facet lacks m; m must be the first vertex that can be
+// added to the facet.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_facet(int dim, const Cell& cell) const
     -> std::optional<Cell> {
@@ -50,7 +52,7 @@ std::uint32_t RipsFiltration<Layout, Words>::first_common_neighbour(int dim, con
       if (i == count) return w;
     }
   } else {
-    // The list that ends first leads.
+    // The shortest list leads.
     std::array<std::span<const Neighbour>, kMostVertices> lists;
     for (int slot = 0; slot <= dim; ++slot) {
       if (slot == skipped) continue;
@@ -74,11 +76,11 @@ std::uint32_t RipsFiltration<Layout, Words>::first_common_neighbour(int dim, con
   return kNoVertex;
 }
 
-/// As ApparentFiltration asks for it.
+/// Lists the cells in no apparent pair, as ApparentFiltration requires.
 template <RipsLayout Layout, int Words>
 class RipsFiltration<Layout, Words>::UnmatchedCells {
  public:
-  /// @param has_rows whether RipsGroups are used; the cells are the same.
+  /// @param has_rows true if RipsGroups are used; the cells are the same in either case.
   UnmatchedCells(const RipsFiltration& filtration, int dim, bool has_rows)
       : f_(filtration), dim_(dim), candidates_(static_cast<std::size_t>(std::max(dim, 1))) {
     if (has_rows) groups_.emplace(f_.graph_);

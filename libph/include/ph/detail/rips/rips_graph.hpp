@@ -28,7 +28,7 @@
 namespace ph {
 
 /// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by (distance,
-/// larger end, smaller end) as far as needed, and each known by its key, an integer. Keys start at
+/// larger end, smaller end) as far as needed, and each named by its key, an integer. Keys start at
 /// 1; key 0 belongs to the vertices, which enter at 0 or at births of their own. (A collapsed graph
 /// orders edges of equal value differently, see edge_collapse.hpp.)
 class RipsGraph {
@@ -124,7 +124,8 @@ class RipsGraph {
   bool is_dense() const {
     return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
-  /// Made on first use, by the first thread that asks: engines that go edge by edge do not need it.
+  /// The neighbours of each vertex; made by the first thread that asks: engines that go edge by
+  /// edge do not need it.
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     require_edges();
@@ -154,8 +155,8 @@ class RipsGraph {
     if (points_) throw_no_edges();
   }
   [[noreturn]] static void throw_no_edges();
-  /// Splits the rows of a triangle into ranges of about equally many pairs. @return where range r
-  /// begins.
+  /// Splits the rows of a triangle into ranges of about equally many pairs. @return the row at
+  /// which range r begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
   /// Enough ranges to keep the threads busy.
   static std::size_t range_count(Index rows, const RunContext& context);

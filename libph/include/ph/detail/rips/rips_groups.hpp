@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// Lists the simplices of one longest edge e after another, as cliques of the link of e: the
-/// vertices that edges before e join to both ends of e. It finds the simplices that are in no
+/// Lists simplices by their longest edge e, one edge after another, as cliques of the link of e:
+/// the vertices that edges before e join to both ends of e. It finds the simplices that are in no
 /// apparent pair without looking at most of the others; see docs/explanation/engines/cohomology.md.
 class RipsGroups {
  public:
@@ -42,8 +42,8 @@ class RipsGroups {
  private:
   using Word = BitMatrix::Word;
 
-  /// A set holds the words that are not zero in the link: word i of a set is word link_words_[i] of
-  /// a row.
+  /// A set of vertices stores only the words that are not zero in the link: word i of a set is word
+  /// link_words_[i] of a row.
   Word* set(std::size_t depth) { return sets_.data() + depth * link_words_.size(); }
 
   /// Adds `missing` vertices to the chosen clique, all from the set at `depth`: the vertices of the
@@ -61,7 +61,7 @@ class RipsGroups {
   }
 
   std::span<const FlagEdge> edges_;
-  Key key_;            // edges before it are present in present_
+  Key key_;            // present_ holds the edges before this one
   BitMatrix present_;  // symmetric
   std::pmr::vector<std::uint32_t> link_words_;
   std::pmr::vector<Word> sets_;  // one set per vertex of a clique; the first set is the link

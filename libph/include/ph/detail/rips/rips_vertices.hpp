@@ -18,7 +18,8 @@ class RipsVertices {
  public:
   /// @param size number of points. @param chosen the points to take, ascending; if empty, all
   /// points.
-  /// @param births by point; if empty, all are 0. A point born beyond the threshold never enters.
+  /// @param births one per point; if empty, all are 0. A point born beyond the threshold never
+  ///        enters.
   /// @throws Error (usage) if `chosen` is not ascending below `size` or there is not one birth per
   /// point; Error (bad_data) on a birth that is negative, infinite or NaN.
   RipsVertices(Index size, std::span<const std::uint32_t> chosen, std::span<const double> births,
@@ -37,7 +38,8 @@ class RipsVertices {
   WeightExponent exponent_;
 };
 
-/// Some of the points of a metric. It keeps references to both.
+/// The restriction of a metric to some of its points. It keeps references to the metric and to the
+/// list of points.
 template <Metric M>
 class SubsetMetric {
  public:
