@@ -84,8 +84,8 @@ class CloudPart {
   bool is_of(PointsView points, int part, int parts, const CloudPartOptions& options) const;
   /// Takes in another part of the same cloud.
   /// @throws Error (bad_data) if it is a part of another cloud, has other options or shares a part
-  ///         with this one; this part is then unchanged. Error (resource, cancelled): neither part can
-  ///         be used afterwards.
+  ///         with this one; this part is then unchanged. Error (resource, cancelled): neither part
+  ///         can be used afterwards.
   void join(CloudPart other, const RunContext& context = default_context());
 
   /// The bars of H0 of positive length, without cells: 24 bytes each. Precondition: is_whole().
