@@ -126,7 +126,7 @@ class Alpha {
   /// Makes every simplex, unless this was done before. The simplices take about 5 kB per point of
   /// R³ and stay with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
   void prepare(const RunContext& context) const;
-  /// The same complex, simplex by simplex, in the form that other parts of libph take. Made by
+  /// This complex, listed simplex by simplex, in the form that other parts of libph take. Made by
   /// `prepare` or by the first call. Values are squares in units that are a power of two.
   const ExplicitComplex& listed() const;
 
@@ -158,7 +158,7 @@ class Alpha {
     listed().for_each_cofacet(dim, cell, visit);
   }
 
-  /// For engines: the triangulation with its intervals.
+  /// The triangulation with its intervals, for engines.
   const alpha::AlphaCells& cells() const { return *cells_; }
   /// Converts a squared radius of the triangulation into a value of this filtration.
   double to_value(double squared_radius) const;

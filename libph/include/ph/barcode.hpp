@@ -94,7 +94,7 @@ class Barcode {
 
   /// The bars of one dimension, in order.
   std::span<const Bar> bars(int dim) const&;
-  /// For a temporary barcode: `for (const Bar& bar : persistence(rips).bars(1))`.
+  /// Returns a copy, for a temporary barcode: `for (const Bar& bar : persistence(rips).bars(1))`.
   std::vector<Bar> bars(int dim) &&;
   /// Position of the longest bar of a dimension; infinite bars count as longest, and the first of
   /// equal bars is taken.

@@ -37,7 +37,7 @@ RunPlan plan(const F& filtration, const Options& options = {}) {
   return detail::run_plan(options, max_dim, choice.engine->id, choice.reason);
 }
 
-/// The same complex, cell by cell, for everything that takes an ExplicitComplex: estimates, merge
+/// The complex, listed cell by cell, for everything that takes an ExplicitComplex: estimates, merge
 /// trees, loops, the programs. Cells that the complex names by their vertices keep these names;
 /// other cells are named by their place, dimension by dimension in the order of the complex.
 /// @throws Error (bad_data) if the complex breaks the contract; Error (resource) on lack of memory.

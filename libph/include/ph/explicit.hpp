@@ -77,7 +77,7 @@ class ExplicitComplex {
   /// therefore the choice of an engine and the cells of the bars do not depend on the threshold.
   /// @throws Error (usage) on a NaN.
   void set_threshold(double largest);
-  /// Empty if all cells count.
+  /// The threshold that was set; empty if all cells count.
   std::optional<double> threshold() const { return threshold_; }
 
   /// True if incidence numbers are known; without them only Z/2 makes sense.

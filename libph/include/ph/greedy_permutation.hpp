@@ -40,7 +40,7 @@ struct GreedyPermutation {
 // subsample are born and die at the same value or later, by at most 2e; only bars of length 2e or
 // less, of either barcode, are left unmatched. See docs/explanation/approximation.md.
 
-/// For points: the same permutation as for the metric.
+/// The permutation of points; the same as for their metric.
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @throws Error (bad_data) as PointMetric; Error (usage) on limits out of range.
 GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits = {},
@@ -51,7 +51,7 @@ namespace detail {
 void check(const GreedyLimits& limits, Index size);
 }
 
-/// For any metric.
+/// The permutation of the points of any metric.
 template <Metric M>
 GreedyPermutation greedy_permutation(const M& metric, const GreedyLimits& limits = {},
                                      const RunContext& context = default_context()) {

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 #define PH_ABI_VERSION 1
-/** The version of the library: refuse any other than PH_ABI_VERSION. */
+/** The version of the layout that the library has: refuse any other than PH_ABI_VERSION. */
 PH_API int ph_abi_version(void);
-/** Such as "0.1.0". */
+/** The version as text, such as "0.1.0". */
 PH_API const char* ph_version(void);
 
 typedef enum ph_status {
@@ -71,7 +71,7 @@ typedef struct ph_options {
   int32_t max_dim;        /**< highest dimension; -1: 1 for points, all for images */
   int32_t min_dim;        /**< lowest dimension */
   int64_t field;          /**< characteristic of the coefficients: a prime below 2^31 */
-  double threshold;       /**< largest value that enters, inclusive; NaN: the default */
+  double threshold;       /**< cells of larger values never enter; NaN: the default */
   double min_persistence; /**< bars with death - birth <= this are left out; < 0: keeps all */
   int32_t cells;          /**< not 0: bars have the cells of their birth and death */
   int32_t threads;        /**< 0: one per core */
@@ -88,7 +88,7 @@ typedef struct ph_options {
   const uint8_t* periodic; /**< one per axis, not 0: the axis closes up; NULL: none does */
 } ph_options;
 
-/** Fills in the defaults. */
+/** Fills in the default options. */
 #define ph_options_init(options) ph_options_init_sized((options), sizeof(ph_options))
 PH_API void ph_options_init_sized(ph_options* options, size_t size);
 
@@ -109,7 +109,7 @@ PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t column
                                 int64_t row_stride, int64_t column_stride,
                                 const ph_options* options, ph_barcode** out);
 
-/** The same for distances: the strict lower triangle row by row, d(1,0), d(2,0), d(2,1), …;
+/** The Vietoris-Rips filtration of distances, given as the strict lower triangle row by row, d(1,0), d(2,0), d(2,1), …;
  * size * (size - 1) / 2 numbers, each >= 0 or +infinity. */
 PH_API ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
                                    ph_barcode** out);
@@ -123,9 +123,9 @@ PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes
                                   const ph_options* options, ph_barcode** out);
 
 /** ph_rips_points for many clouds, several at a time: for many small inputs this is faster than one
- * call each. ph_options::threads and memory_limit hold for all inputs together.
- * @param clouds the start of each: rows[i] points of `columns` numbers, row after row.
- * @param out an array of `count`, set on PH_OK only. Otherwise ph_last_error() names the input,
+ * call per cloud. ph_options::threads and memory_limit hold for all inputs together.
+ * @param clouds clouds[i] is the start of rows[i] points of `columns` numbers each, row after row.
+ * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() names the input,
  * counted from 0. */
 PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
                                       int64_t columns, size_t count, const ph_options* options,
@@ -136,7 +136,7 @@ PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number typ
                                         const int64_t* extents, size_t count,
                                         const ph_options* options, ph_barcode** out);
 
-/** Bars are ordered by dimension, birth, death and birth cell. */
+/** The number of bars. Bars are ordered by dimension, birth, death and birth cell. */
 PH_API size_t ph_barcode_size(const ph_barcode* bars);
 /** An array of all bars, which lives as long as the handle. */
 PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
@@ -147,7 +147,7 @@ PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
  * for the death of a bar that lives on, without ph_options::cells, or beyond the last bar. */
 PH_API size_t ph_barcode_birth_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
 PH_API size_t ph_barcode_death_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
-/** The handle may be NULL. */
+/** Frees a barcode; the handle may be NULL. */
 PH_API void ph_barcode_free(ph_barcode* bars);
 
 #ifdef __cplusplus

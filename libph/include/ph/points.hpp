@@ -45,7 +45,7 @@ class PointsView {
       : data_(data),
         rows_(rows),
         columns_(columns),
-        // Data may be null, and then a stride must not be added to it.
+        // If there are no columns, `data` may be null, and no stride must be added to it.
         row_stride_(columns > 0 ? row_stride : 0),
         column_stride_(column_stride) {}
   template <MatrixOfDoubles M>

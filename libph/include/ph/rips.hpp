@@ -124,7 +124,8 @@ class Rips {
       : Rips(std::make_shared<const M>(std::move(metric)), std::move(options), context) {}
   /// The flag complex of any graph, which is its only form.
   explicit Rips(RipsGraph&& graph);
-  /// For points that the caller keeps unchanged as long as there is a copy of the filtration.
+  /// The filtration of points that are not copied: the caller keeps them unchanged as long as there
+  /// is a copy of the filtration.
   static Rips borrowed(PointsView points, RipsOptions options = {},
                        const RunContext& context = default_context());
 

@@ -30,8 +30,8 @@ struct BarPValues {
   /// of death to birth. 1 for bars of length 0. NaN for bars that never die, because they have no
   /// such ratio.
   std::vector<double> p;
-  /// The same, corrected for the number of bars tested (Bonferroni): with probability 1 - alpha,
-  /// all bars whose number here is at most alpha are real.
+  /// The p-values, corrected for the number of bars tested (Bonferroni): with probability 1 -
+  /// alpha, all bars whose number here is at most alpha are real.
   std::vector<double> corrected;
   std::size_t tested = 0;  ///< number of bars with a ratio: finite and longer than 0
 };

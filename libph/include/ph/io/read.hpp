@@ -268,7 +268,7 @@ Mesh read_ply_mesh(const Input& input, const ReadOptions& options = {});
 
 /// The input formats, in the order of the programs' `--format` option.
 enum class Format {
-  automatic,  ///< by content and extension
+  automatic,  ///< decided by content and extension
   points,
   distance,
   lower_distance,
@@ -303,8 +303,8 @@ struct ReadResult {
   /// For Points: row i is point point_ids[i] of the input. If empty, row i is point i: no point was
   /// left out.
   std::vector<Index> point_ids;
-  /// For an Image: the axes that close up on themselves, according to the file. Empty if there are
-  /// none.
+  /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
+  /// axis does.
   std::vector<bool> periodic;
 };
 
@@ -314,7 +314,7 @@ struct FormatInfo {
   std::string_view name;     ///< "points"
   std::string_view marked;   ///< the description with its marks
   std::string_view example;  ///< "0.5 1.25 -3e-2"
-  /// Null if the format is not built in.
+  /// The reader; null if the format is not built in.
   ReadResult (*read)(const Input&, const ReadOptions&);
 
   /// "one point per line: numbers separated by blanks or commas"

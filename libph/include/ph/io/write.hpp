@@ -67,18 +67,19 @@ struct BarcodeInfo {
   /// For a Rips complex, the kind of distance: "euclidean", "minkowski:3", see metric_name;
   /// "precomputed" (given by the user), "function" (a function of the user).
   std::string metric;
-  /// For an image: "vertices" or "cells", as CubicalOptions::Construction.
+  /// For an image, the construction: "vertices" or "cells", see CubicalOptions::Construction.
   std::string construction;
   std::vector<int> periodic;  ///< axes of an image that close up
   /// If vertices enter late, the reason and the method: "dtm 5, exponent 1".
   std::string vertex_weights;
-  /// For a greedy permutation of the points; see ph/greedy_permutation.hpp.
+  /// The subsample, if the points were chosen by a greedy permutation; see
+  /// ph/greedy_permutation.hpp.
   using Subsample = BarcodeSubsample;
   std::optional<Subsample> subsample;
-  /// For points that were turned into an image; see ph/voxel_image.hpp.
+  /// The grid of voxels, if points were turned into an image; see ph/voxel_image.hpp.
   using VoxelGrid = BarcodeVoxelGrid;
   std::optional<VoxelGrid> voxels;
-  /// For an alpha complex, or another complex of the Delaunay triangulation.
+  /// Set for an alpha complex, or for another complex of the Delaunay triangulation.
   using AlphaValues = BarcodeAlphaValues;
   std::optional<AlphaValues> alpha;
   bool superlevel = false;              ///< values are the negated values of the image

@@ -97,7 +97,8 @@ class BarcodeBuilder {
     add_representative(numbers_, coefficients_);
   }
 
-  /// The same, with the cells given by their numbers in the input.
+  /// Sets the representative of the last bar kept, whose cells are given by their numbers in the
+  /// input.
   void add_representative(std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients) {
     require_room(0, numbers.size(), coefficients.size());

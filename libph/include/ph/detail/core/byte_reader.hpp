@@ -24,7 +24,7 @@ class ByteReader {
   /// @param of the name of the data, for messages: "part of an image".
   ByteReader(std::span<const std::byte> bytes, std::string_view of) : bytes_(bytes), of_(of) {}
 
-  /// @throws Error (bad_data): "part of an image: found a damaged seam".
+  /// Throws Error (bad_data) for damaged data, such as "part of an image: found a damaged seam".
   [[noreturn]] void refuse(std::string_view what) const {
     throw Error(ErrorKind::bad_data, fmt::format("{}: found a damaged {}", of_, what));
   }

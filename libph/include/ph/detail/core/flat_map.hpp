@@ -77,7 +77,7 @@ class FlatMap {
   std::size_t start(Key key) const {
     return key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask()));
   }
-  /// The slot of a key, or the slot that it would get.
+  /// The slot of a key, or the slot that the key would get.
   Slot& slot_of(Key key) {
     std::size_t i = start(key);
     while (slots_[i].key != key && slots_[i].key != kFree) i = (i + 1) & mask();

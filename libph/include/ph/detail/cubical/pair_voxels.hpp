@@ -8,10 +8,11 @@
 
 namespace ph::cubical {
 
-/// True if `pair_voxels` can do it: there are some voxels, and their number is unlimited if all
-/// bars come from its two graphs, as with at most two axes of more than one voxel (T: or of axes
-/// that are not periodic). For three axes, the other bars are refused when they are asked for, from
-/// about 2^31 voxels on; for more axes, they need fewer than 2^32 cells (2^d per voxel).
+/// True if `pair_voxels` can process the image, which must have voxels. An axis counts if it has
+/// more than one voxel or, in the T-construction, is not periodic. With at most two such axes, all
+/// bars come from the two graphs of `pair_voxels`, and the number of voxels is unlimited. With
+/// three axes, the bars that do not come from the graphs are refused from about 2^31 voxels on,
+/// when they are asked for. With more axes, these bars need fewer than 2^32 cells (2^d per voxel).
 bool can_pair_voxels(const CubicalImage& grid, int max_dim);
 /// The bytes that `pair_voxels` takes in addition to the image, without critical cells and bars.
 /// Precondition: `can_pair_voxels`.
@@ -26,11 +27,11 @@ bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted);
 /// True if `pair_voxels` can process some layers at a time on request.
 bool can_be_cut(const CubicalImage& grid, const BarRequest& wanted);
 
-/// The pairs of positive length of the cubical filtration of an image. Values of bars are values of
-/// the filtration. Cells are the cells of the pairs in the order of VoxelFiltration. Time:
+/// The pairs of positive length of the cubical filtration of an image. The bars have the values of
+/// the filtration. Their cells are the cells that the order of VoxelFiltration pairs. Time:
 /// near-linear for H0 and the second highest dimension, plus a reduction of critical cells for the
-/// dimensions between them. Memory: 8 bytes per voxel, for more than three axes another 2 per cell,
-/// and the critical cells.
+/// dimensions between them. Memory: 8 bytes per voxel, the critical cells, and for more than three
+/// axes another 2 bytes per cell.
 /// @throws Error (resource) if loops of three axes are wanted for too many voxels.
 template <Field K>
 void pair_voxels(const CubicalImage& grid, const K& field, const BarRequest& wanted,

@@ -13,7 +13,7 @@ namespace ph {
 /// vertex v becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
 /// @throws Error (usage) if the cells have no vertices, or vertices without an id.
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
-/// The same for loops of vertices. @throws Error (usage) on a vertex without an id.
+/// Renames the vertices of loops in the same way. @throws Error (usage) on a vertex without an id.
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
 /// The tree with vertex v renamed to ids[v], one of the `size` vertices of the input. The input's

@@ -41,7 +41,7 @@ struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
   std::vector<bool> periodic;  ///< one per axis
   VoxelType type = VoxelType::float64;
-  const void* voxels = nullptr;     ///< null if there are none
+  const void* voxels = nullptr;     ///< null if there are no voxels
   bool is_in_file = false;          ///< see ph/detail/core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; otherwise the voxels are top cubes (T)
   bool superlevel = false;          ///< values are the values of -f

@@ -69,7 +69,7 @@ class Input {
   static Input hold(std::pmr::vector<char> bytes, const std::string& name,
                     const RunContext* context = nullptr);
 
-  /// The same for bytes that stay in a file.
+  /// An input that owns bytes in a file.
   static Input hold(ScratchFile bytes, const std::string& name,
                     const RunContext* context = nullptr);
 
@@ -87,7 +87,7 @@ class Input {
   const RunContext* context() const { return context_; }
   /// True if it exceeds the memory budget: read it block by block then, see `done_with`.
   bool stays_in_file() const;
-  /// For readers that need the input as a whole: from now on its memory is counted.
+  /// Counts the memory of the input from now on, for readers that need the input as a whole.
   /// @throws Error (resource) if it does not fit.
   void take_memory() const;
   /// Announces that these bytes are not needed for now.
@@ -210,7 +210,7 @@ class Cells {
   /// Reads one number: decimal, with an optional sign and exponent, regardless of the locale.
   /// @throws Error (bad_data) naming the cell if it is not a number or out of the range of double.
   double number(Allow allow = Allow::finite);
-  /// The same in the precision of T: float or double.
+  /// Reads one number in the precision of T, which is float or double.
   template <class T>
   T floating(Allow allow);
   /// Reads one integer from `least` to `most`. @throws Error (bad_data) naming the cell.
@@ -242,7 +242,7 @@ class Cells {
   const char* end_ = nullptr;
   char tab_;            // a second blank character beside ' '
   char skipped_to_;     // separator of skipped cells
-  char separator_ = 0;  // 0 if not seen yet
+  char separator_ = 0;  // 0 until the first separator is seen
 };
 
 /// `a * b`, or nothing if it exceeds size_t.

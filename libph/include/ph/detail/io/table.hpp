@@ -100,7 +100,7 @@ struct TableShape {
   /// The number of rows, counted up to one more than the number of columns; 0 if rows differ in
   /// length.
   std::size_t rows = 0;
-  SquareKind square = SquareKind::nothing;  ///< for a square table
+  SquareKind square = SquareKind::nothing;  ///< nothing unless the table is square
   bool same_names = false;                  ///< its rows have the names of its columns
 };
 TableShape shape_of(const Input& input, const TableLayout& layout);

@@ -114,12 +114,13 @@ class RipsFiltration {
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     for_each_cofacet_within(dim, cell, 0, RipsAdjacency::kNever - 1, visit);
   }
-  /// As RangeFiltration requires.
+  /// A member that RangeFiltration requires.
   template <class Visit>
   void for_each_cofacet_within(int dim, const Cell& cell, Key first, Key last, Visit&& visit) const;
   Key horizon(Key key) const;
 
-  /// As ApparentFiltration requires: a group has the simplices that share a longest edge.
+  /// The members that ApparentFiltration requires. A group has the simplices that share a longest
+  /// edge.
   std::optional<Cell> apparent_cofacet(int dim, const Cell& cell) const;
   std::optional<Cell> apparent_facet(int dim, const Cell& cell) const;
   std::size_t group_count() const { return graph_.edge_count(); }
@@ -139,7 +140,7 @@ class RipsFiltration {
   std::uint32_t vertex(const Cell& cell, int slot) const {
     return static_cast<std::uint32_t>((cell.vertices >> (slot * bits_)).low_bits(bits_));
   }
-  /// The simplex of an edge and other vertices, descending.
+  /// The simplex with the ends of an edge and the vertices `others`, which must descend.
   Cell over_edge(std::uint32_t longest, std::span<const std::uint32_t> others) const {
     const FlagEdge& e = graph_.edge(longest + 1);
     Cell cell{longest + 1, {}};

@@ -54,7 +54,7 @@ class RipsGraph {
                             std::optional<double> threshold, const RunContext& context,
                             const VertexWeights& weights = {});
 
-  /// The same vertices, names, births and threshold with other edges.
+  /// A graph with the vertices, names, births and threshold of `graph`, but with other edges.
   /// @param edges by ascending value; ties keep the order given.
   static RipsGraph with_edges(const RipsGraph& graph, FlagEdges&& edges, const RunContext& context);
 
@@ -64,11 +64,12 @@ class RipsGraph {
   template <Metric M>
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
-  /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
+  /// The same forest for points, in near-linear time. Precondition:
+  /// has_fast_spanning_forest(points, distance).
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
                                     std::optional<double> threshold, const RunContext& context);
-  /// The same on a GPU. @throws Error (not_built_in, resource); Error (usage) as
-  /// gpu::spanning_forest.
+  /// The same forest for Euclidean points, computed on a GPU. @throws Error (not_built_in,
+  /// resource); Error (usage) as gpu::spanning_forest.
   static RipsGraph forest_on_gpu(PointsView points, std::optional<double> threshold,
                                  const RunContext& context);
   static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
@@ -111,8 +112,8 @@ class RipsGraph {
   double value(Key key) const { return edges_[key - 1].value; }
   /// All edges, in order.
   std::span<const FlagEdge> edges() const { return binned_edges().sorted(); }
-  /// For callers that may not need all edges in order. @throws Error (usage) if only points are
-  /// held, here and wherever all edges are asked for.
+  /// The edges, for callers that may not need all of them in order. @throws Error (usage) if only
+  /// points are held; so do the other members that ask for edges.
   const BinnedEdges& binned_edges() const {
     require_edges();
     return edges_;

@@ -36,7 +36,7 @@ class VertexWeights {
   VertexWeights(std::span<const double> births, WeightExponent exponent)
       : births_(births), exponent_(exponent) {}
 
-  /// By vertex; if empty, all enter at 0.
+  /// One birth per vertex; if empty, all vertices enter at 0.
   std::span<const double> births() const { return births_; }
 
   /// The diameter at which the balls around two points meet, which is never before both are born.
