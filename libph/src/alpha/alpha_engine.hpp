@@ -8,7 +8,7 @@
 
 namespace ph::alpha {
 
-/// The bars of an alpha complex that have a positive length.
+/// Computes the bars of positive length of an alpha complex.
 template <Field K>
 void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& bars,
                     const RunContext& context);
@@ -22,9 +22,10 @@ extern template void pair_simplices(const Alpha&, const Zp&, BarcodeBuilder<Alph
 
 namespace ph {
 
-/// Alpha complexes, all dimensions, no zero-length pairs: simplices are paired inside their
-/// intervals; the rest are paired by union-find from both ends and by reduction between them. It
-/// gives cycles, but no cocycles. See docs/explanation/engines/alpha.md.
+/// Computes alpha complexes in all dimensions, without zero-length pairs. Simplices are paired
+/// inside their intervals (AlphaCells) first; the rest are paired by union-find in the lowest and
+/// the highest dimension, and by reduction between these dimensions. The engine gives cycles
+/// (except in a periodic space), but no cocycles. See docs/explanation/engines/alpha.md.
 struct AlphaEngine {
   static constexpr Engine id = Engine::gradient;
   static bool can_run(const Alpha& alpha, const Task& task) {

@@ -78,8 +78,9 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
 
 namespace {
 
-/// Cells of a Delta-complex with their boundaries. Sites have an order of their own; chains use
-/// cells whose points ascend, and the list has those cells.
+/// Lists the cells of a Delta-complex with their boundaries. The sites of a cell ascend, but their
+/// numbers in the input need not; chains use cells oriented by ascending input points, and the list
+/// follows them.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
@@ -112,14 +113,14 @@ class CellList {
  private:
   static constexpr Index kMissing = -1;
 
-  /// @param boundary its facets, in the order of the vertices that they lack. @return the row of
-  /// the cell.
+  /// @param boundary the rows of its facets, in the order of the vertices that the facets lack.
+  /// @return the row of the cell.
   Index add_cell(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
     std::array<Index, 4> points{};
     for (std::size_t i = 0; i < sites.size(); ++i) points[i] = cells_.sites.input[sites[i]];
     return add(std::span(points).first(sites.size()), value, boundary);
   }
-  /// @param points the points in the order of their sites; they get sorted.
+  /// @param points the points in the order of their sites; the function sorts them.
   Index add(std::span<Index> points, double value, std::span<const Index> boundary) {
     if (!enters_(value)) return kMissing;
     ticker_.tick();

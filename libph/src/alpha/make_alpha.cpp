@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The constructor of an alpha complex, and all that it needs, is what the library ph::alpha has:
-// CGAL is used here and nowhere else. The rest of the folder belongs to ph::core.
+// The library ph::alpha has the constructor of alpha complexes and the code that only this
+// constructor needs. No other library uses CGAL. The rest of the folder belongs to ph::core.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,8 +76,8 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 
 namespace {
 
-/// @throws Error (bad_data) unless squares of coordinates below 2^exponent are doubles, down to the
-/// squares of their last places.
+/// @throws Error (bad_data) unless the squares of coordinates below 2^exponent, and of their last
+/// places, are within the range of doubles.
 void check_squares(int exponent) {
   constexpr int most = 511, least = -458;  // 2^-916, with room for 106 more binary places
   if (exponent >= least && exponent <= most) return;  // mutant: alpha-exponent

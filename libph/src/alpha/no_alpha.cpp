@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for the library ph::alpha where there is no CGAL.
+// Replaces the library ph::alpha in builds without CGAL.
 #include "libph/src/alpha/alpha_lazy.hpp"
 #include "ph/error.hpp"
 

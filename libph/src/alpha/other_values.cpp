@@ -8,7 +8,7 @@
 namespace ph::alpha {
 namespace {
 
-/// By point of the input: its site, or the site of which it is a copy.
+/// For each point of the input: its site, or the site that it is a copy of.
 std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
                                                std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> site_of(sites.size() + sites.copies.size(), kNone, memory);
@@ -18,7 +18,7 @@ std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
 }
 
 /// The squared radius of the smallest ball around a simplex if its circumsphere bounds that ball;
-/// otherwise 0, because a face has the same ball.
+/// otherwise 0, because the smallest ball of one of its faces is the same ball.
 double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& sites, int dim) {
   if (dim == 1) return spheres.of_edge(sites[0], sites[1]).squared_radius;
   if (dim == 2)
@@ -55,7 +55,7 @@ ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Va
       for (std::size_t i = 0; i < numbers.size(); ++i)
         sites[i] = site_of[static_cast<std::size_t>(numbers[i])];
       const bool is_own = dim == 1 || (dim > 1 && value == AlphaOptions::Value::delaunay_cech);
-      // A copy and its site have a ball of radius 0.
+      // The smallest ball around a copy and its site has radius 0.
       if (is_own && sites[0] != sites[1]) least = std::max(least, own_ball(spheres, sites, dim));
       if (enters(least)) list.add(numbers, least);
     });

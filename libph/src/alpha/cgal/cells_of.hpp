@@ -10,9 +10,10 @@
 
 namespace ph::alpha {
 
-/// Inserts all sites, each starting near the one before.
-/// @param insert called with (site, starting place): it returns the next starting place.
-/// @param bytes the memory of CGAL, which the budget does not see by itself.
+/// Inserts all sites. The search for the place of a site starts near the site inserted before.
+/// @param insert called with (site, starting place); returns the starting place for the next site.
+/// @param bytes returns the number of bytes that CGAL holds, which must be claimed because CGAL
+/// does not allocate from the budget.
 template <class Start, class Insert, class Bytes>
 void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& claim,
                   Insert&& insert, Bytes&& bytes) {
@@ -27,9 +28,9 @@ void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& cl
   }
 }
 
-/// Sorts the vertices of a cell, and the cells across along with them; missing vertices come last.
-/// All orders are equally likely, which makes branches costly; there are none. @return true if the
-/// permutation is odd.
+/// Sorts the vertices of a cell, and moves the cells across its facets along with them; missing
+/// vertices (kNone) come last. Branchless, because all orders are equally likely and branches would
+/// be mispredicted. @return true if the permutation is odd.
 inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
                       std::array<std::uint32_t, 4>& across) {
   std::array<std::uint64_t, 4> both;
@@ -54,9 +55,9 @@ inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
   return is_odd;
 }
 
-/// Turns the numbers of the cells across into names of facets.
+/// Replaces the number of the cell across each facet by the name of the facet in that cell.
 inline void name_facets(Triangulation& result) {
-  // Named by the cell across, which came before.
+  // Marks an entry that has been replaced already, by the earlier of the two cells.
   constexpr std::uint32_t named = std::uint32_t{1} << 31;
   auto& across = result.across;
   for (std::uint32_t t = 0; t < across.size(); ++t)
@@ -77,7 +78,8 @@ inline void name_facets(Triangulation& result) {
 
 /// Copies the cells of a CGAL triangulation in the order of their smallest vertices, which is an
 /// order in space.
-/// @tparam Handle a handle of a cell, whose info() is free to use; info() of a vertex is its site.
+/// @tparam Handle a handle of a cell. The function overwrites info() of the cells; info() of a
+/// vertex is its site.
 /// @param for_each_cell calls a function with the handle of each cell and true if the cell is
 /// finite.
 template <class Handle, class ForEachCell>
@@ -89,8 +91,8 @@ void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each
     for (int k = 1; k <= dim; ++k) least = std::min(least, c->vertex(k)->info());
     return least;
   };
-  // From here on, kNone stands for infinite cells, and finite cells are sorted by their smallest
-  // vertex.
+  // A counting sort of the finite cells by their smallest vertex. The info() of infinite cells is
+  // kNone.
   std::pmr::vector<std::uint32_t> next(sites + 1, 0, &context.memory);
   std::size_t count = 0;
   for_each_cell([&](Handle c, auto&& is_finite) {
@@ -129,7 +131,7 @@ void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each
   name_facets(result);
 }
 
-/// The edges between neighbours of collinear sites as cells of dimension 1.
+/// Copies the edges between neighbouring collinear sites as cells of dimension 1.
 template <class ForEachEdge>
 void copy_edges(Triangulation& result, ForEachEdge&& for_each_edge) {
   for_each_edge([&](std::uint32_t u, std::uint32_t v) {

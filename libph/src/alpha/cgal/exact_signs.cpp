@@ -57,7 +57,7 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
   }
   const Number radius =
       squared_radius<Number>(std::span(points).first(sites.size()), std::span(weights));
-  // An infinite value would never enter.
+  // A simplex with an infinite value would never enter.
   constexpr double largest = std::numeric_limits<double>::max();
   if (radius > Number(largest)) return largest;  // mutant: alpha-infinite-radius
   return CGAL::to_double(radius);

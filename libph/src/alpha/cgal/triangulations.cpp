@@ -83,7 +83,7 @@ struct Cgal<3> {
   }
 };
 
-/// Copies the triangulation of CGAL, in any dimension up to `dim`.
+/// Copies a CGAL triangulation, which may have any dimension up to `dim`.
 template <int dim, class Dt>
 Triangulation copy(Dt& dt, std::size_t sites, const RunContext& context) {
   Triangulation result(&context.memory);

@@ -12,14 +12,16 @@ namespace {
 
 using std::uint32_t;
 
-/// An edge as found in a cell: its larger end, then 8 · cell + edge.
+/// An edge found in a cell: the upper 32 bits hold its larger end, the lower 32 bits hold 8 · cell
+/// + its number in the cell.
 using Found = std::uint64_t;
 uint32_t larger_end(Found found) { return static_cast<uint32_t>(found >> 32); }
 std::size_t cell_of(Found found) { return static_cast<uint32_t>(found) >> 3; }
 unsigned edge_of(Found found) { return static_cast<unsigned>(found & 7); }
 
-/// Calls a function with the edges of a cell that do not occur in an earlier neighbour across a
-/// facet at the edge. The first cell around an edge always qualifies, a second one hardly ever.
+/// Calls a function with each edge of a cell for which neither of the cells across the two facets
+/// at the edge comes earlier. Of the cells around an edge, the first always qualifies, and another
+/// one hardly ever does.
 template <class Use>
 void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& use) {
   unsigned later = 0;  // facets across which lies a later cell, no cell, or the cell itself
@@ -87,7 +89,7 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
   if (6 * cells.size() >= kNone)
     throw Error(ErrorKind::resource, "alpha complex: found too many edges of tetrahedra");
 
-  // Sorted by smaller vertex, with some duplicates.
+  // Collects the edges, sorted by smaller vertex and with some duplicates.
   std::pmr::vector<uint32_t> begin(sites + 1, 0, memory);
   for (std::size_t t = 0; t < cells.size(); ++t)
     for_each_first(triangulation, t, [&](unsigned e) { ++begin[cells[t][kEdgeEnds[e][0]]]; });

@@ -18,14 +18,14 @@ struct NumberedEdges {
       : ends(memory), begin(memory), of_cell(memory) {}
 
   std::size_t size() const { return ends.size(); }
-  /// The edge between two positions of a cell.
+  /// The edge between the vertices at positions i and k of a cell.
   std::uint32_t between(const Triangulation& triangulation, std::size_t cell, unsigned i,
                         unsigned k) const {
     if (!of_cell.empty()) return of_cell[cell][kEdgeBetween[i][k]];
     const auto& vertices = triangulation.cells[cell];
     return i < k ? with_ends(vertices[i], vertices[k]) : with_ends(vertices[k], vertices[i]);
   }
-  /// The edges of a facet, each opposite the vertex at its position.
+  /// The edges of a facet; the edge at position i lies opposite the vertex at position i.
   std::array<std::uint32_t, 3> of_facet(const Triangulation& triangulation,
                                         std::uint32_t code) const {
     const auto& places = kFacetPlaces[code & 3];
@@ -39,19 +39,19 @@ struct NumberedEdges {
     const std::uint32_t ab = with_ends(a, b);
     return {with_ends(b, c), to(c, ab + 1, begin[a + 1]), ab};
   }
-  /// The first edge with those ends, which must be ascending. Precondition: there is one.
+  /// The first edge with these ends. Preconditions: smaller <= larger, and there is such an edge.
   std::uint32_t with_ends(std::uint32_t smaller, std::uint32_t larger) const {
     return to(larger, begin[smaller], begin[smaller + 1]);
   }
 
   RawVector<Ends> ends;                   ///< ascending; a loop has the same vertex twice
-  std::pmr::vector<std::uint32_t> begin;  ///< by site, and one past the last: its first edge
-  /// In a periodic space, where several edges may have the same ends: the edges by cell, in the
-  /// order of kEdgeEnds.
+  std::pmr::vector<std::uint32_t> begin;  ///< by smaller end: the first edge; at the end, size()
+  /// By cell: its edges in the order of kEdgeEnds. Only for a periodic space, where several edges
+  /// may have the same ends.
   RawVector<std::array<std::uint32_t, 6>> of_cell;
 
  private:
-  /// The first edge with that larger end in a range of edges with the same smaller end.
+  /// The first edge with this larger end in a range of edges with the same smaller end.
   std::uint32_t to(std::uint32_t larger, std::uint32_t first, std::uint32_t last) const {
     constexpr std::uint32_t few = 16;
     while (last - first > few) {
@@ -63,8 +63,9 @@ struct NumberedEdges {
   }
 };
 
-/// O(cells · log). Uses threads.
-/// @param images of a periodic space, or null. It receives the frames of the edges.
+/// Numbers the edges of n cells in O(n log n). Uses threads.
+/// @param images the images in a periodic space, which receive the frames of the edges; otherwise
+/// null.
 NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites, Images* images,
                            const RunContext& context);
 

@@ -5,9 +5,9 @@
 
 namespace ph::alpha {
 
-/// Positions of the vertices of a cell for computations: their sites or, in a periodic space,
-/// images of the sites that are near each other. The same holds for its facets and edges. All
-/// frames of a simplex are translates of each other, and differences of coordinates are exact.
+/// The places where computations see the vertices of a cell, facet or edge: the sites or, in a
+/// periodic space, images of the sites that are near each other. All frames of a simplex are
+/// translates of each other, and differences of coordinates are exact.
 class Frames {
  public:
   /// @param images null if the space is not periodic. Both arguments must outlive the frames.

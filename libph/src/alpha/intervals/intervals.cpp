@@ -21,7 +21,7 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
   const std::uint32_t other = cells.across(code);
   if (cells.belongs_to(code)) return cells.cell_values[code >> 2];
   if (other != kNone && cells.belongs_to(other)) return cells.cell_values[other >> 2];
-  // It is the upper end of its interval, which has a face one dimension lower.
+  // The facet is the upper end of its interval, and is paired with one of its own faces.
   if (cells.dim() == 2) {
     const auto ends = cells.facet_vertices(code);
     return cells.vertex_values[cells.vertex_up[ends[0]] == ends[1] ? ends[0] : ends[1]];

@@ -11,9 +11,9 @@
 
 namespace ph::alpha {
 
-/// The partner of an edge of a triangulation of dimension 3, instead of the name of a facet.
-inline constexpr std::uint32_t kCritical = kNone;     ///< nothing inside its interval
-inline constexpr std::uint32_t kJoins = kNone - 1;    ///< paired with a vertex: it joins components
+/// Values of Edge::up other than the name of a facet.
+inline constexpr std::uint32_t kCritical = kNone;   ///< paired with nothing: it is its own interval
+inline constexpr std::uint32_t kJoins = kNone - 1;  ///< paired with a vertex: it joins components
 inline constexpr std::uint32_t kUnknown = kNone - 2;  ///< its interval is not known yet
 
 struct Edge {
@@ -27,7 +27,7 @@ struct CriticalFacet {
   std::uint32_t code = 0;  ///< its usual name
 };
 
-/// The vertices of a facet of a cell, ascending; their number depends on the dimension.
+/// The vertices of a facet of a cell, ascending; below dimension 3, the last entry is kNone.
 inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>& cell,
                                              std::uint32_t facet, int dim) {
   const auto& places = kFacetPlaces[facet];
@@ -36,11 +36,12 @@ inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>&
 
 /// The alpha filtration of a triangulation, with the pairs of its intervals.
 ///
-/// The simplices of one alpha value that belong together form an interval [L, U]: U has an empty
-/// smallest sphere, and L has the vertices of U whose facets see the centre on their own side
-/// (Bauer & Edelsbrunner, The Morse theory of Čech and Delaunay complexes, 2017). Let a be the
-/// first vertex of U outside L. Each simplex without a is paired with the same simplex plus a. The
-/// remaining simplices are critical: they are intervals of one simplex.
+/// The simplices fall into intervals [L, U] of one alpha value each: the faces of U that contain L.
+/// The smallest sphere of U is empty, and L has the vertices of U such that the centre of the
+/// sphere does not lie beyond the opposite facet (Bauer & Edelsbrunner, The Morse theory of Čech
+/// and Delaunay complexes, 2017). Let a be the first vertex of U outside L. Each simplex without a
+/// is paired with the same simplex plus a. The remaining simplices are critical: they are intervals
+/// of one simplex.
 ///
 /// Values are squared radii, in the units of the sites. All simplices of an interval have the same
 /// value, and no face has a larger value than a coface.
@@ -67,20 +68,20 @@ struct AlphaCells {
     const unsigned places = beyond[code >> 2];
     return places != 0 && lowest(places) == (code & 3);
   }
-  /// The same for either name.
+  /// True if a facet lies in the interval of the cell that its name belongs to.
   bool belongs_to(std::uint32_t code) const { return (beyond[code >> 2] >> (code & 3) & 1) != 0; }
   std::uint32_t across(std::uint32_t code) const {
     return triangulation.across[code >> 2][code & 3];
   }
-  /// In dimension 3: the edge between two positions of a cell.
+  /// In dimension 3: the edge between the vertices at positions i and k of a cell.
   std::uint32_t edge_between(std::size_t cell, unsigned i, unsigned k) const {
     return edges.between(triangulation, cell, i, k);
   }
-  /// In dimension 3: the edges of a facet, each opposite the vertex at its position.
+  /// In dimension 3: the edges of a facet; edge i lies opposite vertex i.
   std::array<std::uint32_t, 3> facet_edges(std::uint32_t code) const {
     return edges.of_facet(triangulation, code);
   }
-  /// The vertices of a facet, ascending; their number depends on the dimension.
+  /// The vertices of a facet, ascending; below dimension 3, the last entry is kNone.
   std::array<std::uint32_t, 3> facet_vertices(std::uint32_t code) const {
     return facet_of(triangulation.cells[code >> 2], code & 3, dim());
   }
@@ -90,8 +91,8 @@ struct AlphaCells {
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;           ///< by cell of the triangulation
-  RawVector<std::uint8_t> beyond;          ///< by cell: the vertices outside L
-  std::pmr::vector<CriticalFacet> facets;  ///< by code
+  RawVector<std::uint8_t> beyond;          ///< by cell: a bit for each vertex outside L
+  std::pmr::vector<CriticalFacet> facets;  ///< sorted by code
   // Only in dimension 3:
   NumberedEdges edges;
   RawVector<Edge> edge_states;  ///< by edge
@@ -100,28 +101,29 @@ struct AlphaCells {
   /// By site: the edge that it is paired with (below dimension 3, the other end of that edge), or
   /// kCritical.
   RawVector<std::uint32_t> vertex_up;
-  /// In dimension 3, by late site: a facet of its interval; kNone if the interval is the site and
-  /// an edge.
+  /// In dimension 3, by site that is paired with an edge: a facet of its interval; kNone if the
+  /// interval consists of the site and the edge.
   RawVector<std::uint32_t> vertex_facet;
 };
 
 /// The triangulation of the points with values and intervals, computed on threads.
-/// @param period one length per axis, or none; 0: the axis does not close up.
-/// @throws Error as sites_of and fold_points; (resource, cancelled).
+/// @param period one length per axis, or empty; an axis of length 0 does not close up.
+/// @throws Error as sites_of and fold_points do, and (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 
 /// The value of a facet, given by either of its names. O(log of the number of critical facets).
 double facet_value(const AlphaCells& cells, std::uint32_t code);
-/// The same. @param critical the facet if it is critical, otherwise null. O(1).
+/// The value of a facet, in O(1). @param critical the entry of a critical facet; null for any other
+/// facet.
 double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFacet* critical);
-/// The critical facet of that name, or null.
+/// The entry of the facet with this name, or null if it is not critical.
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code);
 
 class Frames;
 
-/// Finds values and intervals, depending on the dimension of the triangulation. Edges must be
-/// numbered before.
+/// Find the values and the intervals of a triangulation: of dimension 3, with edges that are
+/// numbered already, or of dimension 1 or 2.
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 

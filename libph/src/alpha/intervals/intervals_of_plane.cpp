@@ -10,7 +10,7 @@ namespace {
 
 using std::uint32_t;
 
-/// Intervals of a triangulation of dimension 1 or 2, found by their upper ends.
+/// Finds the intervals of a triangulation of dimension 1 or 2 by their upper ends.
 class PlaneIntervals {
  public:
   PlaneIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -70,7 +70,7 @@ class PlaneIntervals {
     const auto ends = cells_.facet_vertices(code);
     const bool is_in_first = cells_.belongs_to(code);
     const bool is_in_second = other != kNone && cells_.belongs_to(other);
-    assert(!(is_in_first && is_in_second));  // the centres lie on one side
+    assert(!(is_in_first && is_in_second));  // at most one centre lies beyond the edge
     const bool is_empty = !is_in_first && !is_in_second;
     if (is_empty || cells_.sites.is_weighted()) {
       const auto at = frames_.of_facet(code);
@@ -86,7 +86,8 @@ class PlaneIntervals {
         return;
       }
     }
-    // In the interval of a triangle: paired with that triangle, or with the vertex outside it.
+    // The edge lies in the interval of a triangle, and is paired with the triangle or with a
+    // vertex.
     const uint32_t name = is_in_first ? code : other;
     const std::size_t cell = name >> 2;
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = name & 3;

@@ -10,7 +10,7 @@ namespace {
 
 using std::uint32_t;
 
-/// Intervals of a triangulation of dimension 3, found by their upper ends: tetrahedra, then
+/// Finds the intervals of a triangulation of dimension 3 by their upper ends: tetrahedra, then
 /// triangles, then edges with an empty smallest sphere. The smallest sphere of a facet is not empty
 /// if the centre of an adjacent tetrahedron lies beyond the facet; the same holds for an edge and
 /// an adjacent triangle.
@@ -65,7 +65,7 @@ class SpaceIntervals {
     vertices_.pair(vertex, edge, value, facet);
   }
 
-  // @param code its usual name. @param other its other name.
+  // @param code the usual name of the facet. @param other its other name, or kNone.
   void find_facet(uint32_t code, uint32_t other) {
     const uint32_t cell = code >> 2;
     const auto& places = kFacetPlaces[code & 3];
@@ -77,13 +77,13 @@ class SpaceIntervals {
     }
     const bool is_in_first = cells_.belongs_to(code);
     const bool is_in_second = other != kNone && cells_.belongs_to(other);
-    assert(!(is_in_first && is_in_second));  // the centres lie on one side
+    assert(!(is_in_first && is_in_second));  // at most one centre lies beyond the facet
     if (is_in_first || is_in_second) return give_to_tetrahedron(is_in_first ? code : other);
     if (beyond == 0) {  // mutant: alpha-obtuse
       critical_[cell].push_back({spheres_.triangle_radius(a, b, c), code});
       return;
     }
-    // The interval ends with this triangle.
+    // This triangle is the upper end of its interval.
     const double value = spheres_.triangle_radius(a, b, c);
     const unsigned first = lowest(beyond);
     pair_edge(cells_.edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code,
@@ -95,7 +95,8 @@ class SpaceIntervals {
     }
   }
 
-  // @param code a facet in the interval of the tetrahedron that names it.
+  // Pairs a facet that lies in the interval of a tetrahedron. @param code its name in that
+  // tetrahedron.
   void give_to_tetrahedron(uint32_t code) {
     const uint32_t cell = code >> 2;
     // mutant: alpha-facet-of-edge

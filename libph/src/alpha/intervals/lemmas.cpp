@@ -20,8 +20,8 @@ namespace {
 
 using std::uint32_t;
 
-/// All simplices of a triangulation by their vertices, with the cells that contain them: computed
-/// anew in order to check the numbers and names that the pairing uses.
+/// All simplices of a triangulation by their vertices. They are computed anew in order to check the
+/// numbers and names that the pairing uses.
 class Lemmas {
  public:
   explicit Lemmas(const AlphaCells& cells) : cells_(cells) {
@@ -39,8 +39,8 @@ class Lemmas {
       const long sign = size_of(of) % 2 == 1 ? 1 : -1;
       euler += sign;
       if (simplex.inside.empty() && simplex.beyond.empty()) euler_of_critical += sign;
-      // If its smallest sphere is empty, a simplex is the upper end of its own interval; otherwise
-      // it lies in one other interval.
+      // A simplex with an empty smallest sphere is the upper end of its own interval. Any other
+      // simplex lies in the interval of one larger simplex.
       assert(simplex.claims == (simplex.inside.empty() ? 0 : 1));
     }
     assert(euler == 1 && euler_of_critical == 1);
@@ -104,7 +104,7 @@ class Lemmas {
   void find_intervals() {
     for (const auto& [of, simplex] : simplices_) {
       if (!simplex.inside.empty()) continue;
-      // All subsets of the vertices that may be left out.
+      // Visits all nonempty sets of vertices that may be left out.
       for (unsigned set = 1; set < 1U << simplex.beyond.size(); ++set) {
         Vertices member = of;
         for (std::size_t i = 0; i < simplex.beyond.size(); ++i)

@@ -26,7 +26,7 @@ class Marks {
 /// Critical facets, found by threads piece by piece, in the order of their names.
 class FacetPieces {
  public:
-  static constexpr std::size_t kPiece = 1 << 13;  // cells
+  static constexpr std::size_t kPiece = 1 << 13;  // cells per piece
 
   FacetPieces(std::size_t cells, std::pmr::memory_resource* memory)
       : pieces_((cells + kPiece - 1) / kPiece, memory) {}
@@ -45,7 +45,7 @@ class FacetPieces {
   std::pmr::vector<std::pmr::vector<CriticalFacet>> pieces_;
 };
 
-/// Values and pairs of vertices; with weights, some vertices are late.
+/// Values and pairs of vertices. With weights, some vertices are late: they enter with an edge.
 class VertexIntervals {
  public:
   VertexIntervals(AlphaCells& cells, const RunContext& context)
@@ -56,16 +56,16 @@ class VertexIntervals {
     cells.vertex_up.assign(cells.sites.size(), kCritical);
     cells.vertex_facet.assign(cells.sites.size(), kNone);
   }
-  /// Marks a vertex as late: the other end of the edge lies inside its sphere.
+  /// Marks a vertex as late, because the other end of an edge lies inside its sphere.
   void set_late(std::uint32_t v) { is_late_.set(v); }
-  /// Pairs a late vertex. @param up, facet the entries for AlphaCells.
+  /// Pairs a late vertex. @param up, facet its entries in AlphaCells::vertex_up and vertex_facet.
   void pair(std::uint32_t v, std::uint32_t up, double value, std::uint32_t facet = kNone) {
     assert(cells_.vertex_up[v] == kCritical);
     cells_.vertex_up[v] = up;
     cells_.vertex_values[v] = value;
     cells_.vertex_facet[v] = facet;
   }
-  /// The other vertices enter by themselves.
+  /// Sets the values of all other vertices, which enter alone.
   void finish() {
     for (std::size_t v = 0; v < cells_.vertex_values.size(); ++v) {
       assert(is_late_[v] == (cells_.vertex_up[v] != kCritical));

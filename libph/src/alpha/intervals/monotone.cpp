@@ -12,7 +12,7 @@ namespace {
 
 using std::uint32_t;
 
-/// In dimensions 1 and 2, all simplices are few enough to check again.
+/// Repairs dimensions 1 and 2, where simplices are few enough to check all of them in each pass.
 class PlaneRepair {
  public:
   PlaneRepair(AlphaCells& cells, const RunContext& context) : cells_(cells), context_(context) {}
@@ -60,7 +60,7 @@ class PlaneRepair {
                                                                         : kNone;
     const auto ends = cells_.facet_vertices(code);
     double* value = owner != kNone ? &cells_.cell_values[owner >> 2] : critical;
-    if (value == nullptr)  // a vertex enters with it
+    if (value == nullptr)  // a vertex enters with the edge
       for (unsigned k = 0; k < 2 && value == nullptr; ++k)
         if (cells_.vertex_up[ends[k]] == ends[1 - k]) value = &cells_.vertex_values[ends[k]];
     if (cells_.sites.is_weighted())
@@ -83,7 +83,7 @@ class PlaneRepair {
   bool is_changed_ = false;
 };
 
-/// In dimension 3, each interval that is raised leads on to its cofaces.
+/// Repairs dimension 3: after raising an interval, it looks only at the cofaces of that interval.
 class SpaceRepair {
  public:
   SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -104,8 +104,8 @@ class SpaceRepair {
   }
 
  private:
-  /// An interval in a cell that contains it: positions of the vertices of its upper end, and of the
-  /// vertices that its lower end lacks.
+  /// An interval as seen from a cell that contains it. The bits of `upper` are the positions of the
+  /// vertices of the upper end; `beyond` has those that the lower end lacks.
   struct Interval {
     uint32_t cell;
     unsigned upper, beyond;
@@ -170,7 +170,7 @@ class SpaceRepair {
         }
       }
   }
-  /// Raises a facet to its edges, and its cofaces to it.
+  /// Raises a facet to the values of its edges, and its cofaces to the value of the facet.
   void look_at_facet(uint32_t code) {
     const auto& places = kFacetPlaces[code & 3];
     for (unsigned i = 0; i < 3; ++i) {
@@ -186,7 +186,8 @@ class SpaceRepair {
       if (name != kNone && cells_.cell_values[name >> 2] < value)
         raise({name >> 2, 0b1111, cells_.beyond[name >> 2]}, value);
   }
-  /// Looks at all facets at an edge, which is given in one of the cells around it.
+  /// Raises all facets at an edge to the value of the edge. @param places the positions of the ends
+  /// of the edge in `cell`, one of the cells around it.
   void look_above_edge(uint32_t cell, unsigned places) {
     const double value = cells_.edge_states[edge_at(cell, places)].value;
     const unsigned opposite = 0b1111U & ~places;
@@ -198,7 +199,8 @@ class SpaceRepair {
         if (facet_value(code) < value) raise_facet(code, value);
         const uint32_t other = across(code);
         if (other == kNone || other >> 2 == cell) break;
-        // Finds the edge in the next cell, whose facet has its vertices in the same order.
+        // Finds the edge in the next cell, which has the vertices of the shared facet in the same
+        // order.
         unsigned there = 0;
         for (unsigned i = 0; i < 3; ++i)
           if ((edge >> kFacetPlaces[code & 3][i] & 1) != 0)
@@ -236,7 +238,7 @@ class SpaceRepair {
   }
   template <class Use>
   static void for_each_member(const Interval& interval, Use&& use) {
-    // All subsets of the vertices that may be added to the lower end.
+    // Visits all sets of vertices that may be added to the lower end.
     for (unsigned added = interval.beyond;; added = (added - 1) & interval.beyond) {
       use((interval.upper & ~interval.beyond) | added);
       if (added == 0) return;

@@ -6,8 +6,8 @@
 
 namespace ph::alpha {
 
-/// Positions in a tetrahedron: the two ends of edge e, the edge between two positions, the three
-/// vertices of facet k; all ascending.
+/// Tables of the positions 0 to 3 of vertices in a tetrahedron: the two ends of each edge, the edge
+/// between each two positions, and the three vertices of each facet. Positions ascend.
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdgeEnds{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeBetween{

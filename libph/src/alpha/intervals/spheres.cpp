@@ -107,7 +107,7 @@ std::uint8_t Spheres::beyond_triangle(uint32_t a, uint32_t b, uint32_t c) const 
   const P &p = sites_.points[a], &q = sites_.points[b], &r = sites_.points[c];
   const P u = q - p, v = r - p;
   if (!sites_.is_weighted()) {
-    // One angle is obtuse.
+    // The centre lies beyond the edge opposite an obtuse angle.
     const P w = r - q;
     const double at_a = dot(u, v), at_b = -dot(u, w), at_c = dot(v, w);
     const double bound = 2e-15 * (dot(u, u) + dot(v, v)) + kTiny;  // mutant: alpha-angle-bound

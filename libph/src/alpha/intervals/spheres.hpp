@@ -7,8 +7,8 @@
 
 namespace ph::alpha {
 
-/// A face of the triangulation and its smallest sphere: the sphere goes through the vertices or,
-/// with weights, is orthogonal to them.
+/// The smallest sphere of a face of the triangulation: it goes through the vertices or, with
+/// weights, is orthogonal to them.
 struct Sphere {
   double squared_radius = 0;
   /// Bit k is set if the centre lies strictly beyond the facet opposite vertex k, by the sign of
@@ -23,7 +23,7 @@ class Spheres {
   explicit Spheres(const Sites& sites) : sites_(sites) {}
 
   Sphere of_edge(std::uint32_t a, std::uint32_t b) const;
-  /// Computes only the signs.
+  /// Computes only Sphere::beyond.
   std::uint8_t beyond_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   double triangle_radius(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   Sphere of_tetrahedron(const std::array<std::uint32_t, 4>& cell) const;
@@ -32,7 +32,8 @@ class Spheres {
   using Faces = std::array<std::uint32_t, 4>;
   /// True if vertex k of the first `count` lies inside the smallest sphere of the others.
   bool lies_inside(const Faces& face, std::size_t count, std::size_t k) const;
-  /// The signs of quantities that are known up to `bound`.
+  /// A bit for each negative value. Values are known up to `bound`; exact arithmetic decides the
+  /// sign of a value closer to 0.
   template <std::size_t N>
   std::uint8_t signs(const std::array<double, N>& values, double bound, const Faces& face) const;
   double careful_radius(const Faces& face, std::size_t count) const;

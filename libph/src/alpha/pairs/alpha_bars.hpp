@@ -14,7 +14,7 @@
 
 namespace ph::alpha {
 
-/// A simplex by its sites, in the order of the triangulation.
+/// A simplex by its sites, in ascending order.
 struct Simplex {
   std::array<std::uint32_t, 4> sites{kNone, kNone, kNone, kNone};
   std::size_t size = 0;
@@ -37,7 +37,8 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
   return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
 }
 
-/// Turns pairs of simplices into bars, and chains of sites into chains of the input.
+/// Turns pairs of simplices into bars, and chains of simplices of sites into chains of simplices of
+/// input points.
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)
@@ -48,26 +49,27 @@ class AlphaBars {
 
   bool wants(int dim) const { return bars_.min_dim() <= dim && dim <= bars_.max_dim(); }
   bool wants_cycles() const { return bars_.representatives() == Representatives::cycles; }
-  /// Announces that about `count` bars may come: a hint.
+  /// Reserves memory for about `count` more bars.
   void expect(std::size_t count) {
     if (!bars_.wants_cells() && !wants_cycles()) bars_.expect(some_.size() + count);
   }
-  /// The same for at most `most` bars: no more than there are simplices up to the threshold in
-  /// `simplices`, which are sorted from old to young.
+  /// Reserves memory for at most `most` more bars, and for no more than the number of simplices up
+  /// to the threshold in `simplices`, which are sorted by value.
   void expect(std::size_t most, const RankedSimplices& simplices) {
     const auto beyond = std::ranges::partition_point(simplices, [&](const Ranked& simplex) {
       return alpha_.to_value(simplex.value) <= alpha_.threshold();
     });
     expect(std::min(most, static_cast<std::size_t>(beyond - simplices.begin())));
   }
-  /// Must be called last.
+  /// Passes the remaining bars on; must be called last.
   void flush() {
     bars_.add_bars(some_);
     some_.clear();
   }
-  /// A class born with one simplex and killed by another, at those squared radii. @return true if
-  /// the bar is kept and wants a cycle.
-  /// @param born, killer called for the simplices if they are wanted.
+  /// Adds the bar of a class that is born and dies at these squared radii. @return true if the bar
+  /// is kept and its cycle is wanted.
+  /// @param born, killer called only if cells are wanted; they return the simplices of the birth
+  /// and of the death.
   template <class Born, class Killer>
   bool pair(int dim, double birth, double death, Born&& born, Killer&& killer) {
     if (birth == death) return false;
@@ -82,12 +84,12 @@ class AlphaBars {
     return bar.birth <= alpha_.threshold() && add(bar, born, [] { return Simplex(); });
   }
 
-  /// Adds a term to the cycle of the bar that was kept last.
+  /// Adds a term to the cycle of the last bar that was kept.
   void add_term(const Simplex& simplex, std::int64_t coefficient) {
     const bool is_odd = append(simplex, numbers_);
     coefficients_.push_back(is_odd ? -coefficient : coefficient);  // mutant: alpha-input-sign
   }
-  /// @param is_z2 true if coefficients have no sign.
+  /// @param is_z2 true over Z/2, where all coefficients are 1.
   void finish_cycle(bool is_z2) {
     if (is_z2) std::ranges::fill(coefficients_, 1);
     bars_.add_representative(numbers_, coefficients_);
@@ -96,7 +98,8 @@ class AlphaBars {
   }
 
  private:
-  /// Appends the points of the input, ascending. @return true if that took an odd permutation.
+  /// Appends the input points of a simplex in ascending order. @return true if sorting them took an
+  /// odd permutation.
   bool append(const Simplex& simplex, std::vector<Index>& numbers) const {
     const std::size_t begin = numbers.size();
     bool is_odd = false;
@@ -127,7 +130,7 @@ class AlphaBars {
   const Alpha& alpha_;
   const AlphaCells& cells_;
   BarcodeBuilder<Alpha>& bars_;
-  std::vector<Bar> some_;  // bars without cells that were not passed on yet
+  std::vector<Bar> some_;  // bars without cells that have not been passed on yet
   std::vector<Index> birth_, death_, numbers_;
   std::vector<std::int64_t> coefficients_;
 };

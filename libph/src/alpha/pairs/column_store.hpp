@@ -14,8 +14,8 @@
 
 namespace ph::alpha {
 
-/// A reduced column: the coefficient of its pivot and, directly behind it in memory, the terms
-/// below the pivot, with edges by number.
+/// A reduced column: the coefficient of its pivot. The terms below the pivot, with edges given by
+/// number, follow the object in memory.
 template <Field K>
 class Column {
  public:
@@ -25,7 +25,7 @@ class Column {
   Column(std::uint32_t number, std::uint32_t facet, Element pivot, std::uint32_t size)
       : number_(number), facet_(facet), size_(size), pivot_(pivot) {}
   std::uint32_t number() const { return number_; }
-  /// The critical facet whose boundary the column was.
+  /// The critical facet whose boundary was reduced to this column.
   std::uint32_t facet() const { return facet_; }
   Element pivot() const { return pivot_; }
   std::span<const Term> below() const { return {reinterpret_cast<const Term*>(this + 1), size_}; }
@@ -48,7 +48,7 @@ class ColumnStore {
  public:
   explicit ColumnStore(std::pmr::memory_resource* memory) : blocks_(memory) {}
 
-  /// @param below the terms below the pivot, whose cells are EdgeNames.
+  /// @param below the terms below the pivot; their cells are of type EdgeName.
   template <class Terms>
   const Column<K>* keep(std::uint32_t number, std::uint32_t facet, typename K::Element pivot,
                         const Terms& below) {

@@ -5,9 +5,10 @@
 
 namespace ph::alpha {
 
-/// H0: Kruskal's algorithm on the critical edges, by the elder rule. The forest of shortest edges
-/// has no others: an edge in an interval with more than one vertex closes a triangle as it enters.
-/// @param on_join called with the positions in `edges` of the edges that join components.
+/// Computes H0 by Kruskal's algorithm on the critical edges and the elder rule. Other edges join no
+/// components: an edge that is paired with a triangle enters together with that triangle, whose
+/// other two edges already connect its ends.
+/// @param on_join called with the position in `edges` of each edge that joins components.
 template <Field K, class OnJoin>
 void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,
                      const RunContext& context, AlphaBars& bars, OnJoin&& on_join) {

@@ -8,15 +8,15 @@
 
 namespace ph::alpha {
 
-/// A critical simplex: its value, and its number among simplices of its kind.
+/// A critical simplex: its value, and its number, whose meaning depends on the list it is in.
 struct Ranked {
   double value;
   std::uint32_t number;
-  std::uint32_t code = kNone;  ///< the name of a facet
+  std::uint32_t code = kNone;  ///< its name if it is a facet
 };
 using RankedSimplices = std::pmr::vector<Ranked>;
 
-/// Critical facets by their position in AlphaCells::facets, from old to young.
+/// The critical facets from old to young; their numbers are positions in AlphaCells::facets.
 inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& context) {
   RankedSimplices ranked(cells.facets.size(), &context.memory);
   for (std::uint32_t i = 0; i < ranked.size(); ++i)
@@ -26,8 +26,8 @@ inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& 
   return ranked;
 }
 
-/// Critical edges from old to young: in dimension 3 by number, in dimension 2 by their position
-/// among the facets, in dimension 1 by cell.
+/// The critical edges from old to young. Their numbers are: in dimension 3, numbers of edges; in
+/// dimension 2, positions in AlphaCells::facets; in dimension 1, numbers of cells.
 inline RankedSimplices ranked_edges(const AlphaCells& cells, const RunContext& context) {
   if (cells.dim() == 2) return ranked_facets(cells, context);
   RankedSimplices ranked(&context.memory);
@@ -55,7 +55,7 @@ inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, const Ranke
   }
   return {cells.triangulation.cells[edge.number][0], cells.triangulation.cells[edge.number][1]};
 }
-/// To be called some time before `ends_of`.
+/// Prefetches what `ends_of` reads; call it some time before.
 inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
   if (cells.dim() == 3)
     __builtin_prefetch(&cells.edges.ends[edge.number]);
@@ -63,7 +63,7 @@ inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
     __builtin_prefetch(&cells.triangulation.cells[cells.dim() == 2 ? edge.code >> 2 : edge.number]);
 }
 
-/// Marks of simplices by number.
+/// A set of simplices, as one bit per number.
 using SimplexSet = std::pmr::vector<bool>;
 
 }  // namespace ph::alpha

@@ -14,7 +14,7 @@
 
 namespace ph::alpha {
 
-/// An edge in the order of the filtration.
+/// An edge that compares by its place in the filtration.
 struct EdgeName {
   double value = 0;
   std::uint32_t edge = 0;
@@ -25,11 +25,11 @@ struct EdgeName {
   }
 };
 
-/// A chain of edges under reduction, in ascending order: columns are short, which makes merging
-/// lists faster than a heap. An edge that is paired with a triangle inside its interval is
-/// replaced, when it becomes the pivot, by the rest of that triangle's boundary. Edges that join
-/// components are left out, because no cycle has such an edge as its youngest. An object must not
-/// be shared by threads.
+/// A chain of edges under reduction, as a sorted list: columns are short, which makes merging
+/// sorted lists faster than a heap. If the pivot is an edge that is paired with a triangle inside
+/// its interval, the column adds the multiple of that triangle's boundary which cancels the edge.
+/// Edges that join components are left out, because no cycle has such an edge as its youngest. An
+/// object must not be shared by threads.
 template <Field K>
 class EdgeColumn {
  public:
@@ -46,12 +46,12 @@ class EdgeColumn {
         terms_(&context.memory),
         merged_(&context.memory) {}
 
-  /// Starts again with the boundary of a facet.
+  /// Replaces the chain by the boundary of a facet.
   void assign_boundary(std::uint32_t facet) {
     terms_.clear();
     add_boundary(facet, kNone, field_.from_int(1));
   }
-  /// @param chain ascending.
+  /// Adds `scale` times a chain. @param chain its terms, with ascending edges.
   void add(Element scale, std::span<const Entry<std::uint32_t, K>> chain) {
     count(terms_.size() + chain.size());
     const auto name = [&](std::uint32_t edge) {
@@ -80,7 +80,8 @@ class EdgeColumn {
     terms_.swap(merged_);
   }
   std::span<const Term> terms() const { return terms_; }
-  /// Removes the youngest edge that is in no interval with a triangle; nothing if none is left.
+  /// Removes and returns the pivot: the youngest edge, after all younger edges that are paired with
+  /// a triangle inside their interval have been cancelled. Returns nothing if the chain becomes 0.
   std::optional<Term> take_pivot() {
     while (!terms_.empty()) {
       const Term youngest = terms_.back();
@@ -99,8 +100,9 @@ class EdgeColumn {
     steps_ = 0;
     context_.poll();
   }
-  /// Adds a multiple of the boundary of a facet: the multiple that cancels `coefficient` times the
-  /// edge `without`, which is left out; or `coefficient` times the entire boundary.
+  /// If `without` is kNone, adds `coefficient` times the boundary of a facet. Otherwise adds the
+  /// multiple of the boundary that cancels `coefficient` times the edge `without`, but leaves that
+  /// edge out, because it has been removed already.
   void add_boundary(std::uint32_t facet, std::uint32_t without, Element coefficient) {
     count(1);
     const std::array<std::uint32_t, 3> edges = cells_.facet_edges(facet);

@@ -17,14 +17,15 @@ struct EdgeTerm {
   typename K::Element coefficient;
 };
 
-/// The forest of the edges that join components. It closes chains of edges: the edges outside the
-/// forest determine a cycle.
+/// The spanning forest of the edges that join components. It completes chains to cycles: the edges
+/// outside the forest determine the edges of the cycle inside it.
 template <Field K>
 class EdgeForest {
  public:
   using Element = typename K::Element;
 
-  /// @param joins by edge: true if it joins components, except for edges of late vertices.
+  /// @param joins by edge: true if it is critical and joins components. (Edges that are paired with
+  /// late vertices belong to the forest as well.)
   EdgeForest(const AlphaCells& cells, const SimplexSet& joins, const K& field,
              const RunContext& context)
       : cells_(cells),
@@ -67,7 +68,7 @@ class EdgeForest {
     }
   }
 
-  /// Completes a cycle from its edges outside the forest.
+  /// Completes a cycle: appends the terms inside the forest to the terms outside it.
   void close(std::pmr::vector<EdgeTerm<K>>& chain) {
     heap_.clear();
     for (const EdgeTerm<K>& term : chain) {
@@ -98,7 +99,7 @@ class EdgeForest {
     std::uint32_t edge = kNone, depth = 0;
     bool is_met = false;
   };
-  /// The boundary of a chain at a vertex.
+  /// A summand of the coefficient of a vertex in the boundary of a chain.
   struct AtVertex {
     std::uint32_t depth, vertex;
     Element amount;

@@ -9,15 +9,15 @@
 
 namespace ph::alpha {
 
-/// Homology one below the top dimension: the components of the cells and the outside, which join
-/// across facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm for Betti
-/// numbers of simplicial complexes, 1995). A cell that is paired with a facet is joined from the
-/// start to the cell across that facet. A facet that joins two components gives birth to a class;
-/// the oldest cell of the younger component kills it.
+/// Computes homology one below the top dimension by union-find of the cells and the outside, which
+/// are joined across facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm
+/// for Betti numbers of simplicial complexes, 1995). A cell that is paired with a facet is joined
+/// from the start to the cell across that facet. A facet that joins two components gives birth to a
+/// class; the oldest cell of the younger component kills it.
 ///
 /// If no facet leads outside, because a periodic space closes up in all its dimensions, the last
-/// cell that enters gives birth to a class of the top dimension. The cycle of that class is never
-/// asked for here.
+/// cell that enters gives birth to a class of the top dimension. The engine computes no cycles in
+/// periodic spaces.
 template <Field K>
 class Hollows {
  public:
@@ -35,9 +35,9 @@ class Hollows {
         link(t, sets_.find(node_across(4 * t + lowest(beyond))));  // mutant: alpha-dual-interval
   }
 
-  /// @param facets critical facets, by their position in AlphaCells::facets.
-  /// @param use true if the facet at a position in `facets` is free.
-  /// @param on_join called with the position of a facet that joins components.
+  /// @param facets the critical facets from old to young.
+  /// @param is_free returns true if the facet at a position in `facets` is not paired yet.
+  /// @param on_join called with the position in `facets` of each facet that joins components.
   template <class IsFree, class OnJoin>
   void run(const RankedSimplices& facets, IsFree&& is_free, OnJoin&& on_join) {
     if (bars_.wants(cells_.dim() - 1))
@@ -67,7 +67,8 @@ class Hollows {
     // mutant: alpha-dual-outside
     return node == outside_ ? std::numeric_limits<double>::infinity() : cells_.cell_values[node];
   }
-  // The dual filtration goes from young to old.
+  // The dual filtration runs from young to old: the elder component is the one whose cell enters
+  // later.
   bool enters_later(std::uint32_t a, std::uint32_t b) const {
     const double x = value(a), y = value(b);
     return x != y ? x > y : a > b;  // mutant: alpha-dual-elder
@@ -76,8 +77,9 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
-  /// Prefetches data of facets that come soon, sooner and next, because one access leads to
-  /// another.
+  /// Prefetches data of three upcoming facets. Each access depends on the result of another; a
+  /// facet is therefore prefetched in three steps: first as `soon`, later as `sooner`, then as
+  /// `next`.
   void prefetch(std::uint32_t soon, std::uint32_t sooner, std::uint32_t next) const {
     __builtin_prefetch(&cells_.triangulation.across[soon >> 2]);
     sets_.prefetch(sooner >> 2);
@@ -94,7 +96,7 @@ class Hollows {
         cells_.dim() - 1, birth, value(killer), [&] { return facet_simplex(cells_, code); },
         [&] { return cell_simplex(cells_, killer); });
     if (!wants_cycle) return;
-    // The boundary of its cells, with all cells oriented alike.
+    // The cycle is the boundary of the cells of the component, with all cells oriented alike.
     const std::int64_t sign = sign_of(code, killer);
     rings_->for_each(killer, [&](std::uint32_t t) {
       for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(cells_.dim()); ++k) {
@@ -113,7 +115,7 @@ class Hollows {
   std::int64_t sign(std::uint32_t cell) const {
     return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;  // mutant: alpha-hollow-sign
   }
-  /// The sign that gives the facet of the birth the coefficient 1.
+  /// The sign that gives the facet that gives birth the coefficient 1.
   std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {
     return incidence(sets_.find(code >> 2) == inside ? code : cells_.across(code));
   }

@@ -15,14 +15,15 @@
 
 namespace ph::alpha {
 
-/// H1 in dimension 3: reduces the boundaries of the triangles that union-find left over. The
-/// reduction follows the order in space, not the age, because the columns that a column needs are
-/// then near. If a column reaches the pivot of a younger one, it takes over that pivot and the
-/// younger one is reduced further (Morozov & Nigmetov, Towards lockfree persistent homology, 2020):
-/// as in the textbook, only older columns are added to younger ones.
+/// Computes H1 in dimension 3: reduces the boundaries of the triangles that union-find has not
+/// paired. Columns are reduced in the order of their place in space, not of their age, because the
+/// columns added to a column are then near in memory. If a column reaches the pivot of a younger
+/// column, it takes over that pivot, and the younger column is reduced further (Morozov & Nigmetov,
+/// Towards lockfree persistent homology, 2020). As in the standard algorithm, only older columns
+/// are added to younger ones.
 ///
-/// In a periodic space some boundaries are reduced to zero and some edges are left over: they give
-/// birth to the essential classes of H2 and H1.
+/// In a periodic space, each boundary that is reduced to zero gives birth to an essential class of
+/// H2, and each edge that stays unpaired gives birth to an essential class of H1.
 template <Field K>
 class Loops {
   using Term = typename EdgeColumn<K>::Term;
@@ -43,8 +44,8 @@ class Loops {
         essential_(&context.memory) {}
 
   void run(AlphaBars& bars) {
-    // The content of columns may depend on the order of threads, although their pivots do not.
-    // Cycles must be the same for any number of threads.
+    // The terms of a reduced column may depend on the order in which threads run, although its
+    // pivot does not. If cycles are wanted, one thread therefore reduces all columns.
     const bool in_turn = bars.wants_cycles();
     const std::size_t count = column_of_.size();
     constexpr std::size_t piece = 1 << 12;  // facets per thread at a time
@@ -63,7 +64,7 @@ class Loops {
   }
 
  private:
-  /// The private data of a thread.
+  /// The data that a thread shares with no other thread.
   struct Worker {
     Worker(const Loops& loops)
         : chain(loops.cells_, loops.joins_, loops.field_, loops.context_),
@@ -80,7 +81,8 @@ class Loops {
     return worker;
   }
 
-  /// Reduces the boundary of a critical facet, whose column has that number by age.
+  /// Reduces the boundary of a critical facet. @param column the place of the facet in the order of
+  /// the filtration.
   void reduce(std::uint32_t facet, std::uint32_t column, Worker& worker) {
     auto& chain = worker.chain;
     chain.assign_boundary(cells_.facets[facet].code);
@@ -94,7 +96,7 @@ class Loops {
                !owner.compare_exchange_weak(other, kept, std::memory_order_acq_rel)) {
         }
         if (other == nullptr) return;
-        if (column < other->number()) {  // continues with the younger column
+        if (column < other->number()) {  // continues with the younger facet
           column = other->number();
           facet = other->facet();
         }
@@ -106,7 +108,7 @@ class Loops {
     const std::lock_guard lock(mutex_);
     essential_.push_back(facet);  // mutant: alpha-essential-facet
   }
-  /// By edge: the critical facet that kills its class, or kNone.
+  /// For each edge: the critical facet that kills the class born with it, or kNone.
   std::pmr::vector<std::uint32_t> killers() const {
     std::pmr::vector<std::uint32_t> facets(owners_.size(), kNone, &context_.memory);
     for (std::size_t e = 0; e < owners_.size(); ++e)
@@ -165,7 +167,7 @@ class Loops {
   const RunContext& context_;
   const SimplexSet& joins_;
   const std::span<const std::uint32_t> column_of_;
-  std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with that pivot
+  std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with this pivot, or null
   std::mutex mutex_;
   std::pmr::vector<std::uint32_t> essential_;  // critical facets whose boundaries are reduced to 0
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -9,9 +9,9 @@ namespace ph::alpha {
 
 namespace {
 
-/// In dimensions 1 and 2, edges join components, from old to young; in dimension 2 they also join
-/// hollows, from young to old. In a periodic space some edges do neither, and the top dimension may
-/// have a class.
+/// Pairs dimensions 1 and 2. Edges join components, from old to young; in dimension 2, the other
+/// edges join hollows, from young to old. In a periodic space, some edges do neither and give birth
+/// to essential classes, and the top dimension may have an essential class.
 template <Field K>
 void pair_plane(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {
@@ -36,8 +36,8 @@ void pair_plane(const AlphaCells& cells, const K& field, const RunContext& conte
       });
 }
 
-/// In dimension 3, edges join components, triangles join hollows, and the rest of both form loops.
-/// Lists are freed as soon as they are not needed.
+/// Pairs dimension 3. Edges join components and triangles join hollows; Loops pairs the remaining
+/// edges and triangles. Lists are freed as soon as they are no longer needed.
 template <Field K>
 void pair_space(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {

@@ -12,8 +12,8 @@
 namespace ph::alpha {
 namespace {
 
-/// The range from the smallest to the largest of some numbers; infinite ones are ignored, because
-/// other code reports them.
+/// The smallest and the largest of the numbers added. Numbers that are not finite are ignored,
+/// because other code reports them.
 class Extent {
  public:
   void add(double x) {
@@ -40,7 +40,7 @@ void check_periods(PointsView points, std::span<const double> period) {
                               axis, period[axis]));
 }
 
-/// The largest power of two such that a number of that size is a multiple with 51 bits.
+/// A power of two that is small enough for `size` to have 51 bits as a multiple of it.
 double unit_of(double size) {
   constexpr int bits = 51, least = -1074;
   return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));

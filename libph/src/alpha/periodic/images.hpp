@@ -12,8 +12,9 @@
 
 namespace ph::alpha {
 
-/// A translation by entire periods, with all axes in one number: sums, differences and the order (x
-/// first) are those of the numbers.
+/// A translation by entire periods, with the periods of all axes packed into one number.
+/// Translations are added, subtracted and compared (x first) by adding, subtracting and comparing
+/// these numbers.
 using Translation = std::int64_t;
 inline constexpr int kBitsOfAxis = 21;
 inline constexpr std::int64_t kMostPeriods = std::int64_t{1} << (kBitsOfAxis - 3);
@@ -22,7 +23,7 @@ constexpr Translation translation_by(const std::array<std::int64_t, 3>& periods)
   constexpr std::int64_t base = std::int64_t{1} << kBitsOfAxis;
   return (periods[0] * base + periods[1]) * base + periods[2];
 }
-/// The inverse: the numbers of periods of a translation.
+/// The inverse of translation_by: the number of periods along each axis.
 constexpr std::array<std::int64_t, 3> periods_of(Translation translation) {
   constexpr std::int64_t base = std::int64_t{1} << kBitsOfAxis, half = base / 2;
   std::array<std::int64_t, 3> periods{};
@@ -33,8 +34,9 @@ constexpr std::array<std::int64_t, 3> periods_of(Translation translation) {
   return periods;
 }
 
-/// A periodic space unrolled around its box: the sites and their images, each at its *place*.
-/// Places are numbered by site and then by translation; no translation changes this order.
+/// A periodic space unrolled around its box: the sites and their images. Each image is a *place*.
+/// Places are numbered by site and then by translation, and translating all places leaves this
+/// order unchanged.
 struct Images {
   explicit Images(std::pmr::memory_resource* memory)
       : places(memory),
@@ -44,16 +46,17 @@ struct Images {
         of_cell(memory),
         of_edge(memory) {}
 
-  Sites places;                               ///< as sites of a space that is not periodic
-  std::pmr::vector<std::uint32_t> site;       ///< by place
+  Sites places;                          ///< the images as sites of a space that is not periodic
+  std::pmr::vector<std::uint32_t> site;  ///< by place
   std::pmr::vector<Translation> translation;  ///< by place
-  std::pmr::vector<std::uint32_t> begin;      ///< by site, and one past the last: its first place
-  /// By cell of the quotient, and in dimension 3 by edge: the places of the vertices in a frame of
-  /// its own, where they are near each other.
+  std::pmr::vector<std::uint32_t>
+      begin;  ///< by site: its first place; at the end, the number of places
+  /// By cell of the quotient and, in dimension 3, by edge: its frame, which consists of places of
+  /// the vertices that are near each other.
   RawVector<std::array<std::uint32_t, 4>> of_cell;
   RawVector<std::array<std::uint32_t, 2>> of_edge;
 
-  /// The place of an image, or kNone if there is none.
+  /// The place of an image of a site, or kNone if that image is not listed.
   std::uint32_t place_of(std::uint32_t its_site, Translation its_translation) const {
     for (std::uint32_t place = begin[its_site]; place < begin[its_site + 1]; ++place)
       if (translation[place] == its_translation) return place;
@@ -61,10 +64,10 @@ struct Images {
   }
 };
 
-/// The distance beyond the closed faces of the box up to which images of a point are wanted.
+/// Returns, for a point, how far beyond the closed faces of the box its images are wanted.
 using Margin = std::function<double(const Vector<double>&)>;
 
-/// The images of sites up to their margins.
+/// Lists all images of the sites up to their margins.
 /// @throws Error (resource) if there are too many; (cancelled).
 Images images_within(const Sites& sites, const Box& box, const Margin& margin_of,
                      const RunContext& context);

@@ -11,7 +11,7 @@ namespace {
 using std::uint32_t;
 using Cell = std::array<uint32_t, 4>;
 
-/// Cells, sorted by their smallest vertex.
+/// For cells sorted by their smallest vertex: the first cell of each vertex.
 std::pmr::vector<uint32_t> cells_by_vertex(const RawVector<Cell>& cells, std::size_t vertices,
                                            std::pmr::memory_resource* memory) {
   std::pmr::vector<uint32_t> begin(vertices + 1, 0, memory);
@@ -49,8 +49,8 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// The translation that brings a cell into the box: on each axis, the translation of its middle
-  /// vertex. It chooses the same translate for all translates of a cell.
+  /// The translation that, when undone, brings a cell into the box: on each axis, the median of the
+  /// translations of its vertices. All translates of a cell are brought to the same cell.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
     bool is_same = true;
@@ -86,8 +86,8 @@ class Quotient {
     begin_ = cells_by_vertex(result_.cells, sites_, &context_.memory);
   }
 
-  /// The number of the cell of which an unrolled cell is a translate, or kNone if it does not
-  /// exist.
+  /// The number of the kept cell that an unrolled cell is a translate of, or kNone if there is
+  /// none.
   uint32_t number_of(uint32_t t) const {
     if (number_[t] != kNone) return number_[t];
     const Cell& cell = unrolled_.cells[t];
@@ -110,7 +110,7 @@ class Quotient {
     for (std::size_t axis = 0; axis < 3; ++axis) closed += box_.is_closed(axis) ? 1U : 0U;
     const std::size_t dim = size_ - 2;
     if (closed > dim) return false;
-    // Projected along those axes, it must lose that many dimensions.
+    // The projection along the closed axes must lower the dimension of the facet by `closed`.
     std::array<Vector<double>, 3> seen;
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -173,8 +173,8 @@ class Quotient {
     return is_kept == is_wanted;
   }
 
-  /// True if each cell at a site is a cell of the triangulation when that site is in the box. The
-  /// triangulation then has the cells around a vertex once.
+  /// True if each kept cell at one of the sites, moved so that this site is in the box, is a cell
+  /// of the unrolled triangulation. The kept cells then cover the surroundings of this site once.
   bool covers_once() const {
     const auto begin = cells_by_vertex(unrolled_.cells, images_.places.size(), &context_.memory);
     const uint32_t site = result_.cells[0][0];
@@ -184,7 +184,8 @@ class Quotient {
           return false;
     return true;
   }
-  /// True if a cell exists after it is moved back by a translation.
+  /// True if the unrolled triangulation has the cell that results from moving `cell` back by a
+  /// translation.
   bool is_there(Cell cell, Translation by, const std::pmr::vector<uint32_t>& begin) const {
     for (std::size_t i = 0; i < size_; ++i) {
       cell[i] = images_.place_of(images_.site[cell[i]], translation(cell[i]) - by);
@@ -199,11 +200,12 @@ class Quotient {
   const Images& images_;
   const Box& box_;
   const RunContext& context_;
-  const std::size_t size_;             // vertices per cell
-  const std::size_t sites_;            // number of sites
-  std::pmr::vector<uint32_t> number_;  // by unrolled cell, among those kept
-  std::pmr::vector<uint32_t> begin_;   // by site: the kept cells whose smallest vertex it is
-  std::pmr::vector<uint32_t> kept_;    // by number: the unrolled cell
+  const std::size_t size_;   // vertices per cell
+  const std::size_t sites_;  // number of sites
+  std::pmr::vector<uint32_t>
+      number_;                        // by unrolled cell: its number among the kept cells, or kNone
+  std::pmr::vector<uint32_t> begin_;  // by site: the kept cells whose smallest vertex it is
+  std::pmr::vector<uint32_t> kept_;   // by number: the unrolled cell
   Triangulation result_;
   RawVector<Cell> of_cell_;
 };

@@ -13,8 +13,9 @@ namespace {
 std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
 /// A margin that is likely to be enough if the sites are uniformly distributed. In the interior it
-/// is the radius of the largest empty sphere plus the usual size of a cell. Near an open end, empty
-/// spheres are caps; the flatter they are, the wider they are, up to the lengths that close up.
+/// is the radius of the largest empty sphere plus the usual size of a cell. Near the end of an open
+/// axis, only a cap of an empty sphere lies among the sites; the flatter the cap, the wider it is,
+/// up to the diagonal of the closed axes.
 class LikelyMargin {
  public:
   LikelyMargin(const Sites& sites, const Box& box) : box_(box) {
@@ -33,7 +34,7 @@ class LikelyMargin {
       measure *= extent;
       ++dim_;
     }
-    constexpr double few = 8;  // found by trial: less than one in many runs must start again
+    constexpr double few = 8;  // found by trial: hardly any run must start again
     inside_ = std::min(around_, std::pow(measure / count * (std::log(count) + few), 1.0 / dim_));
   }
   double inside() const { return inside_; }
@@ -58,8 +59,8 @@ class LikelyMargin {
   int dim_ = 0;
 };
 
-/// The least margin that gives some site an image along each closed axis: without such a site, the
-/// affine hull of the images may be smaller than the hull of all images.
+/// The smallest margin that gives at least one site an image along each closed axis. Without these
+/// images, the affine hull of the listed images may be smaller than that of all images.
 double least_margin(const Sites& sites, const Box& box) {
   double least = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -28,7 +28,8 @@ void check_values(const Alpha& alpha, double value, std::string_view what) {
 }
 
 /// The surface of a subcomplex.
-/// @param has_cell, has_facet true if a cell, or a facet given by its usual name, belongs to it.
+/// @param has_cell, has_facet return true if a cell, or a facet given by its usual name, belongs to
+/// the subcomplex.
 template <class HasCell, class HasFacet>
 SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_facet) {
   SurfaceMesh mesh;
@@ -64,8 +65,8 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   return mesh;
 }
 
-/// The simplices below critical simplices: their faces, the intervals of these faces, and so on
-/// (Bauer & Edelsbrunner 2017).
+/// Collects the critical simplices that enter, their faces, all simplices of the intervals of these
+/// faces, the faces of those simplices, and so on (Bauer & Edelsbrunner 2017).
 class Wrap {
  public:
   Wrap(const AlphaCells& cells, const RunContext& context)
@@ -76,7 +77,7 @@ class Wrap {
         has_edge_(cells.edge_states.size(), false, &context.memory) {}
 
   bool has_cell(uint32_t t) const { return has_cell_[t]; }
-  /// @param code its usual name.
+  /// @param code the usual name of the facet.
   bool has_facet(uint32_t code) const { return has_facet_[code]; }
 
   template <class Enters>

@@ -6,7 +6,7 @@
 
 namespace ph::alpha {
 
-/// The bits of a number, with N - 1 zeros before each.
+/// Spreads the bits of a number: puts N - 1 zeros before each bit.
 template <std::size_t N>
 std::uint64_t spread(std::uint64_t x) {
   static_assert(N == 2 || N == 3);
@@ -43,7 +43,7 @@ std::uint64_t hilbert_place(std::array<std::uint32_t, N> x, int bits) {
       }
     }
   }
-  // Gray code.
+  // Decodes the Gray code.
   for (std::size_t i = 1; i < N; ++i) x[i] ^= x[i - 1];
   std::uint32_t flip = 0;
   for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1)

@@ -6,7 +6,7 @@
 
 namespace ph::alpha {
 
-/// x · 2^exponent, with the result of std::ldexp, and faster if it is a single product.
+/// x · 2^exponent: the same as std::ldexp, but faster for exponents where one product suffices.
 inline double times_power_of_two(double x, int exponent) {
   constexpr int bias = 1023, most = 1000;
   if (exponent < -most || exponent > most) return std::ldexp(x, exponent);

@@ -67,7 +67,7 @@ double scaled(double x, int exponent, Index point) {
   return result;
 }
 
-/// Positions of points along the curve, which fills the smallest cube around them.
+/// Computes the positions of points along a Hilbert curve that fills the smallest cube around them.
 template <std::size_t N>
 void place_along_curve(std::span<const Vector<double>> points, std::span<Placed> order,
                        Ticker& ticker) {
@@ -80,7 +80,7 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   const Vector<double> size = high - low;
   const double side = std::max({size.x, size.y, size.z});
   constexpr double cells = static_cast<double>((std::uint32_t{1} << bits) - 1);
-  // Compared with the weights, the cube may be so small that the quotient overflows.
+  // The quotient overflows if the cube is very small compared with the weights.
   const double scale = side > 0 ? std::min(cells / side, std::numeric_limits<double>::max()) : 0;
   const auto cell = [&](double x) {
     return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells));
@@ -96,8 +96,8 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   }
 }
 
-/// The points in the order of the curve, except for points whose positions agree in the first 53
-/// bits.
+/// Sorts points by position along the curve; points whose positions agree in the first 53 bits are
+/// left in any order.
 std::pmr::vector<Placed> along_curve(std::span<const Vector<double>> points, int coordinates,
                                      Ticker& ticker, const RunContext& context) {
   std::pmr::vector<Placed> order(points.size(), &context.memory);
@@ -137,7 +137,8 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
 
   Ticker ticker(context, "spatial order", count);
   auto order = along_curve(scaled_points, sites.coordinates, ticker, context);
-  // Points in the same cell of the curve are ordered by coordinates, copies by weight and number.
+  // Points in the same cell of the curve are sorted by coordinates; copies are sorted by weight,
+  // then by number.
   const auto precedes = [&](const Placed& a, const Placed& b) {
     if (a.place != b.place) return a.place < b.place;
     const Vector<double>&p = scaled_points[a.point], &q = scaled_points[b.point];

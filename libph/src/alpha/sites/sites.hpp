@@ -31,25 +31,25 @@ struct Sites {
   int exponent = 0;                  ///< a point of the input is 2^exponent times its site
   RawVector<Vector<double>> points;  ///< by site
   std::pmr::vector<double> weights;  ///< by site, or empty if no point has a weight
-  /// By site: the point of the input, the first one if there are copies.
+  /// By site: the point of the input; if there are copies, the first of them.
   std::pmr::vector<std::uint32_t> input;
-  /// The other copies: the point of the input, and the site.
+  /// The other copies: each point of the input that is a copy, with its site.
   std::pmr::vector<std::array<std::uint32_t, 2>> copies;
-  /// All sites in an order that keeps neighbours in space close together; if empty, the order of
-  /// their numbers.
+  /// All sites in an order that keeps neighbours in space close together; empty if their numbers
+  /// are such an order.
   std::pmr::vector<std::uint32_t> path;
 };
 
-/// @param points of R¹, R² or R³. @param weights one per point, or none; if copies have different
-/// weights, the heaviest is the site and the others count as copies.
+/// @param points points of R¹, R² or R³. @param weights one per point, or none. If points at the
+/// same place have different weights, the heaviest becomes the site and the others are its copies.
 /// @throws Error (usage) on points of another space, and if there is not one weight per point;
 ///         Error (bad_data) on numbers that are not finite, and on coordinates that differ too much
 ///         in magnitude; Error (resource, cancelled).
-/// @param largest a magnitude that must be in range as well.
+/// @param largest a magnitude that must be within the range of scaled numbers as well.
 Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
                double largest = 0);
 
-/// Orders the path along a curve, for sites that are numbered differently.
+/// Computes Sites::path, for sites whose numbers do not follow the curve.
 void order_path(Sites& sites, const RunContext& context);
 
 }  // namespace ph::alpha

@@ -11,27 +11,27 @@
 
 namespace ph::alpha {
 
-/// A Delaunay triangulation (regular if there are weights) of the affine hull of the sites: its
-/// cells have dim + 1 vertices.
+/// A Delaunay triangulation of the sites (with weights, a regular triangulation) in their affine
+/// hull, which has dimension `dim`. Cells have dim + 1 vertices.
 ///
 /// Facet k of cell t, opposite the cell's vertex k, has the name 4t + k. A facet between two cells
-/// has two such names, of which the smaller one is called usual.
+/// has two such names; the smaller one is its *usual name*.
 ///
-/// The vertices of a cell ascend; a face therefore has its vertices in the same order in each cell,
-/// and positions determine the signs of boundaries.
+/// The vertices of a cell ascend. A face therefore has its vertices in the same order in each cell,
+/// and the positions of vertices determine the signs in boundaries.
 ///
 /// In a periodic space it is a Delta-complex: a cell may have a vertex several times, but each
-/// other face only once; faces with the same vertices may be different. Equal vertices have an
-/// order of their own (periodic/images.hpp), which again is the same in each cell.
+/// other face only once; faces with the same vertices may be different. Equal vertices are in the
+/// order of their places (periodic/images.hpp), which also is the same in each cell.
 struct Triangulation {
   explicit Triangulation(std::pmr::memory_resource* memory)
       : cells(memory), across(memory), is_reversed(memory) {}
 
   std::size_t size() const { return cells.size(); }
 
-  int dim = -1;                                   ///< of the affine hull; -1 if there is no site
+  int dim = -1;  ///< dimension of the affine hull; -1 if there is no site
   RawVector<std::array<std::uint32_t, 4>> cells;  ///< vertices, ascending, then kNone
-  /// By facet: its name in the other cell, or kNone.
+  /// By facet: its name in the cell on the other side, or kNone if there is none.
   RawVector<std::array<std::uint32_t, 4>> across;
   /// True if the ascending vertices of a cell are oriented against those of the other cells (dim 2
   /// and 3).
@@ -41,7 +41,7 @@ struct Triangulation {
 /// @throws Error (resource, cancelled).
 Triangulation triangulate(const Sites& sites, const RunContext& context);
 
-/// With weights: removes the sites that belong to no cell.
+/// Removes the sites that belong to no cell; only for sites with weights.
 /// @param hidden receives the corresponding points of the input.
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden);

@@ -7,13 +7,13 @@
 
 #include "libph/src/alpha/triangulation/triangulation.hpp"
 
-// The services of CGAL, without any name of CGAL.
+// Declares what the library computes with CGAL, without including CGAL.
 namespace ph::alpha {
 
-/// The triangulation by x and y. Precondition: there is a site.
+/// The triangulation in the plane of x and y. Precondition: there is at least one site.
 Triangulation triangulate_plane(const Sites& sites, const RunContext& context);
-/// The triangulation by x, y and z; for coplanar and collinear sites, the triangulation of their
-/// affine hull.
+/// The triangulation in space; for coplanar or collinear sites, the triangulation in their affine
+/// hull.
 Triangulation triangulate_space(const Sites& sites, const RunContext& context);
 
 /// A point with its weight.
