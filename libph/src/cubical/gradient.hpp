@@ -7,11 +7,12 @@
 
 namespace ph {
 
-/// Images of any size; for bars from the loops between the two graphs, up to 2^31 voxels (three
-/// axes) or 2^32 cells (more axes; axes with one voxel do not count). All dimensions, no
-/// zero-length pairs: cells are paired voxel by voxel; the rest are paired by union-find from both
-/// ends and by reduction between them. For three axes it gives cycles or sets of voxels, but no
-/// cocycles. See docs/explanation/engines/discrete-gradient.md.
+/// Computes images in all dimensions, without zero-length pairs. Cells are paired voxel by voxel
+/// first; the rest are paired by union-find in the lowest and the highest dimension, and by
+/// reduction between these dimensions. The reduction takes at most about 2^31 voxels (three axes)
+/// or 2^32 cells (more axes); without it, images may have any size. (Axes with one voxel do not
+/// count.) For up to three axes, the engine gives cycles or sets of voxels, but no cocycles. See
+/// docs/explanation/engines/discrete-gradient.md.
 struct GradientEngine {
   static constexpr Engine id = Engine::gradient;
   template <Filtration F>

@@ -13,10 +13,11 @@
 
 namespace ph::cubical {
 
-/// Persistent components of one of the two graphs of a grid: vertices joined by edges as they
-/// enter, or top cells joined by facets backwards, youngest first. The second graph has nodes that
-/// were always there: the outside, in two parts if only one axis has ends, and cells that never
-/// enter. Apparent pairs give the first parents; the other cells are joined by the elder rule.
+/// Persistent components of one of the two graphs of a grid. The first graph has vertices, joined
+/// by edges in the order in which the edges enter. The second graph has top cells, joined by facets
+/// in reverse order, youngest first. It also has nodes that were always there: the outside, which
+/// has two parts if only one axis has ends, and cells that never enter. Pairs of cells within a
+/// star (arrows) give the first parents; bridges then join components by the elder rule.
 class CellComponents {
  public:
   using Name = CellGrid::Name;
@@ -25,19 +26,21 @@ class CellComponents {
   /// Takes 4 bytes per node.
   CellComponents(const CellGrid& grid, Graph graph, const RunContext& context);
 
-  /// @param bridges edges or facets in no known pair, in the order of the filtration; those that
-  ///        join components are removed.
-  /// @param on_merge called with (bridge, node that dies, or nothing if both were always there).
+  /// @param bridges edges or facets in no known pair, in the order of the filtration; the function
+  /// removes the bridges that join components.
+  /// @param on_merge called with (bridge, node that dies); the node is nothing if both components
+  /// were always there.
   void join(std::pmr::vector<Name>& bridges,
             const std::function<void(Name, std::optional<Name>)>& on_merge);
-  /// True if a node without an arrow lives forever. Precondition: all bridges have been joined.
+  /// True if the component born with a node without an arrow lives forever. Precondition: `join`
+  /// has been called.
   bool survives(Name node);
 
  private:
-  // The number of a node; the two parts of the outside come last.
+  // The number of the node that contains these coordinates; the two parts of the outside come last.
   std::uint32_t number(const CellGrid::Coordinates& x) const;
   std::uint32_t cell_of(std::uint32_t number) const;
-  /// The node two steps from a node, or one step from a bridge.
+  /// The node that is `steps` steps from a cell in a direction: two from a node, one from a bridge.
   std::uint32_t beyond(std::uint32_t cell, const CellGrid::Coordinates& x, int direction,
                        int steps) const;
   std::array<std::uint32_t, 2> ends(std::uint32_t bridge) const;

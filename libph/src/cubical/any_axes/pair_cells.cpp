@@ -15,8 +15,7 @@ namespace {
 using Name = CellGrid::Name;
 using Graph = CellComponents::Graph;
 
-/// The critical cells that are left: none, once all pairs and all bars that never die have been
-/// found.
+/// Pairs the critical cells, dimension by dimension, and keeps the cells that are not paired yet.
 class CellPairing {
  public:
   CellPairing(CellGrid& grid, CellSink& sink, const RunContext& context)
@@ -33,7 +32,8 @@ class CellPairing {
     for (const Name vertex : left_[0])
       if (components.survives(vertex)) sink_.add(0, vertex, std::nullopt);
   }
-  /// Pairs facets with the top cells that kill them; some facets stay alive.
+  /// Pairs facets with the top cells that kill them. Facets whose class never dies are passed on
+  /// without a death.
   void pair_top_cells() {
     const auto top = static_cast<std::size_t>(grid_.dim());
     CellComponents components(grid_, Graph::of_top_cells, context_);
@@ -43,7 +43,8 @@ class CellPairing {
     for (const Name cell : left_[top])
       if (components.survives(cell)) sink_.add(grid_.dim(), cell, std::nullopt);
   }
-  /// Pairs cells of a dimension with the cells that kill them, which give birth to nothing.
+  /// Pairs the remaining cells of dimension `dim` with the cells one dimension higher that kill
+  /// them.
   template <Field K>
   void pair_between(int dim, const K& field) {
     const auto k = static_cast<std::size_t>(dim);
@@ -57,7 +58,7 @@ class CellPairing {
     std::erase_if(left_[k], [&](Name row) { return reduction.is_pivot(row); });
     left_[k + 1] = std::pmr::vector<Name>(&context_.memory);
   }
-  /// The remaining cells live forever.
+  /// Passes on the remaining edges, whose classes never die.
   void add_loops() {
     for (const Name edge : left_[1]) sink_.add(1, edge, std::nullopt);
   }
@@ -86,8 +87,8 @@ void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wan
   CellPairing pairing(grid, sink, context);
   pairing.pair_vertices();
   if (max_dim > 0) {
-    // Always starts from the top, because cells that give birth to a class then need no columns;
-    // these columns would be the longest, and would be reduced to zero.
+    // Starts from the top dimension: cells that give birth to a class then need no columns. Their
+    // columns would be the longest, and would be reduced to zero.
     if (grid.dim() > 1) pairing.pair_top_cells();
     for (int dim = grid.dim() - 2; dim > 0; --dim) pairing.pair_between(dim, field);
     pairing.add_loops();

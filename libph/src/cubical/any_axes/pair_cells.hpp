@@ -6,14 +6,15 @@
 
 namespace ph::cubical {
 
-/// True if `pair_cells` can do it: there are some cells, and fewer than 2^32.
+/// True if `pair_cells` can pair the image: it is not empty, and has at most 8 axes and fewer than
+/// 2^32 cells.
 bool can_pair_cells(const CubicalImage& grid);
-/// Bytes that it keeps for all cells.
+/// The number of bytes that `pair_cells` keeps for the marks of all cells.
 double bytes_of_cells(const CubicalImage& grid);
 
-/// The same as `pair_voxels` for any number of axes: components from both ends, and a reduction of
-/// critical cells between them. Memory: 8 bytes per voxel, 2 per cell (2^d cells per voxel), and
-/// the critical cells.
+/// Does the same as `pair_voxels` for any number of axes: union-find in the lowest and the highest
+/// dimension, and a reduction of critical cells between these dimensions. Memory: 8 bytes per
+/// voxel, 2 per cell (2^d cells per voxel), and the critical cells.
 template <Field K>
 void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wants_cells,
                 const RunContext& context, const BarSink& bars);

@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of cells under reduction. A cell that is killed inside its star is replaced, when it
-/// becomes the pivot, by the rest of its killer's boundary; a chain is therefore expanded only down
-/// to its pivot. Cells that kill are left out, because no cycle has such a cell as its youngest. An
-/// object must not be shared by threads.
+/// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, the
+/// rest of the boundary of its killer replaces it; a chain is therefore expanded only down to its
+/// pivot. Cells that kill other cells are left out, because such a cell is never the youngest of a
+/// cycle. An object must not be shared by threads.
 template <Field K>
 class BoundaryColumn {
  public:
@@ -28,12 +28,12 @@ class BoundaryColumn {
   BoundaryColumn(const CellGrid& grid, const K& field, const RunContext& context)
       : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
 
-  /// Starts again with the boundary of a cell.
+  /// Replaces the chain by the boundary of a cell.
   void assign_boundary(std::uint32_t cell) {
     heap_.clear();
     add_boundary(cell, grid_.coordinates(cell), CellGrid::kNone, field_.from_int(1));
   }
-  /// Starts again with a chain.
+  /// Replaces the chain by another chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -42,24 +42,26 @@ class BoundaryColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Removes the youngest cell that is in no pair inside its star; nothing if none is left.
+  /// Removes and returns the pivot: the youngest cell that is in no pair inside its star. Returns
+  /// nothing if the chain becomes 0.
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// To be called before the chain is kept: replaces about as many cells below its pivot as the
-  /// chain has. Columns that it is added to then need not do so again, and many terms cancel.
+  /// Called before the chain is kept: replaces about as many cells below the pivot as the chain has
+  /// terms. Columns that the chain is added to then need not replace these cells again, and many
+  /// terms cancel.
   /// @return the pivot; all other cells are older.
   std::optional<Term> settle(const Term& pivot) {
     return heap_.follow(pivot, heap_.size(), [this](const Term& term) { return replace(term); });
   }
-  /// The terms that it holds, each cell once, from young to old.
+  /// The terms of the chain, each cell once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Adds the rest of the killer's boundary instead of a cell that was removed. @return true if
-  // there is a killer.
+  // Replaces a cell that has been removed by the rest of the boundary of its killer. @return true
+  // if there is a killer inside the star.
   bool replace(const Term& term) {
     const std::uint32_t cell = CellGrid::cell(term.cell);
     const CellMark mark = grid_.mark(cell);
@@ -83,8 +85,8 @@ class BoundaryColumn {
     steps_ = 0;
     context_.poll();
   }
-  // Adds `scale` times the boundary of a cell, except for the facet `skip`. @param at coordinates
-  // of the cell.
+  // Adds `scale` times the boundary of a cell, except for the facet `skip`. @param at the
+  // coordinates of the cell.
   void add_boundary(std::uint32_t cell, const CellGrid::Coordinates& at, std::uint32_t skip,
                     Element scale) {
     count(1);

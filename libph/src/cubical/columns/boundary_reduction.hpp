@@ -11,8 +11,8 @@
 
 namespace ph::cubical {
 
-/// Homology between the two ends: reduces the boundaries of cells of one dimension, see
-/// ParallelReduction.
+/// Computes homology in a dimension between the lowest and the highest: reduces the boundaries of
+/// the cells of one dimension with ParallelReduction.
 template <Field K>
 class BoundaryReduction {
   using Chain = BoundaryColumn<K>;
@@ -22,7 +22,8 @@ class BoundaryReduction {
  public:
   using Name = CellGrid::Name;
 
-  /// @param columns cells in no known pair, in the order of the filtration.
+  /// @param columns the cells in no known pair whose boundaries are reduced, in the order of the
+  /// filtration.
   /// @param rows the cells in no known pair one dimension lower.
   BoundaryReduction(const CellGrid& grid, std::span<const Name> columns, std::span<const Name> rows,
                     const K& field, const RunContext& context)
@@ -35,7 +36,8 @@ class BoundaryReduction {
     enter_rows(rows);
   }
 
-  /// @param on_pair called with (column, row), or (column, nothing) if the column is zero.
+  /// @param on_pair called with (column, row of its pivot), or (column, nothing) if the column is
+  /// reduced to zero.
   template <class OnPair>
   void run(OnPair&& on_pair) {
     constexpr std::size_t piece = 64;  // columns per thread at a time
@@ -62,14 +64,14 @@ class BoundaryReduction {
       ticker.tick();
     }
   }
-  // The entry for the column whose pivot is that row. Precondition: `row` is a row of the matrix.
+  // The entry for the column whose pivot is this row. Precondition: `row` is a row of the matrix.
   const Column*& owner_of(Name row) { return *owners_.find(CellGrid::cell(row)); }
 
   const CellGrid& grid_;
   std::span<const Name> names_;  // names of the columns
   const K& field_;
   const RunContext& context_;
-  FlatMap<const Column*> owners_;  // by row; null if it is not a pivot
+  FlatMap<const Column*> owners_;  // by row; null if the row is not a pivot
   Reduction reduction_;
 };
 

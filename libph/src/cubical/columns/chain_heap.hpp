@@ -12,10 +12,11 @@
 namespace ph::cubical {
 
 /// A chain as a heap, youngest cell first; a cell may occur several times. When chains are added,
-/// most terms cancel, but terms far below the youngest cell would stay until they come up. The heap
-/// is therefore consolidated whenever it has grown to three times its consolidated size.
-/// @tparam Term an Entry. @tparam precedes true if a cell is older than another one; best without a
-///         branch, because processors could not predict it.
+/// most terms cancel, but terms far older than the youngest cell would stay until they reach the
+/// top. The heap is therefore consolidated whenever it has grown to three times its consolidated
+/// size.
+/// @tparam Term an Entry. @tparam precedes true if its first argument is older than the second. It
+/// should be branchless, because processors cannot predict the result.
 template <Field K, class Term, auto precedes>
 class ChainHeap {
  public:
@@ -53,17 +54,19 @@ class ChainHeap {
     }
     return std::nullopt;
   }
-  /// Removes and returns the youngest cell that is not replaced; nothing if there is none.
-  /// @param replace called with a term: adds its replacement to this chain and returns true if
-  /// there is one.
+  /// Removes and returns the youngest cell that `replace` does not replace; nothing if there is
+  /// none.
+  /// @param replace called with a term: if the term has a replacement, adds it to this chain and
+  /// returns true.
   template <class Replace>
   std::optional<Term> take_pivot(Replace&& replace) {
     std::optional<Term> youngest = take();
     while (youngest && replace(*youngest)) youngest = take();
     return youngest;
   }
-  /// Replaces cells below a pivot that was removed as if they had come up, youngest first, up to a
-  /// maximum number. A replacement may be younger for a while; the pivot is therefore taken again.
+  /// Replaces cells older than a pivot that was removed, youngest first, up to a maximum number. A
+  /// replacement may be younger than the pivot for a while; the pivot is therefore put back and
+  /// taken again.
   /// @return the pivot; all other cells are older.
   template <class Replace>
   std::optional<Term> follow(const Term& pivot, std::size_t most, Replace&& replace) {
@@ -79,7 +82,8 @@ class ChainHeap {
     add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
     return take_pivot(replace);  // mutant: chain-replace
   }
-  /// The terms that it holds, each cell once, from young to old; this order is also a heap.
+  /// The terms of the chain, each cell once, from young to old; a list in this order is also a
+  /// heap.
   std::span<const Term> consolidate() {
     std::sort(terms_.begin(), terms_.end(),
               [](const Term& a, const Term& b) { return precedes(b.cell, a.cell); });
@@ -109,7 +113,7 @@ class ChainHeap {
     if (!terms_.empty()) sift_down(0, last);
     return top;
   }
-  // Puts a term at a position or below it.
+  // Puts a term at a position or further down, where it keeps the heap valid.
   void sift_down(std::size_t place, const Term term) {
     Term* const terms = terms_.data();
     const std::size_t size = terms_.size();
@@ -141,7 +145,7 @@ class ChainHeap {
   const K& field_;
   std::pmr::vector<Term> terms_;
   std::pmr::vector<Term> stay_;  // see `follow`
-  std::size_t most_ = kFew;      // number of terms at which it is consolidated
+  std::size_t most_ = kFew;      // the heap is consolidated when it has more terms
 };
 
 }  // namespace ph::cubical

@@ -6,9 +6,9 @@
 
 namespace ph::cubical {
 
-/// A cell of one dimension, ordered as in the stars' grid: by the value of its star, then by name.
-/// Cells of any two parts of a grid can be compared.
-/// @tparam rank_bits enough bits for the rank of a direction in a star.
+/// A cell of one dimension in the order of the stars (GridFrame): by the value of its star, then by
+/// name. Cells of any two parts of a grid can be compared.
+/// @tparam rank_bits the number of bits that hold the rank of a direction in a star.
 template <unsigned rank_bits>
 struct OrderedCell {
   std::uint64_t key;   ///< has the same order as the value

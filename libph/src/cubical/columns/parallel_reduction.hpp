@@ -20,17 +20,17 @@
 
 namespace ph::cubical {
 
-/// Columns numbered from old to young.
+/// The age of columns that are numbered from old to young.
 struct NumberedByAge {
   static bool is_older(std::uint32_t a, std::uint32_t b) { return a < b; }
 };
 
 /// Reduces the columns of a boundary matrix by adding only older ones. Several threads reduce
-/// columns at a time. An older column takes a pivot from a younger one, which is reduced further in
-/// the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
-/// not depend on the order of threads. Each step of a column reads memory at random places; a
-/// thread therefore alternates between some columns, and prefetches the data of each column's next
-/// step.
+/// columns at the same time. An older column may take a pivot from a younger column, which is then
+/// reduced further in the next round (Morozov & Nigmetov, Towards lockfree persistent homology,
+/// 2020). The pairs do not depend on the order in which threads run. Each step of a column reads
+/// memory at random places; a thread therefore alternates between several columns, and prefetches
+/// the data for the next step of each.
 /// @tparam Chain a working column, such as BoundaryColumn. `settle(pivot)`, if Chain has it, is
 /// called before a chain is kept, and returns the pivot.
 /// @tparam Ages `is_older(a, b)`: true if column a is older than column b, given their numbers.
@@ -38,8 +38,9 @@ template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
  public:
   using Term = typename Chain::Term;
-  /// The boundary of a cell plus the boundaries that were added to it, as far as it was expanded.
-  /// The terms below the pivot lie behind it in memory: reading the pivot brings in the rest.
+  /// A reduced column: the boundary of a cell plus the boundaries that were added to it, as far as
+  /// it was expanded. The terms below the pivot follow the object in memory, because reading the
+  /// pivot then also loads them.
   class Column {
    public:
     Column(const Term& pivot, std::uint32_t number, std::uint32_t size)
@@ -57,7 +58,7 @@ class ParallelReduction {
 
   /// @param size number of columns.
   /// @param lanes number of columns between which a thread alternates. With one lane and one piece,
-  /// columns are the columns of the textbook.
+  /// the columns are those of the standard algorithm.
   ParallelReduction(std::size_t size, const K& field, const RunContext& context,
                     std::size_t lanes = kLanes, const Ages& ages = {})
       : field_(field),
@@ -66,16 +67,17 @@ class ParallelReduction {
         ages_(ages),
         columns_(size, nullptr, &context.memory) {}
 
-  /// Adds that many columns.
+  /// Adds `by` columns.
   void grow(std::size_t by) { columns_.resize(columns_.size() + by, nullptr); }
 
   /// Reduces all columns in the order of their numbers.
   /// @param piece columns per thread at a time.
   /// @param make_chain makes a working column.
-  /// @param assign_boundary called with (chain, column): makes it the boundary of the column's
-  /// cell.
-  /// @param owner_of called with a pivot's cell: returns the entry for its column, null at first.
-  /// @param expect_owner called some time before `owner_of`, which lets it prefetch.
+  /// @param assign_boundary called with (chain, column): makes the chain the boundary of the
+  /// column's cell.
+  /// @param owner_of called with the cell of a pivot: returns the entry for the column with this
+  /// pivot, which is null at first.
+  /// @param expect_owner called with the same cell some time before `owner_of`; it may prefetch.
   /// @param arrange called with the columns of a round, which it may reorder.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange>
   void run(std::string_view stage, std::size_t piece, MakeChain&& make_chain,
@@ -87,10 +89,10 @@ class ParallelReduction {
              arrange,
              [](std::uint32_t, const std::optional<Term>& pivot, Chain&) { return !pivot; });
   }
-  /// Reduces some columns.
-  /// @param is_done called with (column, pivot, chain) after a search for a pivot: returns true if
-  /// nothing is left to do here, because the column is zero or moves somewhere else. It may look
-  /// for further pivots.
+  /// Reduces the columns in `round`.
+  /// @param is_done called with (column, pivot, chain) after each search for a pivot: returns true
+  /// if this reduction is done with the column, because it is zero or moves to another part. It may
+  /// look for further pivots.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange,
             class IsDone>
   void run_some(std::pmr::vector<std::uint32_t> round, std::string_view stage, std::size_t piece,
@@ -148,10 +150,11 @@ class ParallelReduction {
     std::optional<Term> pivot{};
     enum class Step : std::uint8_t { find_owner, read_owner, use_owner } next{};
     const Column** owner = nullptr;  // the entry for the column that has the pivot
-    const Column* older = nullptr;   // the column that has it
+    const Column* older = nullptr;   // the column that has the pivot
   };
 
-  // The private data of a thread. Columns do not move, because other threads read them.
+  // The data that a thread shares with no other thread, except for finished columns: other threads
+  // read these, and they therefore do not move.
   struct Worker {
     using Unit = std::uint64_t;
     static_assert(alignof(Column) <= alignof(Unit) && sizeof(Column) % sizeof(Unit) == 0 &&
@@ -189,14 +192,14 @@ class ParallelReduction {
     return worker;
   }
 
-  // Prepares the next step, which looks for the column that has the pivot.
+  // Makes looking for the column that has the pivot the next step, and prefetches for it.
   template <class ExpectOwner>
   static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
     expect_owner(lane.pivot->cell);
     lane.next = Lane::Step::find_owner;
     return true;
   }
-  // Does the next step of a column. @return true if there are more.
+  // Does the next step of a column. @return true if more steps follow.
   template <class OwnerOf, class TakePivot>
   bool advance(Lane& lane, Worker& worker, OwnerOf&& owner_of, TakePivot&& take_pivot) {
     using Step = typename Lane::Step;
@@ -227,7 +230,7 @@ class ParallelReduction {
         if (lane.older != nullptr) worker.again.push_back(lane.older->number());
         return false;
       }
-      lane.chain.assign(kept->below());  // an older column came first
+      lane.chain.assign(kept->below());  // an older column has taken the pivot meanwhile
     }
     lane.chain.add(
         field_.negate(field_.multiply(lane.pivot->coefficient(),

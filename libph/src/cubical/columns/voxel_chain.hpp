@@ -20,7 +20,7 @@ typename K::Element signed_one(const K& field, bool is_positive) {
 }
 
 /// Keeps each cell once, with the sum of its coefficients, and drops cells whose sum is zero.
-/// Precondition: a cell is always given by the same star.
+/// Precondition: equal cells are given by the same voxel and direction.
 template <Field K>
 void combine(VoxelChain<K>& chain, const K& field) {
   const auto name = [](const auto& term) { return std::tie(term.cell.voxel, term.cell.direction); };

@@ -10,12 +10,12 @@
 
 namespace ph::cubical {
 
-/// Disjoint sets of nodes, each a tree that begins as arrows: the parent of a node is the end of
-/// its arrow, until paths are halved and roots are linked. Roots have numbers. DisjointSets cannot
-/// be used, because parents are computed on first use, by several threads, and a root stores its
+/// Disjoint sets of nodes, stored as trees. At first, the parent of a node is the end of its arrow;
+/// halving paths and linking roots then change parents. Roots have numbers. DisjointSets cannot be
+/// used, because parents are computed on first use, by several threads, and a root stores its
 /// number instead of a parent.
-/// @tparam Graph has `size()` nodes and `arrow(node)`, the node that it points to. Arrows form no
-/// circles and end at roots.
+/// @tparam Graph has `size()` nodes and `arrow(node)`, the node that the arrow of a node points to.
+/// Arrows form no circles, and following them ends at a root.
 template <class Graph>
 class ArrowForest {
  public:
@@ -30,11 +30,11 @@ class ArrowForest {
   /// True if the node is a root, or if its arrow has been looked up or replaced.
   bool is_known(std::uint32_t node) const { return next_[node] != kUnknown; }
   void set_root(std::uint32_t node, std::uint32_t number) { next_[node] = number | kIsRoot; }
-  /// Links a root, or a node that was never asked for, to another node.
+  /// Links a root, or a node that is not known yet, to another node.
   void link(std::uint32_t node, std::uint32_t to) { next_[node] = to; }
 
-  /// The root of a node's tree. Several threads may call it while nothing else is done: each call
-  /// only shortens paths.
+  /// The root of a node's tree. Several threads may call it at the same time if none changes roots
+  /// or links: each call only shortens paths.
   std::uint32_t find(std::uint32_t node) {
     std::uint32_t steps = 0;
     for (std::uint32_t next = after(node); (next & kIsRoot) == 0; next = after(node)) {

@@ -12,14 +12,15 @@
 
 namespace ph::cubical {
 
-/// Links nodes along their arrows, except for some at the border, where many arrows will be used:
-/// linking all of them one after another is quicker then.
+/// Links nodes along their arrows, except for some nodes at the border, if there are many critical
+/// cells: most arrows will then be used, and looking all of them up in order is faster.
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
-  constexpr std::uint32_t many = 256;  // about one voxel in this many has a critical cell
+  constexpr std::uint32_t many =
+      256;  // does nothing if at most one voxel in this many has a critical cell
   if (grid.critical().size() <= grid.size() / many) return;
-  // Rows that share cells with the rows before them are processed twice where a piece begins.
+  // Where a piece begins, the rows before it that share cells with it are processed again.
   const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;
   const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid.extent(2));
   for_each_piece("arrows", grid.row_count(), piece, context,
@@ -30,7 +31,8 @@ void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<G
                  });
 }
 
-/// Calls `use(voxel, node, number)` for the roots in stars, in the order of the grid.
+/// Calls `use(voxel, node, number of the root in the star)` for the roots in all stars, in the
+/// order of the grid.
 template <class Graph, class Use>
 void for_each_root(const StarGrid& grid, const Graph& graph, Ticker& ticker, Use&& use) {
   for (const std::uint32_t v : grid.critical()) {
@@ -39,8 +41,9 @@ void for_each_root(const StarGrid& grid, const Graph& graph, Ticker& ticker, Use
   }
 }
 
-/// The trees formed by the arrows of a graph, numbered by their roots: first the nodes that were
-/// always there, which have no cell, then critical cells in the order of the grid.
+/// The basins of a graph: the trees that its arrows form. Basins are numbered by their roots: first
+/// come nodes that were always there, which have no cell, then critical cells in the order of the
+/// grid.
 template <class Graph>
 class Basins {
  public:
@@ -61,7 +64,7 @@ class Basins {
         });
   }
 
-  /// Number of roots that were always there.
+  /// The number of roots that were always there.
   std::uint32_t outer_count() const { return outer_count_; }
   /// The cells of the other roots.
   std::pmr::vector<NumberedCell>& roots() { return roots_; }
@@ -69,7 +72,7 @@ class Basins {
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
-  // Joins the connected nodes, other than the outside, that were always there.
+  // Joins nodes that were always there and are connected, because voxels never enter.
   void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {
@@ -81,7 +84,8 @@ class Basins {
         const std::uint32_t own = forest_.find(node);
         if (!root) root = own;
         if (own == *root) return;
-        // The outside comes first, whatever it is joined to.
+        // The root with the lower number stays a root; the two parts of the outside have the
+        // lowest.
         const bool is_first = forest_.number_of_root(own) < forest_.number_of_root(*root);
         forest_.link(is_first ? *root : own, is_first ? own : *root);
         if (is_first) root = own;

@@ -9,14 +9,14 @@
 
 namespace ph::cubical {
 
-/// Disjoint sets of basins that know which basin is older. Basins that were always there are older
-/// than all others; among the others the value decides, then the number. DisjointSets is not used:
-/// parents and values are at random places in memory, and side by side they share a cache line.
-/// @tparam backwards true if high values and numbers are old.
+/// Disjoint sets of basins, joined by the elder rule. Basins that were always there are older than
+/// all others; among the others, the value decides, then the number. DisjointSets is not used,
+/// because parents and values are read at random places in memory, and here share a cache line.
+/// @tparam backwards true if basins with higher values and numbers are older.
 template <bool backwards>
 class ElderForest {
  public:
-  /// @param value_of(i) the value of root i of the basins.
+  /// @param value_of(i) the value of root i among the roots that were not always there.
   template <class ValueOf>
   ElderForest(std::uint32_t outer_count, std::size_t roots, ValueOf&& value_of,
               const RunContext& context)

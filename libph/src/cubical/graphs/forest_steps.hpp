@@ -9,9 +9,9 @@
 
 namespace ph::cubical {
 
-// The two graphs in terms of vertices and edges of the input: voxels and the edges between them in
-// the V-construction; top cells and facets of the stars' grid in the T-construction, where all axes
-// run backwards.
+// Functions that express the graph of H0 in terms of vertices and edges of the input. In the
+// V-construction these are voxels and the edges between them. In the T-construction they are top
+// cells and facets of the stars' grid (GridFrame), where all axes run backwards.
 
 /// A step along an arrow.
 struct ForestStep {
@@ -50,7 +50,7 @@ inline std::optional<ForestStep> step_from(const StarGrid&, const TopGraph& grap
                     side < 0};
 }
 
-/// The start and the end of an edge.
+/// The start and the end of an edge, in the direction in which the axis runs in the input.
 inline std::array<std::uint32_t, 2> oriented_ends(const VoxelGraph& graph, const StarCell& edge) {
   const int number = number_of(edge.direction);
   const auto [near, far] = graph.ends(edge.voxel, static_cast<std::uint32_t>(number));

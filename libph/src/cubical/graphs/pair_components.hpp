@@ -15,14 +15,15 @@
 
 namespace ph::cubical {
 
-/// Persistent components of one of the two graphs of a grid: its basins, joined by critical cells
-/// in the order of the filtration, or backwards (Kruskal, elder rule).
+/// Persistent components of one of the two graphs of a grid. Critical cells (*bridges*) join the
+/// basins of the graph in the order of the filtration, or in reverse order (Kruskal's algorithm
+/// with the elder rule).
 template <class Graph>
 class ComponentPairing {
  public:
   using Place = CriticalCells::Place;
 
-  /// @param bridges critical cells; only cells in their order are used.
+  /// @param bridges critical cells; only the cells listed in `bridges.order` are used.
   /// @param wants_cells if false, `root_cell` and `bridge_cell` look up only the value.
   ComponentPairing(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
                    bool wants_cells, const RunContext& context)
@@ -36,10 +37,11 @@ class ComponentPairing {
     find_basins();
   }
 
-  /// An upper bound for the number of bars.
+  /// An upper bound for the number of bars that `run` finds.
   std::size_t most_pairs() const { return std::min(bridges_.order.size(), roots_.size()) + 2; }
-  /// Removes the bridges that join components from the order.
-  /// @param on_merge called with (bridge, root that dies, or null if both were always there).
+  /// Joins components, and removes the bridges that do so from the order.
+  /// @param on_merge called with (bridge, root that dies); the root is null if both components were
+  /// always there.
   /// @param on_survivor called with each root that never dies.
   template <class OnMerge, class OnSurvivor>
   void run(OnMerge&& on_merge, OnSurvivor&& on_survivor) {
@@ -52,7 +54,7 @@ class ComponentPairing {
     auto& order = bridges_.order;
     const std::size_t size = order.size();
     const auto place = [size](std::size_t i) { return Graph::kBackwards ? size - 1 - i : i; };
-    // The data lie at random places: they are fetched long before use, step by step.
+    // The data are at random places in memory. They are prefetched well before use, in three steps.
     constexpr std::size_t stride = 8, ring_size = 4 * stride;
     std::array<Ends, ring_size> ring{};
     const auto is_in = [size](std::size_t i, std::size_t late) {
@@ -135,7 +137,8 @@ class ComponentPairing {
   const RunContext& context_;
   RawVector<Ends> ends_;
   std::pmr::vector<NumberedCell> roots_;
-  std::uint32_t outer_count_ = 0;  // basins without a root; every other basin has one
+  std::uint32_t outer_count_ =
+      0;  // the number of basins that were always there; every other basin has a root in `roots_`
 };
 
 }  // namespace ph::cubical

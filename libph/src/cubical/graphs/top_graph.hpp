@@ -11,9 +11,9 @@
 
 namespace ph::cubical {
 
-/// The graph of top cells for two or three axes. Roots are critical top cells; bridges are critical
-/// facets, except for marked edges, which are paired with voxels. It equals the graph of voxels for
-/// the reversed image.
+/// The graph of top cells for two or three axes. Roots are critical top cells. Bridges are critical
+/// facets; with two axes, edges that are marked as paired with vertices are left out. The graph
+/// equals the graph of voxels of the image with reversed values.
 class TopGraph : public TopNodes<StarGrid, 3> {
  public:
   using TopNodes::TopNodes;
@@ -23,21 +23,22 @@ class TopGraph : public TopNodes<StarGrid, 3> {
     return has_cubes() ? kSquares[n] : kEdges[n];
   }
 
-  /// Leaves a cell by the facet that it is paired with. Precondition: the cell enters and is not
-  /// critical.
+  /// The top cell that is reached by leaving a top cell through the facet that it is paired with.
+  /// Precondition: the cell enters and is not critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  /// Calls `use(node, node)` for the arrows from the top cells before some rows of voxels, except
-  /// for some at the border.
+  /// Calls `use(node, end of its arrow)` for the top cells before each row of voxels in a range,
+  /// except for some at the border.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
-  /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
+  /// Calls `use(node, number in the star)` for the roots in the star of a voxel, in the order of
+  /// the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
-  /// As in VoxelNodes.
+  /// True if the slab knows the arrow of a node of a seam, as in VoxelNodes.
   bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
   /// The two nodes that a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
-  /// The star cell of a top cell; it has no direction if the cell is in no star.
+  /// A top cell as a cell of a star; the direction is zero if the cell is in no star.
   StarCell cell(std::uint32_t node) const;
   /// The axis along which the arrow leaves a top cell; nothing if it is critical.
   std::optional<int> exit_of(const StarCell& top) const {
@@ -56,14 +57,14 @@ class TopGraph : public TopNodes<StarGrid, 3> {
     if (has_cubes()) return grid_.pair_cubes(v).exit(number);
     return exit_of_square(grid_.tables(v).edge_of(grid_.star(v), number));
   }
-  /// The exit axis of a square, given the edge that it is paired with: the other one of axes 1 and
-  /// 2.
+  /// The axis along which the arrow leaves a square, given the edge that the square is paired with:
+  /// of axes 1 and 2, the axis that the edge does not have.
   static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }
-  /// A voxel's information about the arrows of top cells in its star, see `for_each_inner_arrow`.
+  /// The word that tells the arrows of the top cells in a voxel's star, see `for_each_inner_arrow`.
   template <class ExitOf>
   std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
-  /// True if a top cell whose first voxel has this coordinate, and the cells beside it along the
-  /// axis, lie between consecutive voxels.
+  /// True if a top cell and the two cells beside it along the axis lie between consecutive voxels.
+  /// @param low the coordinate of the cell's first voxel.
   bool is_inner(int axis, std::uint32_t low) const {
     const std::uint32_t n = grid_.extent(axis), border = border_[static_cast<std::size_t>(axis)];
     return low >= 1 - border && low < n && n - low > 2 - border && !grid_.is_wrapped(axis, low) &&
@@ -71,10 +72,11 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   }
 };
 
-// A voxel uses one word to tell the cells around it whose star they are in, and where their arrows
-// lead: bit 3u + a is set if the voxel is corner u of a cell whose arrow leaves along axis a.
-// Corner u of a cell lies u[a] = bit a of u voxels from its first one. The corners of a cell
-// together therefore set at most one bit, and no unpredictable branch is needed.
+// Each voxel has a word that tells which top cells around it are in its star, and where the arrows
+// of these cells lead: bit 3u + a is set if the voxel is corner u of a cell in its star whose arrow
+// leaves along axis a. (Along each axis a, corner u of a cell has the coordinate of the first
+// corner plus bit a of u.) A cell is in the star of at most one of its corners. Combining the
+// matching bits of all corners therefore gives at most one bit, without unpredictable branches.
 template <class Use>
 void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
                                     Use&& use) const {

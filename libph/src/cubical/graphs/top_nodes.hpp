@@ -10,11 +10,11 @@
 
 namespace ph::cubical {
 
-/// The nodes of a graph of top cells: the cells of the highest dimension, numbered by their first
-/// corner, and the nodes that were always there: the outside, in two parts if only one axis has
-/// ends, and cells that never enter.
-/// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the number of axes: three,
-/// or the maximum.
+/// The nodes of a graph of top cells. They are the cells of the highest dimension, numbered by
+/// their first corner, and the outside, which has two parts if only one axis has ends. The outside
+/// and cells that never enter were always there.
+/// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the size of arrays by axis:
+/// three, or the maximum number of axes.
 template <class Grid, std::size_t most>
 class TopNodes {
  public:
@@ -25,7 +25,7 @@ class TopNodes {
   explicit TopNodes(const Grid& grid) : grid_(grid) {
     for (std::size_t a = axes(); a-- > 0;) {
       const int axis = static_cast<int>(a);
-      // With a border around the voxels, an axis has one more cell than voxels.
+      // With a border around the voxels, an axis has one cell more than it has voxels.
       const bool has_border =
           grid.is_t_construction() && grid.has_axis(axis) && !grid.is_periodic(axis);
       border_[a] = has_border ? 1 : 0;
@@ -44,7 +44,8 @@ class TopNodes {
   /// around it.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const;
-  /// As in VoxelNodes: the top cells between the ghost layer and the one beside it.
+  /// The nodes that a slab shares with the slab before it or after it, as in VoxelNodes: the top
+  /// cells between the ghost layer and the layer beside it.
   std::array<std::uint32_t, 2> seam(bool after) const {
     const int axis = grid_.layer_axis();
     const auto a = static_cast<std::size_t>(axis);
@@ -67,7 +68,8 @@ class TopNodes {
   std::array<std::uint32_t, most> extent_{}, stride_{}, border_{};
 
  private:
-  /// True if a node is a cell: past the last voxels of an axis with ends there is none.
+  /// True if there is a cell with this number: past the last voxels of an axis with ends, there is
+  /// none.
   bool is_cell(std::uint32_t node) const;
   std::uint32_t outside_beyond(const Way& d) const {
     if (grid_.open_axes() == 1)
@@ -142,7 +144,7 @@ template <class Use>
 void TopNodes<Grid, most>::for_each_outer_node(std::uint32_t v, Use&& use) const {
   for (unsigned above = 0; above < 1U << axes(); ++above) {
     Way d{};
-    bool is_first = true;  // of directions that differ only along missing axes
+    bool is_first = true;  // the first of the directions that differ only along missing axes
     for (std::size_t a = 0; a < axes(); ++a) {
       const bool is_above = (above >> (axes() - 1 - a) & 1U) != 0;
       if (grid_.has_axis(static_cast<int>(a)))

@@ -12,49 +12,51 @@ namespace ph::cubical {
 inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
-/// True if bars of three or more axes are wanted that come from neither graph.
+/// True if the image has at least three axes and bars are wanted that come from neither graph.
 inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
-  // Around periodic axes, classes of all dimensions may live forever.
+  // With periodic axes, classes of any dimension may live forever.
   return grid.top_dim() >= 3 && wanted.max_dim > 0 &&
          (lowest_dim(grid, wanted) <= grid.top_dim() - 2 || grid.any_periodic());
 }
-/// True if bars are wanted from the graph that gives H0; except for three axes, this holds for any
-/// bars.
+/// True if bars are wanted from the graph that gives H0. With fewer than three axes, its result is
+/// always needed.
 inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
-/// True if bars are wanted from the graph of voxels: H0, or the highest dimension if the image is
-/// reversed. For one axis it gives all bars.
+/// True if bars are wanted from the graph of voxels: of H0 in the V-construction, of the second
+/// highest and the highest dimension in the T-construction. With one axis, this graph gives all
+/// bars.
 inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
   if (grid.top_dim() < 2) return true;
   return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);
 }
-/// The same for the graph of top cells.
+/// True if bars are wanted from the graph of top cells.
 inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
   if (grid.top_dim() < 2) return false;
   return grid.is_t_construction() ? wants_lowest(grid, wanted) : wanted.max_dim > 0;
 }
 
-/// Number of tasks, out of two, per thread: both if a second thread would cost more than it saves.
+/// How many of two tasks a thread takes at once: both, if a second thread would cost more than it
+/// saves.
 inline std::size_t tasks_at_a_time(const GridFrame& frame) {
   constexpr std::uint32_t few = 1 << 16;  // voxels
   return frame.size() < few ? 2 : 1;
 }
 
-/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Removes the
-/// edges that kill from the order of `edges`, which holds all critical ones.
+/// Pairs voxels with the edges that kill their components, in the order of the stars (GridFrame).
+/// Removes these edges from the order of `edges`, which initially lists all critical edges.
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
-/// The same on the dual graph, backwards: top cells joined by their facets, youngest first; cells
-/// that never enter and the outside were always there. Removes the facets that give birth from the
-/// order of `facets`, which holds all critical ones that kill nothing. Precondition: grid.top_dim()
-/// >= 2.
+/// Pairs facets with the top cells that kill them, by components of the dual graph: facets join top
+/// cells, youngest first, and cells that never enter and the outside were always there. Removes the
+/// paired facets from the order of `facets`, which initially lists all critical facets that kill
+/// nothing. Precondition: grid.top_dim() >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
 
-/// Both of them for three axes, in parallel if there are threads. @param top_sink receives the
-/// second.
+/// Does both for three axes, in parallel if there are several threads. @param top_sink receives the
+/// pairs of facets and top cells.
 void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
                          const RunContext& context, PairSink& sink, PairSink& top_sink);
 

@@ -20,11 +20,11 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  /// Calls `use(node, node)` for the arrows from some rows of voxels, except those at the border; a
+  /// Calls `use(node, end of its arrow)` for the voxels of a range of rows, except at the border; a
   /// root may point to itself.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const {
-    // By the edges of a star: the offset of its arrow inside the grid.
+    // For each set of edges of a star: the offset from the voxel to the end of its arrow.
     std::array<std::uint32_t, 1 << kEdgeCount> offset{};
     for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {
       const int e = star_tables(0).arrow(edges), axis = axis_of_edge(e);
@@ -34,14 +34,15 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
       const StarGrid::VoxelRow row = grid_.row(number);
       if (row.is_at_border) continue;
       const std::uint32_t end = row.first + grid_.extent(2) - 1;
-      // With one axis, a slab of a ring has a ghost before the first voxel.
+      // With one axis, a slab of a ring may have a ghost before the first voxel of the ring.
       const std::uint32_t begin = row.first + (grid_.is_wrapped(2, 1) ? 2 : 1);
       for (std::uint32_t v = begin; v < end; ++v)
         if (const std::uint32_t star = grid_.star(v); star != kAbsent)
           use(v, v + offset[StarTables::edges(star)]);
     }
   }
-  /// Calls `use(node, number)` for the roots in the star of a voxel that enters.
+  /// Calls `use(node, number in the star)` for the root in the star of a voxel that enters, if
+  /// there is one.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const {
     if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);

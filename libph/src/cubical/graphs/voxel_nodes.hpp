@@ -6,9 +6,9 @@
 
 namespace ph::cubical {
 
-/// The nodes of a graph of voxels for any number of axes: voxels, and nodes that were always there:
-/// the outside, in two parts if only one axis has ends, and voxels that never enter if these are
-/// not cells.
+/// The nodes of a graph of voxels for any number of axes. They are the voxels and the outside,
+/// which has two parts if only one axis has ends. The outside was always there, and so were voxels
+/// that never enter in the T-construction, where they are not cells.
 /// @tparam Grid a SlabFrame that knows which voxels enter.
 template <class Grid>
 class VoxelNodes {
@@ -39,14 +39,16 @@ class VoxelNodes {
     const std::uint32_t count = 2 * grid_.layer_size();
     return {after ? grid_.size() - count : 0, count};
   }
-  /// The value of a node of a seam, in the order of the stars; nothing if the node never counts.
+  /// The value of a node of a seam, in the order of the stars (GridFrame); nothing if the node
+  /// never enters.
   std::optional<double> seam_value(std::uint32_t v) const {
     if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;
     return grid_.value(v);
   }
   /// True if the slab knows the arrow of a node of a seam.
   bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
-  /// The node that a step leads to. @param u the voxel. @param sign of the step.
+  /// The node that a step leads to. @param u the voxel at its end, or kOutside. @param sign the
+  /// direction of the step.
   std::uint32_t or_outside(std::uint32_t u, int sign) const {
     if (u != Grid::kOutside) return u;
     return outside(grid_.open_axes() == 1 && sign > 0 ? 1 : 0);

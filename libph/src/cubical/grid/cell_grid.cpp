@@ -63,7 +63,7 @@ void CellGrid::rank_voxels(const RunContext& context) {
     if (grid_.value(v) <= grid_.limit) order_.push_back(static_cast<std::uint32_t>(v));
     ticker.tick();
   }
-  // Values are looked up in the image: the two arrays kept are enough.
+  // Values are looked up in the image, which saves a third array.
   ranks_.resize(size);
   const std::span<std::uint32_t> sorted = radix_sort_by_value(
       std::span(order_), std::span(ranks_).first(order_.size()),
@@ -88,7 +88,8 @@ void CellGrid::append_numbers(std::uint32_t cell, unsigned loops,
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k)
     numbers[base + input_axis_[k]] = Index{x[k]};
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    // The voxel is at 0 (V) or 1 (T) of the circle; the copy that goes around has the edge.
+    // On the circle, the voxel has coordinate 0 (V-construction) or 1 (T-construction); a copy with
+    // bit i set goes around it.
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
   }
 }

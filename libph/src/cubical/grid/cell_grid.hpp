@@ -17,17 +17,17 @@ class CellMark {
   /// The cell never enters.
   CellMark() = default;
   /// A cell in no known pair. @param upper the axes, as bits, along which the voxel that decides
-  /// the cell's value lies above it.
+  /// the value of the cell lies above the cell.
   static CellMark critical(unsigned upper) { return CellMark(kCritical, upper); }
-  /// A cell that is killed by a cofacet. @param direction see CellGrid::beside.
+  /// A cell that is killed by a cofacet. @param direction of the cofacet, as in CellGrid::beside.
   static CellMark killed_by(int direction, unsigned upper) {
     return CellMark(kKilled + static_cast<unsigned>(direction), upper);
   }
-  /// A cell that kills a facet.
+  /// A cell that kills one of its facets, which lies in `direction`.
   static CellMark killing(int direction, unsigned upper) {
     return CellMark(kKiller + static_cast<unsigned>(direction), upper);
   }
-  /// The same cell, marked as killing a cell far away.
+  /// The same cell, marked as killing a cell outside its star.
   CellMark that_kills() const { return CellMark(kKills, upper()); }
 
   bool enters() const { return state() != kNever; }
@@ -49,17 +49,18 @@ class CellMark {
   std::uint16_t bits_ = 0;
 };
 
-/// The cells of an image with any number of axes, as places in the doubled grid in C order. Each
-/// cell has only a mark; its age is the age of the voxel that decides its value. Axes with one
-/// voxel are left out where possible; `CellSink` adds again the bars of a periodic one.
+/// The cells of an image with any number of axes, by their positions in the doubled grid in C
+/// order. Each cell has only a mark; a cell is as old as the voxel that decides its value. Axes
+/// with one voxel are left out where possible; for those that are periodic, `CellSink` adds the
+/// missing bars.
 class CellGrid {
  public:
   static constexpr int kMostAxes = 8;
   static constexpr std::uint32_t kNone = UINT32_MAX;
   /// Doubled coordinates, or the coordinates of a voxel.
   using Coordinates = std::array<std::uint32_t, kMostAxes>;
-  /// A cell in the order of the filtration, among the cells of one dimension: the rank of the voxel
-  /// that decides its value in the high bits, its place in the low bits.
+  /// A cell as a number that orders the cells of one dimension as in the filtration. The high bits
+  /// are the rank of the voxel that decides the value of the cell, the low bits are its position.
   using Name = std::uint64_t;
   static std::uint32_t cell(Name name) { return static_cast<std::uint32_t>(name); }
 
@@ -71,9 +72,10 @@ class CellGrid {
     Divisor by_length;
   };
 
-  /// Number of places in the doubled grid, without the axes that are left out.
+  /// The number of positions in the doubled grid, without the axes that are left out.
   static double count_cells(const CubicalImage& grid);
-  /// True if it has at most 8 axes and fewer than 2^32 cells, and is not empty.
+  /// True if the image has at most 8 axes that are kept and fewer than 2^32 cells, and is not
+  /// empty.
   static bool can_hold(const CubicalImage& grid);
   /// Starts with all cells marked as never entering. Precondition: can_hold(grid). Time: O(voxels
   /// log voxels). Memory: 8 bytes per voxel and 2 per cell.
@@ -100,8 +102,8 @@ class CellGrid {
     }
     return x;
   }
-  /// The cell one step from a cell at doubled coordinate `x` of the axis: upwards if `direction` =
-  /// 2 * axis + 1, otherwise downwards; kNone if it is outside.
+  /// The cell one step from a cell whose doubled coordinate on the axis is `x`: upwards if
+  /// `direction` is 2 * axis + 1, downwards if it is 2 * axis; kNone if the step leads outside.
   std::uint32_t beside(std::uint32_t cell, std::uint32_t x, int direction) const {
     const Axis& a = axes_[static_cast<std::size_t>(direction) / 2];
     if (direction % 2 != 0) {
@@ -111,7 +113,8 @@ class CellGrid {
     if (x > 0) return cell - a.stride;
     return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
   }
-  /// The coordinate of that cell. Precondition: that cell is not outside.
+  /// The coordinate on the axis of the cell that `beside` gives. Precondition: that cell is not
+  /// outside.
   std::uint32_t next(std::uint32_t x, int direction) const {
     const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;
     if (direction % 2 != 0) return x == last ? 0 : x + 1;
@@ -146,10 +149,11 @@ class CellGrid {
   template <class Visit>
   void for_each_of_parity(const Coordinates& parity, Visit&& visit) const;
 
-  /// Number of periodic axes with one voxel: each adds a copy of every cell, one dimension up.
+  /// The number of periodic axes with one voxel. Each adds a copy of every cell, one dimension
+  /// higher, that goes around the axis.
   std::size_t loop_count() const { return loops_.size(); }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the axes of one
-  /// voxel that the copy goes around, as bits.
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the periodic axes
+  /// with one voxel that the copy goes around, as bits.
   void append_numbers(std::uint32_t cell, unsigned loops, std::vector<Index>& numbers) const;
 
  private:
