@@ -18,7 +18,7 @@ namespace ph::cubical {
 
 namespace {
 
-constexpr double kBytesOfVoxel = 8;  // a star and a node of a graph, or ranks
+constexpr double kBytesOfVoxel = 8;  // a star and a node of a graph, or two ranks
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
 
@@ -32,8 +32,8 @@ bool may_be_cut(const CubicalImage& grid) {
 
 bool can_pair_voxels(const CubicalImage& grid, int max_dim) {
   if (StarGrid::can_hold(grid) || can_pair_cells(grid)) return true;
-  // For three axes, loops are refused only when they are asked for: no other engine has them
-  // either.
+  // For three axes, images with too many voxels for loops are accepted here, because no other
+  // engine can compute their loops either; `pair_voxels` refuses them if loops are wanted.
   return can_be_cut(grid, {.min_dim = 0, .max_dim = max_dim});
 }
 
@@ -78,7 +78,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   LoopReduction<K, StarGrid>(grid, free, squares, field, context).run(pairs);
 }
 
-// Computes all bars except the loops of three axes.
+// Computes all bars except the bars of loops of three axes.
 void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const RunContext& context,
                         PairSink& pairs) {
   if (grid.top_dim() == 3) {
@@ -96,22 +96,22 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
   if (wants_vertices(grid.shape(), wanted)) pair_vertices_with_edges(grid, edges, context, pairs);
   if (wants_top_cells(grid.shape(), wanted))
     pair_facets_with_top_cells(grid, edges, context, pairs);
-  // Cells that neither graph takes live forever: loops around periodic axes.
+  // The classes of cells that neither graph pairs never die: they are loops around periodic axes.
   if (grid.top_dim() < 2 || wanted.max_dim > 0)
     for (const auto& [value, cell] : edges.order)
       pairs.essential(1,
                       StarCell{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
 }
 
-// True if everything fits into memory at once; in doubtful cases it computes some layers to find
-// out.
+// True if the image can be processed at once within the memory limit. In doubtful cases, some
+// layers are processed to find out.
 bool fits(const CubicalImage& voxels, const RunContext& context) {
   if (!StarGrid::can_hold(voxels)) return false;
   // Bytes per voxel, and per critical cell.
   constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;
   const LayeredImage image(voxels);
   const auto size = static_cast<double>(image.size());
-  // Pages of a file that were read are in memory as well.
+  // Pages of a file that have been read are in memory as well.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * size;
   if (most * size < left) return true;
@@ -131,13 +131,13 @@ bool fits(const CubicalImage& voxels, const RunContext& context) {
     }
     seen += static_cast<double>(height * image.layer_size());
   }
-  constexpr double margin = 1.3;  // allowance for other layers, which may have more
+  constexpr double margin = 1.3;  // because other layers may have more critical cells
   return margin * size * (least + per_cell * cells / seen) < left;
 }
 
 bool is_cut(const CubicalImage& voxels, const BarRequest& wanted, const RunContext& context) {
   if (!can_be_cut(voxels, wanted)) return false;
-  // For four axes and more, only the cells of the two graphs are used then.
+  // With four axes or more, slabs give only the bars of the two graphs.
   return !has_few_axes(voxels) || context.slab_layers > 0 ||
          (may_be_cut(voxels) && !fits(voxels, context));
 }

@@ -11,7 +11,8 @@
 
 namespace ph::cubical {
 
-/// A cell as part of the star that contains it, with its value in the order of the stars.
+/// A cell, given by the voxel whose star contains it and the direction from that voxel, with its
+/// value in the order of the stars (GridFrame).
 struct StarCell {
   std::uint32_t voxel = 0;
   Direction direction{};
@@ -35,13 +36,14 @@ class Divisor {
 
 /// The positions of the voxels of an image, with axes counted as in GridShape.
 ///
-/// Both constructions are handled as one. The T-construction of f is the V-construction of -f,
-/// turned around: values are reversed, all axes run backwards, a border of voxels that were always
-/// there surrounds it, and dimension k becomes top - k. Voxels that were always there are not cells
-/// (homology is relative to them).
+/// Both constructions are handled as one. The V-construction is used as it is. The T-construction
+/// of f is treated as the V-construction of -f: values are negated, all axes run backwards, a
+/// border of voxels that were always there surrounds the image, and dimension k becomes top - k.
+/// The grid and the filtration that result are called the *stars' grid* and the *order of the
+/// stars*. Voxels that were always there are not cells (homology is relative to them).
 class GridFrame {
  public:
-  /// True if there are some voxels, at most about 2^31.
+  /// True if the image has at least one voxel and at most about 2^31.
   static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);
@@ -54,7 +56,7 @@ class GridFrame {
   bool has_axis(int axis) const { return axes_[axis].exists; }
   bool is_periodic(int axis) const { return axes_[axis].periodic; }
   bool any_periodic() const { return any_periodic_; }
-  /// True if the voxels at a coordinate are the first voxels of a periodic axis.
+  /// True if `x` is the coordinate of the first voxels of a periodic axis.
   bool is_wrapped(int axis, std::uint32_t x) const { return x == axes_[axis].wrapped; }
   std::uint32_t extent(int axis) const { return axes_[axis].extent; }
   std::uint32_t stride(int axis) const { return axes_[axis].stride; }
@@ -68,11 +70,11 @@ class GridFrame {
   int layer_axis() const { return shape_.layer_axis(); }
   std::uint32_t layer_size() const { return stride(layer_axis()); }
 
-  /// The value in the order of the stars.
+  /// The value of a voxel in the order of the stars: negated in the T-construction.
   double value(std::uint32_t v) const {
     return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
-  // As in PartStars: the frame of an entire grid sees all voxels.
+  // Has the meaning of PartStars::sees: the frame of an entire grid sees all voxels.
   static constexpr bool sees(std::uint64_t) { return true; }
   static constexpr bool sees_square(std::uint32_t, int) { return true; }
   static std::uint32_t here(std::uint64_t voxel) { return static_cast<std::uint32_t>(voxel); }
@@ -84,7 +86,7 @@ class GridFrame {
     const std::uint32_t layer = a.by_stride.divide(v);
     return layer - a.by_extent.divide(layer) * a.extent;
   }
-  /// The tables for a voxel's star.
+  /// The tables for the star of a voxel.
   const StarTables& tables(std::uint32_t v) const {
     return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
   }
@@ -111,8 +113,8 @@ class GridFrame {
     if (x > 0) return v - a.stride;
     return a.periodic ? v + (a.extent - 1) * a.stride : kOutside;
   }
-  /// The same for a step along an edge of the star of v; if no step in that direction leaves the
-  /// grid, the position of v is not checked.
+  /// The voxel at the other end of an edge of the star of v, or kOutside. If no step in that
+  /// direction can leave the grid, the position of v is not checked.
   std::uint32_t step_in_star(std::uint32_t v, int edge) const {
     const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];
     if (is_t_construction_ || any_periodic_) return step(v, axis, sign);
@@ -124,25 +126,26 @@ class GridFrame {
     std::uint32_t extent = 1, stride = 1;
     bool exists = false, periodic = false;
     Divisor by_extent, by_stride;
-    /// True if the entire grid ends there.
+    /// True if the entire grid has two ends along this axis.
     bool has_ends = false;
-    /// The coordinate of the voxels whose preceding cells come last: the first voxels of a periodic
-    /// axis.
+    /// The coordinate of the first voxels of a periodic axis: the cells before these voxels come
+    /// last in the grid.
     std::uint32_t wrapped = UINT32_MAX;
   };
-  /// True if cells of a voxel at a coordinate differ from cells inside the grid.
+  /// True if the cells of a voxel at this coordinate are arranged differently from those inside the
+  /// grid.
   bool is_at_end(int a, std::uint32_t x) const {
     return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent || is_wrapped(a, x));
   }
-  /// The periodic axes of which it is the first voxel, as bits.
+  /// The periodic axes whose first voxel v is, as bits.
   unsigned wrapped(std::uint32_t v) const {
     unsigned result = 0;
     for (int a = 0; a < 3; ++a)
       if (is_wrapped(a, coordinate(v, a))) result |= 1U << a;
     return result;
   }
-  /// Notes that this is a slab of a grid whose slowest axis is periodic. @param wrapped the
-  /// position of the first layer of that grid, if it is here.
+  /// Notes that this frame is a slab of a grid whose slowest axis is periodic. @param wrapped the
+  /// position in this slab of the first layer of that grid, if the slab has it.
   void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;

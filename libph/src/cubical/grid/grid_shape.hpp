@@ -11,9 +11,9 @@
 
 namespace ph::cubical {
 
-/// The axes of an image of any size as stars see them: axes with one voxel are left out, and
-/// `PairSink` adds the bars of periodic ones again. Up to three axes are the last of three, which
-/// fixes their numbers in stars. See also GridFrame.
+/// The axes of an image of any size in the stars' grid (GridFrame). Axes with one voxel are left
+/// out; for those that are periodic, `PairSink` adds the missing bars. If at most three axes are
+/// left, they count as the last of three axes, which fixes the numbers of directions in stars.
 class GridShape {
  public:
   static constexpr int kMostAxes = 8;
@@ -46,19 +46,20 @@ class GridShape {
   }
   /// The slowest axis. A layer is the set of voxels at one place of this axis.
   int layer_axis() const { return axis_count() - top_dim_; }
-  /// The periodic axes of which a voxel is the first one, as bits: see StarTables.
+  /// The periodic axes whose first voxel this is, as bits: see StarTables.
   unsigned wrapped(std::uint64_t voxel) const {
     unsigned result = 0;
     for (std::size_t a = 0; a < axes_.size(); ++a)
       if (axes_[a].periodic && voxel / axes_[a].stride % axes_[a].extent == 0) result |= 1U << a;
     return result;
   }
-  /// Number of periodic axes with one voxel: each adds a copy of every cell, one dimension up.
+  /// The number of periodic axes with one voxel. Each adds a copy of every cell, one dimension
+  /// higher, that goes around the axis.
   std::size_t loop_count() const { return loops_.size(); }
-  /// One of these axes as an axis of the input, in descending order.
+  /// The number in the input of the i-th periodic axis with one voxel, in descending order.
   std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the axes with one
-  /// voxel that the copy goes around, as bits.
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops the periodic axes
+  /// with one voxel that the copy goes around, as bits.
   /// @param direction from the voxel to the cell, by axis; 0 along axes that are left out.
   void append_numbers(std::uint64_t voxel, std::span<const int> direction, unsigned loops,
                       std::vector<Index>& numbers) const;

@@ -7,8 +7,8 @@
 namespace ph::cubical {
 namespace {
 
-// DisjointSets is not used: with at most eight nodes, neither halving paths nor an allocation is
-// worthwhile.
+// DisjointSets is not used, because it allocates and halves paths, which does not pay for eight
+// nodes.
 template <std::size_t size>
 int root_of(const std::array<int, size>& parent, int i) {
   while (parent[i] != i) i = parent[i];
@@ -42,10 +42,10 @@ StarTables::StarTables(unsigned wrapped)
   }
 }
 
-// Kruskal's algorithm with the elder rule on the link: squares, in order, join edges of the star;
-// of two components, the one whose oldest edge is younger dies. All edges of a component except the
-// oldest are therefore killed. In the resulting tree, each of them is matched with the square
-// towards the oldest.
+// Runs Kruskal's algorithm with the elder rule on the link. Its nodes are the edges of the star,
+// and squares join them in order; of two components, the component whose oldest edge is younger
+// dies. All edges of a component except the oldest are therefore killed. Each killed edge is then
+// matched with the square that leads from it towards the oldest edge in the resulting tree.
 void StarTables::pair_edges(unsigned squares) {
   std::array<int, kEdgeCount> parent{};
   std::iota(parent.begin(), parent.end(), 0);
@@ -80,8 +80,9 @@ void StarTables::pair_edges(unsigned squares) {
   of_squares_[squares].joined = static_cast<std::uint8_t>(63U & ~roots);
 }
 
-// The same on the dual, backwards: the eight triangles of the octahedron are nodes, and triangles
-// outside the star were always there; squares, youngest first, join the cubes beside them.
+// Runs the same algorithm on the dual, in reverse order. Its nodes are the eight triangles of the
+// octahedron, and triangles outside the star were always there; squares, youngest first, join the
+// triangles (cubes of the grid) beside them.
 CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   CubePairs pairs;
   const unsigned cubes = this->cubes(star), all = squares(star);
@@ -103,7 +104,7 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
     return number_of(turned(kSquares[s], normal_of_square(s), sign));
   };
   const auto is_there = [&](int c) { return (cubes >> c & 1U) != 0; };
-  // The root is a node that was always there, otherwise the youngest.
+  // The root of a tree is a node that was always there if it has one, otherwise its youngest node.
   const auto outlives = [&](int a, int b) {
     if (is_there(a) != is_there(b)) return !is_there(a);
     return cube_order_.rank(a) > cube_order_.rank(b);

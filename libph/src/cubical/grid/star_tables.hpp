@@ -14,9 +14,9 @@ namespace ph::cubical {
 // The lower star of a voxel v in a grid of at most three axes: v and the edges, squares and cubes
 // whose youngest voxel is v. Each cell is named by its direction: twice the offset from v to its
 // centre, in {-1, 0, 1}^3. A star is one word: bits 0-5 are the edges, 6-17 the squares, 18-25 the
-// cubes, each in lexicographic order of the directions. As a complex it is a cone over the lower
-// link, which is a part of the octahedron: edges of the star are its vertices, squares its edges,
-// cubes its triangles.
+// cubes, each in lexicographic order of the directions. The star is a cone over the lower link of
+// v. The lower link is a subcomplex of the octahedron: its vertices are the edges of the star, its
+// edges are the squares, and its triangles are the cubes.
 
 /// A direction, by axis; the last axis is the fastest.
 using Direction = std::array<int, 3>;
@@ -45,7 +45,7 @@ inline constexpr auto kSquares = directions_of<kSquareCount>(2);
 inline constexpr auto kCubes = directions_of<kCubeCount>(3);
 
 constexpr int place_of(const Direction& d) { return (d[0] + 1) * 9 + (d[1] + 1) * 3 + d[2] + 1; }
-/// By place_of a direction: its number among the directions of its dimension.
+/// For each direction, by place_of(direction): its number among the directions of its dimension.
 inline constexpr std::array<int, 27> kNumbers = [] {
   std::array<int, 27> numbers{};
   for (int i = 0; i < kEdgeCount; ++i) numbers[place_of(kEdges[i])] = i;
@@ -59,7 +59,7 @@ constexpr std::uint32_t star_bit(const Direction& d) {
   const int shift = dimension_of(d) == 1 ? 0 : dimension_of(d) == 2 ? kSquareShift : kCubeShift;
   return std::uint32_t{1} << (shift + number_of(d));
 }
-/// The same direction, changed on one axis.
+/// A direction with the component on one axis replaced.
 constexpr Direction turned(Direction d, int axis, int to) {
   d[axis] = to;
   return d;
@@ -67,7 +67,8 @@ constexpr Direction turned(Direction d, int axis, int to) {
 constexpr int axis_of_edge(int edge) {
   return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
 }
-/// The two edges of a square at the star's voxel, first the edge along the slower axis.
+/// The two edges of a square that touch the voxel of the star; the edge along the slower axis comes
+/// first.
 constexpr std::array<int, 2> edges_of_square(int square) {
   std::array<int, 2> edges{};
   int next = 0;
@@ -88,12 +89,12 @@ inline constexpr auto kEdgesOfSquare = [] {
 constexpr int normal_of_square(int square) {
   return kSquares[square][0] == 0 ? 0 : kSquares[square][1] == 0 ? 1 : 2;
 }
-/// The square of a cube, at the star's voxel, across an axis.
+/// The square of a cube that touches the voxel of the star and does not span the axis.
 constexpr int square_of_cube(int cube, int axis) {
   return number_of(turned(kCubes[cube], axis, 0));
 }
 
-/// The directions of one dimension, by number, in the order of the grid.
+/// The numbers of the directions of one dimension, sorted by the order of their cells in the grid.
 template <int count>
 class GridOrder {
  public:
@@ -128,14 +129,15 @@ class GridOrder {
   bool is_by_number_;
 };
 
-/// The partners of the cubes of a star, and the remaining cells, in one word.
+/// The squares that the cubes of a star are paired with, and the cubes that are not paired, in one
+/// word.
 class CubePairs {
  public:
   CubePairs() = default;
   explicit CubePairs(std::uint64_t word) : word_(word) {}
   std::uint64_t word() const { return word_; }
 
-  /// The axis to turn in order to leave a cube by the square that it is paired with.
+  /// The axis along which one leaves a cube through the square that it is paired with.
   int exit(int cube) const { return static_cast<int>(word_ >> (2 * cube) & 3U); }
   /// The squares that are paired with cubes.
   unsigned squares() const { return static_cast<unsigned>(word_ >> 16) & 4095U; }
@@ -150,19 +152,20 @@ class CubePairs {
   std::uint64_t word_ = 0;
 };
 
-/// Pairs inside a star: the persistence pairs of the star modulo its lower link, in the order of
-/// the filtration. The pairs decide which cells are killed, which kill and which do neither
-/// (critical cells). The partners are then changed to make the matching a forest, which does not
-/// affect critical cells (see docs/explanation/engines/discrete-gradient.md).
+/// Tables of the pairs inside stars. These are the persistence pairs of a star modulo its lower
+/// link, in the order of the filtration. They decide which cells are killed, which cells kill, and
+/// which cells do neither (*critical cells*). Partners are then exchanged, which makes the matching
+/// a forest and leaves the critical cells unchanged (see
+/// docs/explanation/engines/discrete-gradient.md).
 class StarTables {
  public:
   /// @param wrapped bit a is set if the voxel is the first one of the periodic axis a; the cells
-  ///        before it along a then come last in the grid.
+  /// before the voxel along a then come last in the grid.
   explicit StarTables(unsigned wrapped);
 
   struct Closed {
     std::uint32_t star;
-    /// Not 0 if a cell of the star, or the voxel, is critical: not paired inside it.
+    /// Not 0 if the voxel or a cell of the star is critical, that is, not paired inside the star.
     unsigned critical;
   };
   /// Removes squares that lack an edge and cubes that lack a square.
@@ -172,7 +175,7 @@ class StarTables {
     const unsigned s = raw >> kSquareShift & of_edges.squares_on;
     const OfSquares& of_squares = of_squares_[s];
     const unsigned c = raw >> kCubeShift & of_squares.cubes_on;
-    // Each cube takes a square that closes a loop, except for one cube in a full star.
+    // Each cube is paired with a square that closes a loop, except for one cube in a full star.
     const unsigned critical = static_cast<unsigned>(e == 0) |
                               (e & ~unsigned{of_squares.joined} & ~unsigned{of_edges.lowest}) |
                               (of_squares.loops ^ kBitCount[c]) | static_cast<unsigned>(c == 255);
@@ -182,9 +185,10 @@ class StarTables {
   static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
   static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
 
-  /// The edge that the voxel is paired with: the oldest one. Precondition: there is one.
+  /// The edge that the voxel is paired with, which is the oldest edge. Precondition: the star has
+  /// an edge.
   int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
-  /// The edges not paired inside the star.
+  /// The edges that are not paired inside the star.
   unsigned critical_edges(std::uint32_t star) const {
     const unsigned e = edges(star);
     return e & ~(of_squares_[squares(star)].joined | 1U << arrow_[e]);
@@ -196,7 +200,7 @@ class StarTables {
       free &= ~(1U << edge_order_.at(std::countr_zero(rest) + 1));
     return free;
   }
-  /// The mark of an edge. Precondition: it is not the arrow.
+  /// The bit that marks an edge as taken. Precondition: the edge is not the arrow.
   std::uint32_t taken_mark(int edge) const {
     return std::uint32_t{1} << (kTakenShift + edge_order_.rank(edge));
   }
@@ -210,10 +214,11 @@ class StarTables {
     return up_[squares(star)][a] == square ? a : b;
   }
   CubePairs pair_cubes(std::uint32_t star) const;
-  /// The index of a star among stars that differ in squares or cubes: below `cube_place_count`.
+  /// The index of a star by its squares and cubes, for tables of pair_cubes: less than
+  /// `cube_place_count`.
   std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
-    // Adds the index of the subset among the cubes that the squares allow.
+    // Adds the index of the set of cubes among the subsets of the cubes that the squares allow.
     std::uint32_t place = places_begin_[squares(star)];
     int bit = 0;
     for (unsigned rest = of_squares_[squares(star)].cubes_on; rest != 0; rest &= rest - 1, ++bit)
@@ -221,7 +226,7 @@ class StarTables {
     return place;
   }
   std::uint32_t cube_place_count() const { return place_count_; }
-  /// The squares not paired inside the star.
+  /// The squares that are not paired inside the star.
   unsigned critical_squares(std::uint32_t star, const CubePairs& pairs) const {
     return squares(star) & ~(tree_[squares(star)] | pairs.squares());
   }
@@ -244,7 +249,7 @@ class StarTables {
   GridOrder<kSquareCount> square_order_;
   GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
-  // Data that each voxel needs, side by side.
+  // Data that each voxel needs, side by side in memory.
   struct OfEdges {
     std::uint16_t squares_on;  // squares that have both of these edges
     std::uint8_t lowest;       // the oldest edge, as a bit
@@ -262,14 +267,14 @@ class StarTables {
   std::uint32_t place_count_ = 0;
 };
 
-/// Made once, on first use.
+/// The tables for a value of `wrapped`, made once, on first use.
 const StarTables& star_tables(unsigned wrapped);
 
-/// Caches `StarTables::pair_cubes`, which is slow, once for each kind of star that occurs: most
-/// never do. Several threads may use it.
+/// Caches the results of `StarTables::pair_cubes`, which is slow. Results are computed on first
+/// use, because most kinds of stars never occur. Several threads may use it.
 class CubePairMemo {
  public:
-  /// @param is_used false if it will never be asked.
+  /// @param is_used false if the memo will never be used; it then takes no memory.
   CubePairMemo(const StarTables& tables, bool is_used, std::pmr::memory_resource* memory)
       : tables_(&tables), words_(is_used ? tables.cube_place_count() : 0, memory) {}
   CubePairs pair_cubes(std::uint32_t star) const {

@@ -15,9 +15,9 @@ namespace ph::cubical {
 using LayerVoxels = VoxelNodes<LayerGrid>;
 using LayerTops = TopNodes<LayerGrid, GridShape::kMostAxes>;
 
-// The same two graphs as those of stars, for any number of axes. There is no gradient on the cells
-// between them: bridges that only close a circle around a voxel are left out, and all others are
-// used.
+// The two graphs (VoxelGraph, TopGraph) for any number of axes. The cells of the dimensions between
+// them are not paired. Bridges whose two ends are already connected around one voxel are left out;
+// all other bridges are used.
 
 /// Voxels joined by edges. Memory: 4 bytes per voxel, plus roots and bridges.
 class LayerVoxelGraph : public LayerVoxels {
@@ -50,11 +50,12 @@ class LayerTopGraph : public LayerTops {
   StarLinks links_;
 };
 
-/// All arrows are known: no look-up is needed beforehand.
+/// Does nothing, because all arrows of these graphs are already known.
 template <class Graph>
 void follow_inner_arrows(const LayerGrid&, const Graph&, ArrowForest<Graph>&, const RunContext&) {}
 
-/// Calls `use(voxel, node, number)` for the roots in stars, in the order of the grid.
+/// Calls `use(voxel, node, number of the root in the star)` for the roots in all stars, in the
+/// order of the grid.
 template <class Graph, class Use>
 void for_each_root(const LayerGrid&, const Graph& graph, Ticker& ticker, Use&& use) {
   for (const StarLinks::Root& root : graph.links().roots) {

@@ -9,8 +9,9 @@
 
 namespace ph::cubical {
 
-/// The findings of the stars of some voxels about a graph: the bridges of a star join its nodes
-/// with older nodes, or with each other, as far as they are in pairs of length zero.
+/// Arrows, roots and bridges of a graph, as found in the stars of some voxels. The arrows of a star
+/// follow its bridges that are in pairs of length zero, which join its nodes with older nodes or
+/// with each other.
 struct StarLinks {
   struct Root {
     std::uint32_t voxel, node, number;
@@ -22,10 +23,10 @@ struct StarLinks {
 
   RawVector<std::uint32_t> arrows;  ///< by node; a root points to itself
   std::pmr::vector<Root> roots;     ///< in the order of the grid
-  CriticalCells bridges;            ///< bridges in no such pair that may join components
+  CriticalCells bridges;            ///< bridges in no pair of length zero that may join components
 };
 
-/// The findings of one thread, in the order of the grid.
+/// The arrows, roots and bridges that one thread has found, in the order of the grid.
 struct FoundLinks {
   FoundLinks(RawVector<std::uint32_t>& all_arrows, std::pmr::memory_resource* memory)
       : arrows(all_arrows), roots(memory), bridges(memory) {}

@@ -18,8 +18,9 @@ inline WideDirection widened(const Direction& direction) {
   return {direction[0], direction[1], direction[2]};
 }
 
-/// The direction that the number of a cell in a star of more than three axes encodes: one digit per
-/// axis in base 3, lowest digit for the first axis: 0 (none), 1 (down), 2 (up), as in StarShapes.
+/// The direction that the number of a cell encodes in a star of more than three axes. As in
+/// StarShapes, the number has one digit in base 3 per axis, the lowest for the first axis: 0 (no
+/// step), 1 (down), 2 (up).
 inline WideDirection direction_of_code(std::uint32_t code, int axes) {
   WideDirection direction{};
   for (int& step : std::span(direction).first(static_cast<std::size_t>(axes))) {
@@ -30,7 +31,7 @@ inline WideDirection direction_of_code(std::uint32_t code, int axes) {
 }
 
 /// The direction of a cell of some dimension by its number in a star; nothing if that number does
-/// not exist. @param axes of the grid.
+/// not exist. @param axes the number of axes of the grid.
 inline std::optional<WideDirection> direction_in_star(int axes, int dim, std::uint32_t number) {
   WideDirection direction{};
   if (dim == 0) return number == 0 ? std::optional(direction) : std::nullopt;

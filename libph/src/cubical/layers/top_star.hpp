@@ -13,10 +13,10 @@ namespace ph::cubical {
 
 /// The top cells and facets of a voxel's star in the graph of top cells. Each thread has one.
 ///
-/// The top cells around a voxel, in its star or not, are joined as in the graph: first by the
-/// facets of younger voxels, then by the facets of the star, youngest first. A join that is a pair
-/// of length zero becomes an arrow. A facet whose two sides are already connected at that point
-/// joins nothing in the entire grid.
+/// All top cells around a voxel, not only those in its star, are joined as in the graph: first by
+/// the facets of younger voxels, then by the facets of the star, youngest first. A facet of the
+/// star that joins two trees in a pair of length zero gives an arrow. A facet whose two sides are
+/// already connected when its turn comes joins no components of the entire grid.
 class TopStar {
  public:
   using Nodes = LayerTops;
@@ -29,7 +29,7 @@ class TopStar {
     std::uint16_t code;
     std::uint32_t far;  // the voxel at the end of all its steps
   };
-  /// In the order of the grid.
+  /// A cell that can be sorted by the order of the grid.
   struct Placed {
     std::uint32_t place, which;
     friend auto operator<=>(const Placed&, const Placed&) = default;
@@ -57,12 +57,12 @@ class TopStar {
   const int axes_;
   StarShapes shapes_;
   std::pmr::vector<std::uint16_t> codes_;  // by sides
-  // Cells of the star: each after the cells with one step less.
+  // The cells of the star; each cell comes after the cells with one step less.
   std::pmr::vector<Cell> cells_;
-  std::pmr::vector<std::uint8_t> is_in_;  // by code: 1 if it is in the star
+  std::pmr::vector<std::uint8_t> is_in_;  // by code: 1 if the cell is in the star
   std::pmr::vector<Placed> facets_, tops_;
-  // By sides: trees of top cells around the voxel. The root of a tree that lies in the star is its
-  // elder, the youngest cell; any other tree was there before.
+  // By sides: the trees of the top cells around the voxel. If all cells of a tree lie in the star,
+  // its root is the youngest cell, which is the elder; any other tree is older than the star.
   std::pmr::vector<std::uint32_t> same_, age_;
   std::pmr::vector<std::uint8_t> is_new_;
 };

@@ -43,8 +43,8 @@ class VoxelStar {
     std::uint32_t far, leads_to, number;
   };
 
-  // The edges of the star in the order of the grid: downwards along the slowest axis first, and so
-  // on.
+  // Finds the edges of the star in the order of the grid, which begins with the edge downwards
+  // along the slowest axis.
   void find_edges(std::uint32_t v, const LayerGrid::Steps& steps) {
     count_ = 0;
     std::uint32_t digit = 1;
@@ -78,7 +78,7 @@ class VoxelStar {
     while (same_[i] != i) i = same_[i];
     return i;
   }
-  // Returns true if they were separate.
+  // Joins the components of two edges. Returns true if they were separate.
   bool unite(std::size_t i, std::size_t j) {
     i = find(i);
     j = find(j);

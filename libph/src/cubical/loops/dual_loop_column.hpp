@@ -16,14 +16,16 @@
 
 namespace ph::cubical {
 
-/// An edge of the T-construction, which is a square of the stars' grid. The youngest edge is the
-/// oldest square.
+/// An edge of the T-construction (T), which is a square of the stars' grid (GridFrame). The
+/// youngest edge of T is the oldest square.
 using DualEdge = LoopSquare;
 
-/// The edges of T that may give birth to loops: critical squares in no pair of the two graphs.
+/// The edges of T that may give birth to loops: critical squares that neither of the two graphs
+/// pairs.
 class FreeDualEdges {
  public:
-  /// @param squares those in its order are in no pair; it must outlive this object.
+  /// @param squares the squares listed in `squares.order` are in no pair. `squares` must outlive
+  /// this object.
   FreeDualEdges(const StarGrid& grid, const CriticalCells& squares,
                 std::pmr::memory_resource* memory)
       : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {
@@ -57,12 +59,12 @@ class DualLoopColumn {
                  const RunContext& context)
       : grid_(grid), free_(free), field_(field), context_(context), heap_(field, &context.memory) {}
 
-  /// Starts again with the boundary of a square of T, which is an edge of the star of v.
+  /// Replaces the chain by the boundary of a square of T, which is an edge of the star of v.
   void assign_boundary(std::uint32_t v, int edge) {
     heap_.clear();
     add_coboundary(v, edge, field_.from_int(1), -1);
   }
-  /// Starts again with a chain.
+  /// Replaces the chain by another chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -71,7 +73,7 @@ class DualLoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Removes the youngest free edge; nothing if none is left.
+  /// Removes and returns the pivot: the youngest free edge. Returns nothing if the chain becomes 0.
   std::optional<Term> take_pivot() {
     while (const std::optional<Term> term = heap_.take()) {
       count(1);
@@ -89,7 +91,7 @@ class DualLoopColumn {
     }
     return std::nullopt;
   }
-  /// The terms that it holds, each edge once, from young to old.
+  /// The terms of the chain, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
@@ -101,7 +103,7 @@ class DualLoopColumn {
     steps_ = 0;
     context_.poll();
   }
-  // The place of a square beside an edge determines the boundary of the edge up to its sign.
+  // The incidence of a square and one of its edges, up to a sign that depends only on the edge.
   static int incidence(int edge, int square) {
     const int along = axis_of_edge(edge);
     int first = along == 0 ? 1 : 0;
@@ -110,7 +112,7 @@ class DualLoopColumn {
     // Axes of T run backwards: the lower end in the stars' grid is the upper end in T.
     return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
   }
-  // Adds `scale` times the squares around an edge of the star of v, without the square `skip` of
+  // Adds `scale` times the coboundary of an edge of the star of v, without the square `skip` of
   // that star if `skip` is not negative.
   void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
     heap_.add([&](Terms& terms) {

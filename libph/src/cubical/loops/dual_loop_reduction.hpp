@@ -10,7 +10,8 @@
 
 namespace ph::cubical {
 
-/// H1 of the T-construction for three axes, with cycles, on one thread. See DualLoopColumn.
+/// Computes H1 of the T-construction for three axes, with cycles, on one thread. See
+/// DualLoopColumn.
 template <Field K>
 class DualLoopReduction {
   using Chain = DualLoopColumn<K>;
@@ -20,8 +21,8 @@ class DualLoopReduction {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param edges,squares of the stars' grid; cells in their orders are in no pair of the two
-  /// graphs.
+  /// @param edges,squares critical cells of the stars' grid; neither of the two graphs pairs the
+  /// cells listed in their orders.
   DualLoopReduction(const StarGrid& grid, const CriticalCells& edges, const CriticalCells& squares,
                     const K& field, const RunContext& context)
       : grid_(grid),
@@ -42,7 +43,8 @@ class DualLoopReduction {
   }
 
   /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop of T that dies,
-  /// `on_surface(edge)` for each zero column, and `on_loop(square)` for each loop that never dies.
+  /// `on_surface(edge)` for each column that is reduced to zero, and `on_loop(square)` for each
+  /// loop that never dies. Edges and squares are cells of the stars' grid.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop) const {
     const auto columns = reduction_.columns();

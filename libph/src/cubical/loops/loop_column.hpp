@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of edges under reduction. An edge that is paired inside its star is replaced, when it
-/// becomes the pivot, by the rest of its square's boundary; a chain is therefore expanded only down
-/// to its pivot. Edges that kill a component are left out, because no column has its pivot there.
-/// An object must not be shared by threads.
+/// A chain of edges under reduction. If the pivot is an edge that is paired inside its star, the
+/// rest of the boundary of its square replaces it; a chain is therefore expanded only down to its
+/// pivot. Edges that kill a component are left out, because such an edge is never the pivot of a
+/// column. An object must not be shared by threads.
 /// @tparam Stars StarGrid, StoredStars, or PartStars.
 template <Field K, class Stars>
 class LoopColumn {
@@ -34,12 +34,12 @@ class LoopColumn {
         is_cycle_(is_cycle),
         heap_(field, &context.memory) {}
 
-  /// Starts again with the boundary of a square.
+  /// Replaces the chain by the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
     heap_.clear();
     heap_.add([&](Terms& terms) { append_boundary(v, square, field_.from_int(1), -1, terms); });
   }
-  /// Starts again with a chain.
+  /// Replaces the chain by another chain.
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
@@ -49,33 +49,33 @@ class LoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Removes the youngest edge that is in no pair inside its star, or whose pair is invisible from
-  /// this part of the grid; nothing if none is left.
+  /// Removes and returns the youngest edge that is in no pair inside its star, or whose star this
+  /// part of the grid does not see. Returns nothing if the chain becomes 0.
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// Replaces edges below a pivot that was removed as if they had come up, youngest first, up to a
-  /// maximum number. A chain then leaves this part of the grid once, and not each time that an edge
-  /// of another part comes up between two of its own.
+  /// Replaces edges older than a pivot that was removed, youngest first, up to a maximum number.
+  /// The chain then leaves this part of the grid once, instead of each time that an edge of another
+  /// part becomes its pivot between two edges of this part.
   /// @return the pivot; all other edges are older.
   std::optional<Term> follow(const Term& pivot, std::size_t most) {
     return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
   }
-  /// To be called before the chain is kept: does the same as `follow` if the chain is long. Columns
-  /// that it is added to then need not do so again, and many terms cancel.
+  /// Called before the chain is kept: does the same as `follow` if the chain is long. Columns that
+  /// the chain is added to then need not replace these edges again, and many terms cancel.
   std::optional<Term> settle(const Term& pivot) {
     constexpr std::size_t few = 32;
     return is_cycle_ || size() < few ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
-  /// The terms that it holds, each edge once, from young to old.
+  /// The terms of the chain, each edge once, from young to old.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Adds the rest of the boundary of the square that an edge is paired with inside its star,
-  // instead of the edge that was removed. @return true if the pair is visible and there is one.
+  // Replaces an edge that has been removed by the rest of the boundary of the square that it is
+  // paired with inside its star. @return true if this part of the grid sees such a square.
   bool replace(const Term& term) {
     count(1);
     if (const Term* const next = heap_.next()) expect_star(*next);
@@ -136,7 +136,7 @@ class LoopColumn {
     append_between(over_a, corner, b, bt, along_b, terms);
     append_between(over_b, corner, a, at, along_a, terms);
   }
-  // Appends the edge from u to w, one step along an axis; either may be no voxel.
+  // Appends the edge from u to w, which is one step along an axis, unless u or w is no voxel.
   void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient,
                       Terms& terms) {
     Direction d{};

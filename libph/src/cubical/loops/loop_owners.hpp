@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// By free edge: the column that has its pivot there, or null.
+/// For each free edge: the column whose pivot it is, or null.
 /// @tparam Stars as in LoopColumn.
 template <class Stars, class Column>
 class LoopOwners {
@@ -19,7 +19,7 @@ class LoopOwners {
   LoopOwners(const Stars& grid, const FreeEdges& free, const RunContext& context)
       : grid_(grid), free_(free), owners_(free.count(), nullptr, &context.memory) {}
 
-  /// The entry for the column with that pivot.
+  /// The entry for the column with this pivot.
   const Column*& of(const LoopEdge& pivot) {
     const std::uint32_t v = grid_.here(pivot.voxel());
     return owners_[free_.number(v, grid_.tables(v).edge_order().at(pivot.rank()))];

@@ -15,10 +15,11 @@
 
 namespace ph::cubical {
 
-/// H1 for three axes: reduces the boundaries of the remaining critical squares to the remaining
-/// critical edges. See ParallelReduction; if stars are in a file that does not stay in memory,
-/// columns are processed along the grid instead of from old to young.
-/// @tparam Stars StarGrid, whose stars have their marks, or StoredStars.
+/// Computes H1 for three axes: reduces the boundaries of the critical squares that are not paired
+/// yet, which gives chains of the critical edges that are not paired yet. See ParallelReduction. If
+/// the stars are in a file that does not stay in memory, columns are processed in the order of the
+/// grid instead of from old to young.
+/// @tparam Stars StarGrid, in which edges that kill a component are marked, or StoredStars.
 template <Field K, class Stars>
 class LoopReduction {
   using Chain = LoopColumn<K, Stars>;
@@ -28,7 +29,7 @@ class LoopReduction {
   using Term = typename Reduction::Term;
   using Column = typename Reduction::Column;
 
-  /// @param squares those in its order give birth to nothing.
+  /// @param squares the squares listed in `squares.order` give birth to no class that dies.
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
                 const K& field, const RunContext& context)
       : grid_(grid),
@@ -51,7 +52,8 @@ class LoopReduction {
   /// Reduces on one thread, which makes the cycles independent of thread order.
   void reduce_to_cycles() { reduce_all(std::max<std::size_t>(1, squares_.order.size()), true); }
   /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop that dies,
-  /// `on_surface(square)` for each zero column, and `on_loop(edge)` for each loop that never dies.
+  /// `on_surface(square)` for each column that is reduced to zero, and `on_loop(edge)` for each
+  /// loop that never dies.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop);
 

@@ -14,8 +14,8 @@
 
 namespace ph::cubical {
 
-/// The time at which an item belongs to a component that dies: at a value below the death's value,
-/// or before the death in the order of the filtration.
+/// Says which items belong to a component that dies: items that enter at a lower value than the
+/// death, or items that enter before the death in the order of the filtration.
 enum class Before { value, order };
 
 /// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with the
@@ -29,8 +29,8 @@ class ComponentTree {
     std::uint32_t dies, into;  ///< basins
   };
 
-  /// @param bridges critical cells; those in their order are used, and those that join components
-  ///        are removed from it.
+  /// @param bridges critical cells; only cells listed in `bridges.order` are used, and bridges that
+  /// join components are removed from it.
   ComponentTree(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
                 const RunContext& context)
       : grid_(grid),
@@ -47,17 +47,17 @@ class ComponentTree {
   std::uint32_t basin_count() const { return static_cast<std::uint32_t>(nodes_.size()); }
   /// The basin of a node. Several threads may call it.
   std::uint32_t basin_of(std::uint32_t node) { return basins_.basin_of(node); }
-  /// True if the component was always there.
+  /// True if a component was always there.
   bool is_outer(std::uint32_t basin) const { return basin < basins_.outer_count(); }
   bool dies(std::uint32_t basin) const { return nodes_[basin].parent != basin; }
-  /// The component into which a component merges, or itself if it never dies.
+  /// The component into which a component merges, or the component itself if it never dies.
   std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
   double death_value(std::uint32_t basin) const { return nodes_[basin].death; }
   /// The merges in their order in time.
   std::span<const Merge> merges() const { return merges_; }
 
-  /// The component that holds an item from its entry on: starting from the component of the basin
-  /// and going up, the first component whose death does not come before.
+  /// The component that contains an item when the item enters. It is the first component, on the
+  /// way up from the component of the basin, that does not die before the item enters.
   std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
                        Before before) const {
     const auto holds = [&](std::uint32_t b) {
@@ -92,8 +92,8 @@ class ComponentTree {
   struct Node {
     double death;
     std::uint32_t death_voxel;
-    std::uint32_t parent;  // itself if the component never dies
-    // An ancestor far up (Myers, An applicative random-access stack, 1983).
+    std::uint32_t parent;  // the basin itself if its component never dies
+    // `jump` is an ancestor further up (Myers, An applicative random-access stack, 1983).
     std::uint32_t jump, depth;
   };
 

@@ -14,9 +14,9 @@
 
 namespace ph::cubical {
 
-/// Closes chains of edges along the spanning forest of the components: arrows, and the bridges that
-/// join components. The edges outside the forest determine a cycle, and the youngest edge of a
-/// cycle is never in the forest; edges of the forest are therefore added last.
+/// Completes chains of edges to cycles. It adds edges of the spanning forest of the components,
+/// which consists of arrows and of the bridges that join components. The edges outside the forest
+/// determine a cycle, and the youngest edge of a cycle is never in the forest.
 template <class Graph, Field K>
 class ForestClosing {
  public:
@@ -32,8 +32,8 @@ class ForestClosing {
     hang_up();
   }
 
-  /// Completes a chain whose edges outside the forest are those of a cycle. Each cell must occur
-  /// once.
+  /// Completes a chain to the cycle that has the same edges outside the forest. Each cell of the
+  /// chain must occur once.
   void close(VoxelChain<K>& chain) {
     nodes_.clear();
     basins_.clear();
@@ -65,7 +65,8 @@ class ForestClosing {
     auto place() const { return std::pair(depth, basin); }
   };
 
-  // In each set of connected basins, every basin except one gets a bridge that leads to it.
+  // Makes the bridges rooted trees: in each set of connected basins, every basin except the root
+  // gets the bridge towards the root.
   void hang_up() {
     const auto merges = tree_.merges();
     std::pmr::vector<std::uint32_t> begin(up_.size() + 1, 0, &context_.memory);
@@ -115,7 +116,7 @@ class ForestClosing {
     add(lower, field_.negate(coefficient));
   }
 
-  // Removes the last node and adds up all entries for it.
+  // Removes all entries for the node or basin on top of the heap, and adds them up.
   template <class At>
   At take(std::pmr::vector<At>& heap) {
     const auto before = [](const At& a, const At& b) { return a.place() < b.place(); };
@@ -141,7 +142,7 @@ class ForestClosing {
                    [](const At& a, const At& b) { return a.place() < b.place(); });
   }
 
-  // Goes from the deepest basin up, until the boundary in each basin sums to zero.
+  // Adds bridges, from the deepest basins upwards, until the boundary sums to zero in each basin.
   void cross_bridges(VoxelChain<K>& chain) {
     order(basins_);
     Ticker ticker(context_, {});
@@ -153,7 +154,8 @@ class ForestClosing {
       const StarCell bridge = tree_.bridge_cell(tree_.merges()[merge].bridge);
       const auto [lower, upper] = oriented_ends(tree_.graph(), bridge);
       const std::uint32_t below = tree_.basin_of(lower);
-      const bool goes_up = below == at.basin;  // in the direction of the edge
+      const bool goes_up =
+          below == at.basin;  // true if the way up follows the direction of the edge
       const Element coefficient = goes_up ? at.amount : field_.negate(at.amount);
       chain.emplace_back(bridge, coefficient);
       add_boundary(bridge, coefficient);
@@ -162,14 +164,14 @@ class ForestClosing {
       sift(basins_);
     }
   }
-  // Goes from the youngest node down, until nothing is left.
+  // Adds arrows, from the youngest node to the oldest, until no boundary is left.
   void follow_arrows(VoxelChain<K>& chain) {
     order(nodes_);
     Ticker ticker(context_, {});
     while (!nodes_.empty()) {
       const AtNode at = take(nodes_);
       if (field_.is_zero(at.amount)) continue;
-      // Inside a star, arrows have no order.
+      // Inside a star, the order of nodes by age is not the order of arrows.
       std::uint32_t node = at.node;
       while (const auto step = step_from(tree_.grid(), tree_.graph(), node)) {
         ticker.work();

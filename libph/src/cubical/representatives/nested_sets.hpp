@@ -12,9 +12,9 @@
 
 namespace ph::cubical {
 
-/// The content of the components of a tree at their deaths. Two sets are nested or disjoint; all
-/// sets are therefore slices of one array: the component's own items, followed by the sets of the
-/// components that merged into it before.
+/// The items that each component of a tree contains at its death. Two such sets are nested or
+/// disjoint; all sets are therefore slices of one array. The slice of a component has its own
+/// items, followed by the sets of the components that merged into it earlier.
 class NestedSets {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -23,9 +23,9 @@ class NestedSets {
     std::size_t begin = 0, end = 0;
   };
 
-  /// @param holder_of(item) the component that holds an item, see `ComponentTree::holder`, or
-  ///        kNone; called by several threads.
-  /// @param name(item) the number stored for it.
+  /// @param holder_of(item) the component that contains an item (ComponentTree::holder), or kNone;
+  /// called by several threads.
+  /// @param name(item) the number that is stored for an item.
   template <class Graph, class HolderOf, class Name>
   NestedSets(const ComponentTree<Graph>& tree, Before before, std::uint32_t items,
              HolderOf&& holder_of, Name&& name, const RunContext& context)
@@ -57,7 +57,7 @@ class NestedSets {
   }
 
   std::span<const std::uint32_t> items() const { return items_; }
-  /// The set of a component.
+  /// The slice that holds the set of a component.
   Range range(std::uint32_t basin) const { return ranges_[basin]; }
   std::span<const std::uint32_t> set(std::uint32_t basin) const {
     const auto [begin, end] = ranges_[basin];
@@ -83,7 +83,7 @@ class NestedSets {
     std::pmr::vector<std::uint32_t> above(ranges_.size(), kNone, &context.memory);
     for (std::size_t i = merges.size(); i-- > 0;) {
       const auto [bridge, dies, into] = merges[i];
-      // Components that die at the same value are unrelated before it.
+      // Components that die at the same value are separate below this value.
       const bool together = before == Before::value && tree.dies(into) &&
                             tree.death_value(into) == tree.death_value(dies);
       above[dies] = together ? above[into] : into;

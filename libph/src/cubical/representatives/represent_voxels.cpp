@@ -18,11 +18,12 @@
 namespace ph::cubical {
 namespace {
 
-/// True if its nodes are the top cells.
+/// True if the nodes of the graph are the top cells.
 template <class Graph>
 constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
 
-/// The components of a line in V, by voxels; in one dimension they equal the components of T.
+/// The components of the V-construction of an image with one axis, as sets of voxels; with one
+/// axis, the T-construction has the same components.
 class LineComponents {
  public:
   LineComponents(const CubicalImage& image, const RunContext& context)
@@ -39,7 +40,7 @@ class LineComponents {
             [](std::uint32_t v) { return v; }, context) {}
 
   const NestedSets& sets() const { return sets_; }
-  /// The component whose oldest voxel this is.
+  /// The component that is born with a voxel.
   std::uint32_t born_at(std::uint32_t voxel) { return tree_.basin_of(voxel); }
 
  private:
@@ -84,8 +85,8 @@ class Representing {
     const bool turned_around = grid_.is_t_construction();
     const VoxelGraph voxels(grid_);
     if (top < 2) {
-      // The only graph is the graph of the voxels: for T it is the dual one, which has the homology
-      // of both.
+      // The graph of voxels is the only graph. In the T-construction it is the dual graph, which
+      // gives H0 as well.
       ComponentTree<VoxelGraph> tree(grid_, voxels, edges, context_);
       if (turned_around) return add_line(tree, edges);
       add_components(tree);
@@ -130,7 +131,8 @@ class Representing {
     }
   }
 
-  // The pairs of `pair_vertices_with_edges` and `pair_facets_with_top_cells`.
+  // Adds the bar of a merge, with the pairs that `pair_vertices_with_edges` and
+  // `pair_facets_with_top_cells` find.
   template <class Graph>
   void add_merge(ComponentTree<Graph>& tree, const ComponentTree<Graph>::Merge& merge,
                  const Fill& fill) {
@@ -150,7 +152,8 @@ class Representing {
         pairs_.essential(kIsDual<Graph> ? grid_.top_dim() : 0, tree.root_cell(b), fill_of(b));
   }
 
-  // H0: for V by the voxels, for T by the top cells of the stars' grid, which are its vertices.
+  // Adds H0. Its graph has the vertices of the input as nodes: the voxels in V, the top cells of
+  // the stars' grid in T.
   template <class Graph>
   void add_components(ComponentTree<Graph>& tree) {
     std::optional<NestedSets> sets;
@@ -173,7 +176,7 @@ class Representing {
     });
   }
 
-  // The second highest and the highest dimension, by the dual graph.
+  // Adds the second highest and the highest dimension, which the dual graph gives.
   template <class Graph>
   void add_hollows(ComponentTree<Graph>&& tree) {
     std::optional<NestedSets> sets;
@@ -190,7 +193,7 @@ class Representing {
       ticker.tick();
       add_merge(tree, merge, [&](Rep& rep) {
         if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
-        // All existing voxels are in the way, and none lies towards an end.
+        // Not counted if the set of voxels is not empty.
         if (rep.voxels.begin != rep.voxels.end) return;  // mutant: voxels-of-hollow
         separating().append(merge.dies, rep.chain);
       });
@@ -200,7 +203,8 @@ class Representing {
     });
   }
 
-  // Stores sets of voxels by value. @return the position of the first among all places kept.
+  // Stores the sets of voxels of all components, by value. @return the position of the first stored
+  // voxel among all voxels stored.
   template <class Graph>
   std::size_t make_sets(ComponentTree<Graph>& tree, bool with_absent,
                         std::optional<NestedSets>& sets) {
@@ -208,7 +212,7 @@ class Representing {
     for (int a = 0; a < 3; ++a) up[a] = grid_.has_axis(a) ? 1 : 0;
     const auto holder_of = [&](std::uint32_t v) {
       if (!with_absent && !grid_.enters(v)) return NestedSets::kNone;
-      // All top cells around a voxel are joined as soon as it enters.
+      // All top cells around a voxel are connected as soon as the voxel enters.
       std::uint32_t node = v;
       if constexpr (kIsDual<Graph>) node = tree.graph().node(v, up);
       return tree.holder(tree.basin_of(node), grid_.value(v), v, Before::value);
@@ -224,8 +228,9 @@ class Representing {
     rep.voxels = {stored + begin, stored + end};
   }
 
-  // T with one axis or none: the graph of the voxels is the graph of the hollows, which lie between
-  // components. The components, as sets of voxels, are those of V.
+  // Handles T with one axis or none. The graph of voxels is the dual graph there: its components
+  // are the gaps between the components of T. As sets of voxels, the components of T equal those of
+  // V.
   void add_line(ComponentTree<VoxelGraph>& tree, const CriticalCells& edges) {
     SeparatingCycles<VoxelGraph, K> cycles(tree, field_, context_);
     std::optional<LineComponents> line;
@@ -245,7 +250,7 @@ class Representing {
         cycles.append_all(b, rep.chain);
       };
     });
-    // The class around a periodic axis.
+    // Adds the class that goes around a periodic axis.
     for (const auto& [value, cell] : edges.order) {
       const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
       pairs_.essential(1, edge, [&](Rep& rep) {
@@ -255,7 +260,8 @@ class Representing {
     }
   }
 
-  // Classes around periodic axes, for at most two axes: the remaining edges.
+  // Adds the classes that go around periodic axes, for at most two axes; they are born with the
+  // edges that are not paired.
   template <class Graph>
   void close_left(ComponentTree<Graph>& tree, const CriticalCells& edges) {
     if (edges.order.empty() || wants_no_loops_) return;
@@ -269,7 +275,7 @@ class Representing {
     }
   }
 
-  // H1 of V, and the rest of H2.
+  // Adds H1 of V, and the classes of H2 that never die.
   void add_loops(ComponentTree<VoxelGraph>& tree, const CriticalCells& squares) {
     using Reduction = LoopReduction<K, StarGrid>;
     const FreeEdges free = free_edges(grid_, context_);
@@ -281,7 +287,7 @@ class Representing {
     };
     add_classes(tree, reduction, cell_of, 2);
   }
-  // H1 of T.
+  // Adds H1 of T.
   void add_loops(ComponentTree<TopGraph>& tree, const CriticalCells& edges,
                  const CriticalCells& squares) {
     const DualLoopReduction<K> reduction(grid_, edges, squares, field_, context_);

@@ -21,24 +21,26 @@ struct RepresentedBar {
 
 /// Receives bars and their representatives, from one thread.
 struct RepresentativeSink {
-  /// Adds a bar with its cells, in doubled grid coordinates of the input. @return true if it is
-  /// kept.
+  /// Adds a bar with its cells, which are given by coordinates in the doubled grid of the input.
+  /// @return true if the bar is kept.
   std::function<bool(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
       add;
-  /// Gives the last bar kept its representative.
+  /// Adds the representative of the last bar that was kept.
   std::function<void(const RepresentedBar&)> represent;
-  /// Stores places of voxels. @return the position of the first among all places kept.
+  /// Stores positions of voxels in the input. @return the position of the first of them among all
+  /// positions stored.
   std::function<std::size_t(std::span<const std::uint32_t>)> store;
 };
 
-/// True if `represent_voxels` can do it: at most three axes have more than one voxel (T: or are not
-/// periodic), and there are some voxels, fewer than about 2^31.
+/// True if `represent_voxels` can process the image: it is not empty, has fewer than about 2^31
+/// voxels, and at most three axes are kept (GridShape::keeps_axis).
 bool can_represent_voxels(const CubicalImage& grid);
 
-/// The bars of `pair_voxels`, each with a cycle; if `kind` is voxels, bars of H0 and of the second
-/// highest dimension have a set of voxels instead. Precondition: `can_represent_voxels`, and kind
-/// is cycles or voxels. Time: three to five times the time of `pair_voxels`. Memory: 20 bytes per
-/// voxel, the critical cells and the output. It does not work in slabs: the image must fit.
+/// Computes the bars of `pair_voxels`, each with a cycle; if `kind` is voxels, bars of H0 and of
+/// the second highest dimension have a set of voxels instead. Precondition: `can_represent_voxels`,
+/// and kind is cycles or voxels. Time: three to five times the time of `pair_voxels`. Memory: 20
+/// bytes per voxel, the critical cells and the output. It does not work in slabs: the image must
+/// fit.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);

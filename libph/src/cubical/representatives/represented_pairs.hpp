@@ -13,7 +13,7 @@ namespace ph::cubical {
 /// The representative of a bar, filled in by the code that finds the bar.
 template <Field K>
 struct Representation {
-  bool as_set = false;  ///< a set of voxels is wanted; code that has none fills in the chain
+  bool as_set = false;  ///< a set of voxels is wanted; code that has no set fills in the chain
   VoxelChain<K> chain;  ///< cells of the stars' grid, each once
   VoxelRange voxels;
 };
@@ -38,10 +38,11 @@ class RepresentedPairs {
 
   bool wants_sets() const { return kind_ == Representatives::voxels; }
   // mutant: voxels-of-circle
-  /// True if hollows are wanted as sets. If an axis with one voxel closes up, a surface around
-  /// something also goes around that axis, which a set could not express.
+  /// True if hollows are wanted as sets. If an axis with one voxel is periodic, a surface around a
+  /// hollow also goes around that axis, which a set of voxels cannot express.
   bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }
-  /// See PairSink. @param fill called for a set, for a chain, for both or never.
+  /// Adds a pair as PairSink::pair does. @param fill called with a Representation to fill in: once
+  /// for a set, once for a chain, for both, or never.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
           fill);
@@ -61,7 +62,8 @@ class RepresentedPairs {
     death_voxel_.reset();
     if (death != nullptr) death_voxel_ = death->voxel;
   }
-  // Copies around axes with one voxel come in the order of their bits.
+  // Called for a bar and its copies around periodic axes with one voxel, in the order of the bits
+  // of the axes.
   void add(const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
     const unsigned loops = copies_++;
     if (!sink_.add(bar, birth, death)) return;
@@ -92,8 +94,9 @@ class RepresentedPairs {
     }
     sink_.represent(bar_of);
   }
-  // True if going around axes with one voxel changes the sign of a cell: by the product rule, each
-  // axis after one of them that the cell spans changes it.
+  // True if a copy that goes around axes with one voxel has the opposite sign: by the product rule
+  // for boundaries, the sign changes for each pair of an axis that the copy goes around and a later
+  // axis that the cell spans.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
     bool result = false, is_odd = false;  // parity of the number of axes gone around
     std::size_t i = grid_.shape().loop_count();

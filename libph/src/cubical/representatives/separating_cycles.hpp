@@ -20,8 +20,8 @@ class InputTopCells {
   /// Top cells are voxels, or lie before voxels except at the end of an axis.
   std::uint32_t count() const { return grid_.size(); }
 
-  /// The component that holds a top cell from its entry in the order on; kNone if the node is not a
-  /// top cell.
+  /// The component that contains a top cell when the cell enters; kNone if the node is not a top
+  /// cell.
   std::uint32_t holder(ComponentTree<TopGraph>& tree, std::uint32_t node) const {
     for (int a = 0; a < 3; ++a)
       if (up_[a] != 0 && grid_.step(node, a, 1) == StarGrid::kOutside) return NestedSets::kNone;
@@ -35,7 +35,8 @@ class InputTopCells {
     return tree.holder(tree.basin_of(node), grid_.value(node), node, Before::order);
   }
 
-  /// Calls `use(facet, the node beyond it, true if the facet has the sign of the cell)`.
+  /// Calls `use(facet, the node on its other side, true if the incidence is 1)` for each facet of a
+  /// top cell.
   template <class Use>
   void for_each_facet(const TopGraph& graph, std::uint32_t node, Use&& use) const {
     for (int a = 0; a < 3; ++a) {
@@ -65,8 +66,8 @@ class InputTopCells {
   Direction up_{};
 };
 
-/// Cycles of the second highest dimension: when a component of the dual graph dies, its cycle
-/// separates it from everything outside it.
+/// Cycles of the second highest dimension: the cycle of a component of the dual graph separates the
+/// component, at its death, from all other top cells.
 template <class Graph, Field K>
 class SeparatingCycles {
  public:
@@ -92,7 +93,8 @@ class SeparatingCycles {
                             });
     }
     if (basin != kUpperOutside) return;
-    // It contains a part of the outside, and everything that borders on that part.
+    // The component contains a part of the outside, and therefore the top cells that border on that
+    // part.
     for (std::uint32_t node = 0; node < cells_.count(); ++node) {
       ticker.work();
       if (cells_.holder(tree_, node) == NestedSets::kNone || sets_.contains(basin, node)) continue;
@@ -110,7 +112,7 @@ class SeparatingCycles {
   }
 
  private:
-  static constexpr std::uint32_t kUpperOutside = 1;  // the basin of its root
+  static constexpr std::uint32_t kUpperOutside = 1;  // the basin of the upper part of the outside
   bool is_in(std::uint32_t basin, std::uint32_t node) const {
     if (node >= tree_.graph().outside(0))
       return basin == kUpperOutside && node == tree_.graph().outside(1);

@@ -11,12 +11,13 @@
 
 namespace ph::cubical {
 
-/// Surfaces that go around three periodic axes and never die.
+/// Cycles of the surfaces in a grid with three periodic axes that never die.
 ///
-/// Each top cell that facets younger than the birth connect gets a place in the space that covers
-/// the torus, as far as paths lead. Consider a linear function of the numbers of turns around each
-/// axis that vanishes on all closed paths, except for the path that the birth closes: it jumps only
-/// at the birth and at older facets, and its jumps are a cycle.
+/// Top cells are connected across facets that are younger than the facet that gives birth;
+/// following these paths gives each cell a place in the universal cover of the torus. Take a linear
+/// function of the numbers of turns around each axis that vanishes on all closed paths except the
+/// path that the birth closes. This function jumps only at the birth and at older facets, and its
+/// jumps form a cycle.
 template <Field K>
 class TorusSurfaces {
  public:
@@ -68,7 +69,7 @@ class TorusSurfaces {
     d[axis] = 0;
     return {axis, sign > 0 ? to : node, d, turn};
   }
-  // Steps upwards along each axis.
+  // Calls `use` with each step upwards along each axis.
   template <class Use>
   void for_each_crossing(Use&& use) const {
     Ticker ticker(context_, {});
@@ -80,7 +81,8 @@ class TorusSurfaces {
       }
     }
   }
-  // True if the cycle must not contain a facet: it is younger, or never enters.
+  // True if the cycle must not contain a facet, because it is younger than the birth or never
+  // enters.
   bool is_open(const StarCell& birth, const Step& step) const {
     const auto facet = in_its_star(grid_, step.voxel, step.facet);
     if (!facet) return true;
@@ -102,7 +104,8 @@ class TorusSurfaces {
     return sum;
   }
 
-  // A basis of the functions that vanish on all closed paths.
+  // A basis of the linear functions that vanish on all closed paths. @param at receives the place
+  // of each cell.
   std::vector<Function> functions_of(const StarCell& birth, RawVector<Turns>& at) const {
     const Element zero = field_.from_int(0), one = field_.from_int(1);
     std::vector<Function> functions{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
@@ -136,7 +139,7 @@ class TorusSurfaces {
     }
     return functions;
   }
-  // Keeps the functions that vanish on a path.
+  // Restricts the basis to the functions that vanish on a path.
   void restrict(std::vector<Function>& functions, const Turns& path) const {
     if (path == Turns{}) return;
     const auto used = std::ranges::find_if(
