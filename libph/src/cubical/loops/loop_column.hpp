@@ -136,7 +136,7 @@ class LoopColumn {
     append_between(over_a, corner, b, bt, along_b, terms);
     append_between(over_b, corner, a, at, along_a, terms);
   }
-  // Appends the edge from u to w, which is one step along an axis, unless u or w is no voxel.
+  // Appends the edge from u to w, which is one step along an axis. Either end may be kOutside.
   void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient,
                       Terms& terms) {
     Direction d{};

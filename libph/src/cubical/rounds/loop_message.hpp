@@ -18,8 +18,9 @@
 
 namespace ph::cubical {
 
-/// The messages, as bytes, that parts of a grid exchange while they reduce columns: stars of the
-/// layers that are ghosts of the other part, and columns whose pivots belong to the other part.
+/// A message, as bytes, from one part of a grid to another while both reduce columns. It has the
+/// stars of the layers that are ghosts of the receiver, and columns whose pivots belong to the
+/// receiver.
 template <Field K>
 class LoopMessage {
  public:
@@ -28,18 +29,19 @@ class LoopMessage {
   struct Header {
     std::uint64_t image;  ///< distinguishes images, fields and options
     std::int32_t from, to;
-    std::uint64_t number;  ///< among the messages from one part to the other
+    std::uint64_t
+        number;  ///< number of this message among the messages from the sender to the receiver
   };
   struct Layer {
     std::uint64_t layer;  ///< layer in the stars' grid
     std::vector<std::uint32_t> stars;
   };
   struct Column {
-    LoopSquare square;             ///< the square whose boundary it was
+    LoopSquare square;             ///< the square whose boundary was reduced to this column
     std::pmr::vector<Term> terms;  ///< from young to old
   };
 
-  /// A message to one part under construction.
+  /// A message to one part, while it is being written.
   class Writer {
    public:
     bool is_empty() const { return layers_ == 0 && columns_ == 0; }
@@ -90,8 +92,8 @@ class LoopMessage {
   std::vector<Layer> layers;
   std::vector<Column> columns;
 
-  /// @param voxels number of voxels of the entire grid. @param memory for columns. @throws Error
-  /// (bad_data) on bytes that Writer did not make, or that are for another part.
+  /// @param voxels the number of voxels of the entire grid. @param memory allocates the columns.
+  /// @throws Error (bad_data) on bytes that Writer did not make, or that are for another part.
   LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
               int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {

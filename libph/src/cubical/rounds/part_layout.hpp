@@ -9,10 +9,10 @@
 
 namespace ph::cubical {
 
-/// The layers of a grid that each of its parts has, as the input counts them: the given layers,
-/// otherwise n · p / parts up to n · (p + 1) / parts of the n layers of the slowest axis. The
-/// stars' grid of the T-construction counts from the other end, and so do all layers and voxels
-/// here.
+/// Says which layers of a grid each of its parts has. Unless the first layers of the parts are
+/// given, part p has the layers from n · p / parts up to n · (p + 1) / parts of the n layers of the
+/// slowest axis, counted as in the input. All layers and voxels in this class are counted as in the
+/// stars' grid (GridFrame), which in the T-construction counts from the other end.
 class PartLayout {
  public:
   /// Consecutive layers.
@@ -33,7 +33,7 @@ class PartLayout {
 
   int parts() const { return static_cast<int>(parts_); }
   std::uint64_t layer_size() const { return layer_size_; }
-  /// Voxels of the entire grid.
+  /// The number of voxels of the entire grid.
   std::uint64_t size() const { return layers_ * layer_size_; }
   Layers own(int part) const {
     const auto cut = [&](std::uint64_t i) {

@@ -20,10 +20,10 @@
 
 namespace ph::cubical {
 
-/// H1 for three axes in one part of a grid. Works like LoopReduction, except that a column belongs
-/// to the part with its pivot's star: if the pivot turns out to be in another part, the column is
-/// sent there. Columns are therefore only added locally, and no part waits for an answer. See
-/// docs/explanation/engines/slabs.md.
+/// Computes H1 for three axes in one part of a grid. It works like LoopReduction, except that a
+/// column belongs to the part that has the star of its pivot: if the pivot turns out to be in
+/// another part, the column is sent there. Columns are therefore added only within a part, and no
+/// part waits for an answer. See docs/explanation/engines/slabs.md.
 template <Field K>
 class PartLoops {
   using Chain = LoopColumn<K, PartStars>;
@@ -40,14 +40,14 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param stars of the part; they and the entire grid must outlive this object.
+  /// @param stars the stars of the part; `stars` and `whole` must outlive this object.
   /// @param image distinguishes images, fields and options.
   PartLoops(PartStars& stars, const GridShape& whole, const PartLayout& layout, int part,
             std::uint64_t image, const K& field, const RunContext& context);
   PartLoops(const PartLoops&) = delete;
   PartLoops& operator=(const PartLoops&) = delete;
 
-  /// @param free the part's cells that neither graph pairs.
+  /// @param free the cells of the part that neither graph pairs.
   /// @throws Error (bad_data) if they are not such cells.
   void begin(FreeCells free);
   /// Takes in a message from another part, which may come before `begin`.
@@ -55,9 +55,10 @@ class PartLoops {
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
   bool is_idle() const { return !is_ready() || next_ == queue_.size(); }
-  /// Reduces some columns as far as this part can.
+  /// Reduces at most `most` columns as far as this part can.
   void work(std::size_t most);
-  /// Calls `use(part, bytes)` with the messages to send since the last call.
+  /// Calls `use(part, bytes)` with each message that is to be sent to another part since the last
+  /// call.
   template <class Use>
   void send(Use&& use) {
     for (auto& [to, writer] : outbox_)
@@ -89,11 +90,11 @@ class PartLoops {
   const RunContext& context_;
   PartStars& grid_;
   std::size_t layers_missing_ = 0;             // ghost layers that have not arrived yet
-  std::vector<std::vector<std::byte>> early_;  // messages that came before it began
+  std::vector<std::vector<std::byte>> early_;  // messages that came before `begin`
   std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message
 
   FreeEdges free_;
-  // Squares of columns; its own come first, from old to young.
+  // The squares of the columns; squares of this part come first, from old to young.
   std::pmr::vector<LoopSquare> squares_;
   std::size_t own_ = 0;
   // Columns that arrived from other parts, until they are reduced here.

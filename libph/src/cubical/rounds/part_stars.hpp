@@ -26,14 +26,15 @@ class PartStars : public StarGrid {
 
   /// True if the part has a voxel of the entire grid as its own.
   bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
-  /// True if it sees a voxel in place: its own voxels and ghosts, except ghosts around a ring.
+  /// True if the part sees a voxel at its usual place: the part's own voxels and its ghosts, except
+  /// for ghosts from the other end of a ring.
   bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
   /// The local number of a voxel. Precondition: sees(voxel).
   std::uint32_t here(std::uint64_t voxel) const {
     return static_cast<std::uint32_t>(voxel - first_);
   }
-  /// True if it sees all of a square in the star of a voxel that it sees; squares of ghosts may
-  /// lead further out.
+  /// True if the part sees all voxels of a square in the star of a voxel that it sees; a square in
+  /// the star of a ghost may lead further out.
   bool sees_square(std::uint32_t v, int square) const {
     if (!is_ghost(v)) return true;
     const int away = kSquares[square][layer_axis()];
@@ -51,16 +52,17 @@ class PartStars : public StarGrid {
     return StarGrid::tables(v);
   }
 
-  /// The stars of one of its own layers.
+  /// The stars of one of the part's own layers.
   std::span<const std::uint32_t> layer(std::uint64_t of_whole) const {
     return stars().subspan(here(of_whole * layer_size()), layer_size());
   }
-  /// Marks the critical edges of its own that are not free.
+  /// Marks the critical edges in the part's own stars that are not free.
   void mark_own(const FreeEdges& free) {
     mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
   /// Takes in the stars of a layer from the part that owns it, wherever that layer is a ghost here.
-  /// @return the number of such places, or nothing if other voxels enter there.
+  /// @return the number of ghost layers filled, or nothing if the voxels that enter are not the
+  /// same in both parts.
   std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
     std::size_t count = 0;
     for (const std::uint32_t first : {0U, size() - layer_size()}) {
@@ -74,7 +76,7 @@ class PartStars : public StarGrid {
   }
 
  private:
-  // For a ghost: true if it is the ghost before the part.
+  // For a voxel of a ghost layer: true if that layer lies before the part.
   bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
 
   std::uint64_t whole_, first_, begin_, count_;

@@ -11,17 +11,18 @@
 
 namespace ph::cubical {
 
-/// Passes bars to a sink: many at a time, or one by one if their cells are wanted. Each bar comes
-/// with its copies around the periodic axes of one voxel.
+/// Passes bars to a sink: many at a time, or one by one if their cells are wanted. Each bar is
+/// passed together with its copies that go around periodic axes with one voxel.
 class BarBlocks {
  public:
-  /// @param loop_count number of periodic axes with one voxel.
+  /// @param loop_count the number of periodic axes with one voxel.
   BarBlocks(std::size_t loop_count, bool wants_cells, const BarSink& bars)
       : loop_count_(loop_count), wants_cells_(wants_cells), bars_(bars) {}
 
   bool wants_cells() const { return wants_cells_; }
-  /// @param append_cells called, if cells are wanted, with (the axes that the copy goes around, as
-  ///        bits; coordinates of the birth cell; coordinates of the death cell): appends to both.
+  /// @param append_cells called, if cells are wanted, with the axes that the copy goes around, as
+  /// bits, and two lists: appends the coordinates of the birth cell to the first and of the death
+  /// cell to the second.
   template <class AppendCells>
   void add(const Bar& bar, AppendCells&& append_cells) {
     for (unsigned loops = 0; loops < 1U << loop_count_; ++loops) {
@@ -47,7 +48,7 @@ class BarBlocks {
   std::size_t loop_count_;
   bool wants_cells_;
   const BarSink& bars_;
-  std::array<Bar, 256> block_;  // bars without cells that were not passed on yet
+  std::array<Bar, 256> block_;  // bars without cells that have not been passed on yet
   std::size_t held_ = 0;
   std::vector<Index> birth_, death_;
 };

@@ -14,13 +14,13 @@ class PairSink {
   PairSink(const GridShape& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), bars_(bars), blocks_(grid.loop_count(), wants_cells, bars) {}
 
-  /// If false, cells need only a value.
+  /// If false, the caller need only set the value of a cell.
   bool wants_cells() const { return blocks_.wants_cells(); }
-  /// Announces that about `count` pairs may come next.
+  /// Lets the receiver reserve memory for about `count` more pairs.
   void expect(std::size_t count) const { bars_.expect(count); }
-  /// A class of dimension `dim` born with a cell and killed by a cell one dimension higher: it
-  /// becomes a bar unless both cells have the same value. @tparam Cell like StarCell, with a voxel
-  /// of any width.
+  /// Adds a class of dimension `dim` that is born with a cell and killed by a cell one dimension
+  /// higher. It becomes a bar unless both cells have the same value. @tparam Cell has the members
+  /// of StarCell; its voxel may have 32 or 64 bits.
   template <class Cell>
   void pair(int dim, const Cell& birth, const Cell& death) {
     if (birth.value == death.value) return;
@@ -29,7 +29,7 @@ class PairSink {
     else
       add({dim, value(birth), value(death)}, birth, &death);
   }
-  /// A class that never dies.
+  /// Adds a class that never dies.
   template <class Cell>
   void essential(int dim, const Cell& birth) {
     add({grid_.is_t_construction() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth,

@@ -14,7 +14,7 @@ class GridCell {
   static constexpr unsigned kBits = 13;  // a star of eight axes has 3^8 cells
 
  public:
-  /// The largest number of voxels of a grid whose cells can be told apart.
+  /// The largest number of voxels of a grid whose cells have distinct numbers.
   static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << (64 - kBits);
 
   GridCell() = default;
@@ -27,7 +27,7 @@ class GridCell {
   std::uint64_t both_ = 0;
 };
 
-/// A StarCell of the entire grid.
+/// Like StarCell, but with the number of the voxel in the entire grid.
 struct WholeCell {
   std::uint64_t voxel;
   WideDirection direction;
@@ -35,7 +35,7 @@ struct WholeCell {
 };
 
 /// Receives the critical edges and squares of three axes that neither graph pairs, each once, as
-/// soon as this is known: loops are made of these.
+/// soon as this is known. The reduction for loops needs only these cells.
 class FreeCellSink {
  public:
   virtual ~FreeCellSink() = default;
@@ -44,7 +44,7 @@ class FreeCellSink {
   virtual void add_square(double value, const GridCell& square) = 0;
 };
 
-/// Stores the cells.
+/// Stores the cells that it receives.
 struct FreeCells final : FreeCellSink {
   explicit FreeCells(std::pmr::memory_resource* memory) : edges(memory), squares(memory) {}
   void add_edge(const GridCell& edge) override { edges.push_back(edge); }

@@ -14,9 +14,10 @@
 
 namespace ph::cubical {
 
-/// The edges of two axes that neither graph pairs: around a torus, two classes live forever. The
-/// graph of voxels passes on edges that join nothing; the graph of top cells meets each of them
-/// sooner or later, as an edge that joins components if it is in a pair.
+/// Finds the edges of a grid with two axes that neither graph pairs; on a torus there are two such
+/// edges, whose classes never die. The graph of voxels passes on the edges that join nothing. The
+/// graph of top cells later meets each of these edges: if the edge joins components there, it is in
+/// a pair.
 class EdgesInNeither {
  public:
   explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}
@@ -31,26 +32,26 @@ class EdgesInNeither {
   std::pmr::map<GridCell, double> met_once;
 };
 
-/// The pairs of a grid, except for loops of three axes, computed as its layers come: components of
-/// its two graphs. Passes on pairs as soon as no other layer can change them.
+/// Computes the pairs of a grid, except for loops of three axes, while its layers come: it keeps
+/// the components of the two graphs, and passes on pairs as soon as no other layer can change them.
 class LayerPairs {
  public:
-  /// The graphs that are used.
+  /// The graphs that are needed.
   struct Graphs {
     bool vertices, tops;
   };
   /// @param grid the entire grid; it must outlive the pairs.
   LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
 
-  /// Adds the slab right after the layers that have come, if any.
-  /// @param first its first voxel in the entire grid, including ghosts (modulo 2^64).
+  /// Adds the slab right after the layers that have been added before.
+  /// @param first the first voxel of the slab in the entire grid, including ghosts (modulo 2^64).
   /// @param free receives the cells of three axes that neither graph pairs; may be null.
   void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
            FreeCellSink* free = nullptr);
-  /// The same for more than three axes.
+  /// Adds a slab of more than three axes.
   void add(const LayerGrid& slab, std::uint64_t first, PairSink& pairs);
-  /// Joins the pairs of the layers right after, or right before, the layers that have come.
-  /// @throws Error (bad_data) if seams differ; nothing has changed then.
+  /// Joins the layers of `others`, which come right after, or right before, the layers added so
+  /// far. @throws Error (bad_data) if seams differ; nothing has changed then.
   /// @param free as in `add`, for all layers.
   void join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free = nullptr);
   /// Passes on the cells that neither graph pairs, once all layers have come.
@@ -59,11 +60,11 @@ class LayerPairs {
   bool wants_vertices() const { return graphs_.vertices; }
   bool wants_tops() const { return graphs_.tops; }
 
-  /// True if the layers begin, or end, where the grid does.
+  /// True if the layers added so far begin where the grid begins, or end where it ends.
   bool has_begin = false, has_end = false;
   std::optional<SeamForest<false>> vertices;
   std::optional<SeamForest<true>> tops;
-  EdgesInNeither around;  ///< for a torus of two axes
+  EdgesInNeither around;  ///< only for two periodic axes
 
  private:
   void check_seams(const LayerPairs& others, bool come_before) const;
@@ -74,7 +75,7 @@ class LayerPairs {
   template <class Forest, class Grid, class Graph>
   void take_slab(std::optional<Forest>& all, const Grid& slab, const Graph& graph,
                  const CriticalCells& bridges, std::uint64_t first);
-  /// A cell of the grid by its name.
+  /// A cell of the grid with its direction, given its number in a star.
   WholeCell cell(int dim, const GridCell& name, double value) const {
     const auto direction = direction_in_star(grid_.top_dim(), dim, name.number());
     return {name.voxel(), direction.value_or(WideDirection{}), value};

@@ -10,19 +10,19 @@
 
 namespace ph::cubical {
 
-/// An image of any size, or a part of one, as layers along its slowest axis, counted as in stars:
-/// in the T-construction from the other end. Places in it have 64 bits; places in a GridFrame of
-/// some of its layers have 32.
+/// An image of any size, or a part of one, as layers along its slowest axis. Layers are counted as
+/// in the stars' grid (GridFrame): in the T-construction, from the other end. Numbers of voxels
+/// have 64 bits here, and 32 bits in a GridFrame of some of the layers.
 class LayeredImage {
  public:
-  /// True if a GridFrame can hold a layer with one more on either side.
+  /// True if a GridFrame can hold three layers: a layer and the ghosts on both sides.
   static bool can_cut(const CubicalImage& image) {
     const int axes = GridShape::count_axes(image);
     if (axes < 1 || axes > GridShape::kMostAxes || image.size() == 0) return false;
     if (image.size() > GridCell::kMostVoxels) return false;
     return GridFrame::can_hold(LayeredImage(image).layers_of(image.voxels, 3));
   }
-  /// Precondition: at least one axis is kept, and no more axes than a shape can hold.
+  /// Precondition: GridShape keeps at least one axis and can hold all that it keeps.
   explicit LayeredImage(const CubicalImage& image) : image_(image), shape_(image) {}
 
   const GridShape& shape() const { return shape_; }
@@ -35,14 +35,15 @@ class LayeredImage {
   bool is_ring() const { return layer_axis().periodic; }
 
   const CubicalImage& all() const { return image_; }
-  /// The image formed by some layers. Its slowest axis is not periodic.
+  /// The image that consists of the layers from `begin` up to `end`. Its slowest axis is not
+  /// periodic.
   CubicalImage layers(std::uint64_t begin, std::uint64_t end) const {
     const std::uint64_t first = shape_.is_t_construction() ? extent() - end : begin;
     return layers_of(
         static_cast<const std::byte*>(image_.voxels) + first * layer_size() * bytes_of(image_.type),
         end - begin);
   }
-  /// The same for voxels stored elsewhere, in the order of the image.
+  /// An image of `count` layers whose voxels are stored elsewhere, in the order of this image.
   CubicalImage layers_of(const void* voxels, std::uint64_t count) const {
     const auto axis = static_cast<std::size_t>(layer_axis().of_input);
     CubicalImage image = image_;

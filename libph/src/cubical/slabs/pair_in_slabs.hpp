@@ -6,13 +6,13 @@
 
 namespace ph::cubical {
 
-/// The same as pair_voxels for a grid that is processed one slab at a time. Memory: eight bytes per
-/// voxel of a slab, its critical cells, and 16 to 40 bytes per voxel of a layer. Loops of three
-/// axes also need the critical squares and edges that pair with no cube and no voxel, and a
-/// temporary file of four bytes per voxel. Precondition: no bars are wanted that come from neither
-/// graph, or there are three axes and all voxels fit a GridFrame.
-/// @throws Error (resource) if loops do not fit, after all other bars were passed on; Error (io)
-///         without room for the file.
+/// Does the same as pair_voxels, but processes the grid one slab at a time. Memory: eight bytes per
+/// voxel of a slab, the critical cells of a slab, and 16 to 40 bytes per voxel of a layer. Loops of
+/// three axes also need memory for the critical squares and edges that are paired with no cube and
+/// no voxel, and a temporary file of four bytes per voxel. Precondition: all wanted bars come from
+/// the two graphs, or there are three axes and a GridFrame can hold all voxels.
+/// @throws Error (resource) if there is too little memory for loops, after all other bars have been
+/// passed on; Error (io) if there is no room for the file.
 template <Field K>
 void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    const RunContext& context, PairSink& pairs);

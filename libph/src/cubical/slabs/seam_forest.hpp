@@ -19,16 +19,16 @@
 
 namespace ph::cubical {
 
-/// The end of arrows: a component that is still to be joined with others.
+/// The root of a tree of arrows: a component that bridges may join with others.
 struct SeamRoot {
   enum class Kind : std::uint32_t {
     outer,        ///< was always there; it has no cell
     critical,     ///< a critical cell
     open_before,  ///< a node of the seam before the layers; its arrows continue beyond the seam
-    open_after,   ///< the same at the seam after the layers
+    open_after,   ///< a node of the seam after the layers; its arrows continue beyond the seam
   };
-  double value;   ///< in the order of the stars; unset if it was always there
-  GridCell cell;  ///< only if it is a critical cell
+  double value;   ///< in the order of the stars (GridFrame); unset if the root was always there
+  GridCell cell;  ///< set only if the root is a critical cell
   Kind kind;
 };
 
@@ -39,25 +39,26 @@ struct SeamBridge {
   std::uint32_t from, to;
 };
 
-/// The nodes that some layers share with the layer on one side, by place.
+/// The nodes that some consecutive layers share with the layer before or after them, by place.
 struct Seam {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   explicit Seam(std::pmr::memory_resource* memory) : roots(memory), values(memory) {}
   bool is_open() const { return !roots.empty(); }
   void close() { *this = Seam(roots.get_allocator().resource()); }
-  /// For a seam that is being joined: its values are no longer needed.
+  /// Frees the values, which are not needed once the seam is being joined.
   void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
-  std::pmr::vector<std::uint32_t> roots;  ///< kNone if a node never counts
-  std::pmr::vector<double> values;        ///< in the order of the stars
+  std::pmr::vector<std::uint32_t>
+      roots;  ///< by place: the root of the node, or kNone if the node never enters
+  std::pmr::vector<double> values;  ///< in the order of the stars
 };
 
 /// The persistent components of one of the two graphs of a grid, as far as some consecutive layers
-/// determine them. It stores only the parts that adjacent layers may still change: the components
-/// that reach a seam, and a minimum spanning forest of the cells that join them.
+/// determine them. Only the parts that adjacent layers may still change are stored: the components
+/// that reach a seam, and a minimum spanning forest of the bridges that join these components.
 ///
-/// Joining is associative: the pairs are the same however layers are grouped.
+/// Joining is associative: the pairs do not depend on how the layers are grouped.
 /// @tparam backwards true for the graph of the top cells.
 template <bool backwards>
 class SeamForest {
@@ -69,15 +70,16 @@ class SeamForest {
         bridges(&context.memory),
         context_(context) {}
 
-  /// True if `next` may come right after: both seams agree about their nodes.
+  /// True if the layers of `next` may come right after these layers: the two seams agree about
+  /// their nodes.
   bool is_before(const SeamForest& next) const {
     const auto counts = [](std::uint32_t root) { return root != Seam::kNone; };
     // mutant: seam-compared
     return after.is_open() && after.values == next.before.values &&
            std::ranges::equal(after.roots, next.before.roots, {}, counts, counts);
   }
-  /// Joins the layers that come right after. Nothing is final until `settle`. Precondition:
-  /// is_before(next).
+  /// Joins the layers that come right after these layers. No pair is passed on before `settle`.
+  /// Precondition: is_before(next).
   void join(SeamForest next) {
     const auto shift = static_cast<std::uint32_t>(roots.size());
     const std::size_t count = roots.size() + next.roots.size() + next.resolved;
@@ -106,7 +108,7 @@ class SeamForest {
     };
     std::pmr::vector<SeamBridge> all(&context_.memory);
     all.reserve(bridges.size() + next.bridges.size());
-    // Among equal bridges, those of the first layers come first, as in the grid.
+    // Among bridges of equal value, the bridges of the earlier layers come first, as in the grid.
     std::ranges::merge(bridges, next.bridges | std::views::transform(moved),
                        std::back_inserter(all), {}, &SeamBridge::value, &SeamBridge::value);
     bridges.swap(all);
@@ -115,8 +117,8 @@ class SeamForest {
     for (std::uint32_t& root : after.roots) root = shifted(root);
     identify(same, count, next.roots);
   }
-  /// Joins the end to the beginning: the layers are all layers of a periodic axis. Precondition:
-  /// is_before(*this).
+  /// Joins the last layer to the first one, if the layers are all layers of a periodic axis.
+  /// Precondition: is_before(*this).
   void close_ring() {
     DisjointSets same(roots.size(), &context_.memory);
     unite_seams(
@@ -129,10 +131,10 @@ class SeamForest {
     after.close();
     identify(same, roots.size(), {});
   }
-  /// Passes on the pairs that other layers cannot change any more. Without seams these are all
-  /// pairs.
-  /// @param on_merge called with (bridge, root that dies, or null if both were always there).
-  /// @param on_cycle called with each bridge that joins nothing.
+  /// Passes on the pairs that other layers can no longer change: all pairs, if no seam is left.
+  /// @param on_merge called with (bridge, root that dies); the root is null if both components were
+  /// always there.
+  /// @param on_cycle called with each bridge whose ends are already connected.
   /// @param on_survivor called with each root that never dies.
   template <class OnMerge, class OnCycle, class OnSurvivor>
   void settle(OnMerge&& on_merge, OnCycle&& on_cycle, OnSurvivor&& on_survivor) {
@@ -143,9 +145,9 @@ class SeamForest {
         outer_count, roots.size() - outer_count,
         [&](std::size_t i) { return roots[outer_count + i].value; }, context_);
     std::pmr::vector<double> reached = when_reached();
-    // Roots that are one from now on, each with the root that represents it.
+    // Sets of roots that have become one component; each set is represented by one root.
     DisjointSets merged(roots.size(), &context_.memory);
-    // True if other layers may have joined a component with another one by then.
+    // True if other layers may join the component with another component before the value `by`.
     const auto may_change = [&](std::uint32_t root, double by) {
       return !is_whole && (backwards ? reached[root] >= finite(by) : reached[root] <= finite(by));
     };
@@ -161,7 +163,7 @@ class SeamForest {
         continue;
       }
       const std::uint32_t dies = forest.join(a, b), stays = dies == a ? b : a;
-      // Two components that were always there are equals: it is enough that one of them is closed.
+      // Of two components that were always there, either may die: it is enough that one is closed.
       const bool is_closed = !may_change(dies, bridge.value);
       const bool is_certain = is_closed || (dies < outer_count && !may_change(stays, bridge.value));
       reached[stays] = earlier(reached[stays], reached[dies]);
@@ -169,7 +171,8 @@ class SeamForest {
         bridges[place(kept++)] = bridge;
         continue;
       }
-      // The closed component has become one root; from now on the bridge leads there.
+      // The closed component is now represented by a single root, which the bridge leads to from
+      // now on.
       const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
                                                             : std::pair{bridge.to, bridge.from};
       merged.link(merged.find(closed), merged.find(other));
@@ -186,16 +189,19 @@ class SeamForest {
     forget_closed();
   }
 
-  /// Components that were always there come first, then critical cells in the order of the grid. An
-  /// open root counts as the youngest of its value, and comes after or before these: no component
-  /// dies because of the number of an open root.
+  /// Roots that were always there come first, then critical cells in the order of the grid. Open
+  /// roots come before or after all of these, depending on the kind of graph, in such a way that an
+  /// open root counts as the youngest among roots of equal value: no other component dies because
+  /// of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
-  /// If this is to be joined with the layers right before it: this many roots after the others are
-  /// open before. Joining replaces them by other roots; no data are needed for them.
+  /// The number of further roots, numbered after `roots`, that are nodes of the seam before the
+  /// layers. It is not 0 only if the layers right before are about to be joined; joining then
+  /// replaces these roots by others, and they need no data.
   std::uint32_t resolved = 0;
-  std::array<std::uint32_t, 2> outside{};  ///< the roots that are parts of the outside
-  Seam before, after;                      ///< not open where the grid ends
-  std::pmr::vector<SeamBridge> bridges;    ///< ascending; equal ones as in the grid
+  std::array<std::uint32_t, 2> outside{};  ///< the roots of the two parts of the outside
+  Seam before, after;                      ///< empty where the grid ends
+  std::pmr::vector<SeamBridge>
+      bridges;  ///< in ascending order; bridges of equal value in the order of the grid
 
   bool is_in_order() const { return std::ranges::is_sorted(roots, {}, &SeamForest::age_of); }
 
@@ -208,15 +214,16 @@ class SeamForest {
     if (root.kind == Kind::outer) return 0;
     return (root.kind == Kind::critical) == backwards ? 2 : 1;  // mutant: seam-age
   }
-  // kNever is not a value of a cell.
+  // Makes infinite values of cells finite, which distinguishes them from kNever.
   static double finite(double value) {
     constexpr double most = std::numeric_limits<double>::max();
     return std::clamp(value, -most, most);
   }
   static double earlier(double a, double b) { return backwards ? std::max(a, b) : std::min(a, b); }
 
-  // The representative of several roots: first one that was always there, then a critical cell,
-  // then an open root, then a resolved one. Among several that were always there, the first.
+  // Unites two sets of roots. The representative of a set is, if possible, a root that was always
+  // there (if there are several, the first), otherwise a critical cell, otherwise an open root,
+  // otherwise a resolved root.
   template <class Rank>
   static void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, Rank&& rank) {
     a = same.find(a);
@@ -231,8 +238,8 @@ class SeamForest {
     for (std::size_t k = 0; k < ends.size(); ++k)
       if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), rank);
   }
-  // Removes roots that turned out to be others, and sorts the rest.
-  // @param count of all numbers. @param others numbers after the roots.
+  // Removes roots that have turned out to equal other roots, and sorts the rest. @param count the
+  // number of all roots, including `others`. @param others roots that are numbered after `roots`.
   void identify(DisjointSets& same, std::size_t count, std::span<const SeamRoot> others) {
     std::pmr::vector<std::uint32_t> number(count, Seam::kNone, &context_.memory);
     std::pmr::vector<SeamRoot> left(&context_.memory);
@@ -252,7 +259,7 @@ class SeamForest {
     for (std::uint32_t i = 0; i < count; ++i) number[i] = number[same.find(i)];
     renumber(number);
   }
-  // @param number receives the new numbers of the roots that are kept.
+  // Removes the other roots. @param number receives the new number of each root that is kept.
   template <class IsKept>
   void keep_roots(std::span<std::uint32_t> number, IsKept&& is_kept) {
     std::uint32_t count = 0;
@@ -271,7 +278,7 @@ class SeamForest {
     for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside) part = number[part];
   }
-  // By root: the value from which on it is connected to a node that other layers share.
+  // For each root: the lowest value at which it is connected to a node that other layers share.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
     for (const Seam* const seam : {&before, &after})  // mutant: seam-before
@@ -299,7 +306,7 @@ class SeamForest {
       bridges.resize(count);
     bridges.shrink_to_fit();
   }
-  // Keeps the roots that a seam or a bridge names, and the outside.
+  // Keeps only the outside and the roots that a seam or a bridge refers to.
   void forget_closed() {
     std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
     for (const std::uint32_t part : outside) number[part] = 0;

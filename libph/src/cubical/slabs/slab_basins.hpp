@@ -14,14 +14,14 @@
 
 namespace ph::cubical {
 
-/// The trees formed by the arrows in one slab of a grid. Roots are numbered in the order of
-/// SeamForest.
+/// The trees that the arrows form in one slab of a grid. Roots are numbered in the order of
+/// SeamForest::roots.
 /// @tparam Grid the grid of the graph: a SlabFrame that knows which voxels enter.
 template <class Grid, class Graph>
 class SlabBasins {
  public:
-  /// @param first the slab's first voxel in the entire grid, including ghosts (modulo 2^64).
-  /// @param is_next true if it will be joined with the layers right before it.
+  /// @param first the first voxel of the slab in the entire grid, including ghosts (modulo 2^64).
+  /// @param is_next true if the slab will be joined with the layers right before it.
   SlabBasins(const Grid& grid, const Graph& graph, std::uint64_t first, bool is_next,
              const RunContext& context)
       : grid_(grid),
@@ -43,8 +43,8 @@ class SlabBasins {
     if (is_next) add_open(false);
   }
 
-  /// The components of the slab alone.
-  /// @param cells the critical cells that are bridges of the graph, in their order.
+  /// The components of this slab, before it is joined with other layers.
+  /// @param cells the critical cells; those in `cells.order` are the bridges of the graph.
   SeamForest<Graph::kBackwards> forest(const CriticalCells& cells) {
     SeamForest<Graph::kBackwards> result(context_);
     result.bridges.resize(cells.order.size());
@@ -79,7 +79,7 @@ class SlabBasins {
     roots_.push_back(root);
     return same_.add();
   }
-  // Of two roots that were always there, the first one stays.
+  // Unites two roots that were always there; the root with the lower number stays.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = same_.find(a);
     b = same_.find(b);
@@ -129,7 +129,7 @@ class SlabBasins {
       forest_.set_root(node, is_stored ? add({*value, {}, kind}) : same_.add());
     }
   }
-  // The nodes shared with the layers before it or after it.
+  // The nodes that the slab shares with the layers before it or after it.
   Seam seam(bool after, bool with_values) {
     const auto [begin, count] = graph_.seam(after);
     Seam seam(&context_.memory);
@@ -150,7 +150,7 @@ class SlabBasins {
   const RunContext& context_;
   ArrowForest<Graph> forest_;
   std::pmr::vector<SeamRoot> roots_;
-  std::uint32_t resolved_ = 0;  // resolved numbers after the others
+  std::uint32_t resolved_ = 0;  // number of resolved roots, which are numbered after the others
   DisjointSets same_;           // sets of roots
 };
 

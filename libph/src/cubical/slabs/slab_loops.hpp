@@ -13,8 +13,8 @@
 
 namespace ph::cubical {
 
-/// The data of slabs of three axes that loops need: the stars, and the critical edges and squares
-/// that neither graph pairs, as they come.
+/// Collects the data that loops need from the slabs of a grid with three axes: the stars, and the
+/// critical edges and squares that neither graph pairs.
 class SlabLoops final : public FreeCellSink {
  public:
   SlabLoops(const GridFrame& frame, const RunContext& context)
@@ -25,7 +25,8 @@ class SlabLoops final : public FreeCellSink {
   void add_square(double value, const GridCell& square) override {
     squares_.push_back({value, numbered(square)});
   }
-  /// The bars of loops, once all slabs have come. @throws Error (resource) if columns do not fit.
+  /// Computes the bars of loops, once all slabs have been added. @throws Error (resource) if
+  /// columns do not fit.
   template <Field K>
   void pair(const K& field, PairSink& pairs) {
     const FreeEdges free = free_edges();

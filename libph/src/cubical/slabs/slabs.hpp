@@ -17,16 +17,17 @@
 
 namespace ph::cubical {
 
-/// A grid, or some layers of one, cut into slabs of some layers each; the last slab may have fewer.
-/// If the slowest axis of an entire grid is periodic, slabs form a ring: there are at least two,
-/// and the first and the last one are neighbours as well.
+/// A grid, or a range of its layers, cut into slabs of equally many layers; the last slab may have
+/// fewer. If the slowest axis of an entire grid is periodic, slabs form a ring: there are at least
+/// two, and the first and the last one are neighbours as well.
 class Slabs {
  public:
-  /// As many layers as the context asks for, otherwise so many that a quarter of the memory holds a
-  /// slab whatever it contains; a slab always fits a GridFrame.
+  /// The number of layers of a slab: as many as the context asks for, otherwise so many that a slab
+  /// takes at most a quarter of the memory, whatever its values are. A GridFrame can always hold
+  /// the slab.
   static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
     constexpr double bytes = 128;     // per voxel
-    constexpr double most = 1 << 28;  // voxels: larger slabs are not faster
+    constexpr double most = 1 << 28;  // voxels, because larger slabs are not faster
     const auto size = static_cast<double>(image.layer_size());
     const double layers = context.slab_layers > 0
                               ? context.slab_layers
@@ -35,9 +36,9 @@ class Slabs {
         std::clamp(layers, 1.0, std::max(1.0, std::floor(most / size))));
   }
   /// Precondition: LayeredImage::can_cut, layers > 0.
-  /// @param part the position of the image, if it is a part of a larger one: it has ghosts at its
-  /// ends.
-  /// @param first its first voxel in the entire grid, including ghosts (modulo 2^64).
+  /// @param part the position of the image if it is a part of a larger image; it then has ghosts at
+  /// its ends.
+  /// @param first the first voxel of the image in the entire grid, including ghosts (modulo 2^64).
   Slabs(const LayeredImage& image, std::uint64_t layers, const RunContext& context,
         const SlabPlace& part = {}, std::uint64_t first = 0)
       : image_(image),
@@ -51,15 +52,16 @@ class Slabs {
   const LayeredImage& image() const { return image_; }
   const CubePairMemos& cube_pairs() const { return cube_pairs_; }
   std::uint64_t count() const { return (depth() - 1) / layers_ + 1; }
-  /// The first voxel of a slab's grid, including ghosts; for the first slab of a ring it is one
-  /// layer before zero (modulo 2^64).
+  /// The first voxel of a slab in the entire grid, including ghosts. The first slab of a ring
+  /// begins one layer before zero (modulo 2^64).
   std::uint64_t first_voxel(std::uint64_t slab) const {
     return first_ +
            (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * image_.layer_size();
   }
   /// The stars of a slab, with the adjacent layers as ghosts, until the slab is forgotten.
   StarGrid stars(std::uint64_t slab) { return grid<StarGrid>(slab); }
-  /// The same as another kind of grid. @tparam Grid a SlabFrame with the constructor of StarGrid.
+  /// A slab as another kind of grid. @tparam Grid a SlabFrame that has the same constructor as
+  /// StarGrid.
   template <class Grid>
   Grid grid(std::uint64_t slab) {
     const CubicalImage part = voxels(slab);
@@ -72,12 +74,12 @@ class Slabs {
              .is_in_ring = part_.is_in_ring || image_.is_ring(),
              .cube_pairs = cube_pairs_}};
   }
-  /// Lets the data of the image that were read for a slab leave the memory.
+  /// Lets the pages of the image file that were read for a slab leave the memory.
   void forget(std::uint64_t slab) {
     around_ = decltype(around_)(around_.get_allocator());
     const CubicalImage part = image_.layers(begin(slab), end(slab));
     if (part.is_in_file) {
-      // The system also maps the surroundings of a page that is read, including pages of finished
+      // When a page is read, the system also maps the pages around it, including pages of finished
       // slabs.
       constexpr std::ptrdiff_t kMappedAround = 64 << 10;  // mutant: slab-mapped
       const CubicalImage& all = image_.all();
@@ -98,7 +100,7 @@ class Slabs {
   bool is_first_of_ring(std::uint64_t slab) const { return image_.is_ring() && slab == 0; }
   bool is_last_of_ring(std::uint64_t slab) const { return image_.is_ring() && slab + 1 == count(); }
   std::uint64_t ghosts_before() const { return part_.has_ghost_before() ? 1 : 0; }
-  // Number of layers, without ghosts.
+  // The number of layers, without ghosts.
   std::uint64_t depth() const {
     return image_.extent() - ghosts_before() - (part_.has_ghost_after() ? 1 : 0);
   }
@@ -109,7 +111,8 @@ class Slabs {
   std::uint64_t end(std::uint64_t slab) const {
     return slab + 1 == count() ? image_.extent() : ghosts_before() + (slab + 1) * layers_ + 1;
   }
-  // At the ends of a ring, neighbouring layers are not adjacent in the image: they are copied.
+  // The voxels of a slab. At the ends of a ring, neighbouring layers are not adjacent in memory;
+  // such a slab is copied.
   CubicalImage voxels(std::uint64_t slab) {
     const bool goes_before = is_first_of_ring(slab), goes_after = is_last_of_ring(slab);
     if (!goes_before && !goes_after) return image_.layers(begin(slab), end(slab));
@@ -118,7 +121,7 @@ class Slabs {
     };
     const Part own{begin(slab), end(slab)}, first{0, 1}, last{image_.extent() - 1, image_.extent()};
     std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
-    // In their order in memory.
+    // Copies the parts in their order in memory.
     if (image_.shape().is_t_construction()) std::swap(parts[0], parts[1]);
     around_.clear();
     for (const Part& part : parts) {
@@ -138,7 +141,7 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
-  // For a slab's voxels in a file, which are in memory while they are used.
+  // Claims memory for the voxels of a slab in a file, which are in memory while they are used.
   std::optional<MemoryClaim> read_;
 };
 

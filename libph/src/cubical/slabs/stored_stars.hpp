@@ -9,14 +9,15 @@
 
 namespace ph::cubical {
 
-/// The stars of a grid in a temporary file, for random access once all of them are there.
+/// The stars of a grid in a temporary file. They can be read in any order once all slabs have been
+/// added.
 class StoredStars : public GridFrame {
  public:
   explicit StoredStars(const GridFrame& frame)
       : GridFrame(frame), file_(std::size_t{size()} * sizeof(std::uint32_t)) {}
 
-  /// Stores the stars of a slab, except for its ghosts. @param first its first voxel, including
-  /// ghosts.
+  /// Stores the stars of a slab, except for its ghosts. @param first the first voxel of the slab in
+  /// the entire grid, including ghosts.
   void add(const StarGrid& slab, std::uint32_t first) {
     std::uint32_t begin = 0, end = slab.size();
     while (begin < end && slab.is_ghost(begin)) begin += layer_size();
@@ -25,7 +26,7 @@ class StoredStars : public GridFrame {
     std::memcpy(to, slab.stars().data() + begin, std::size_t{end - begin} * sizeof(*to));
     forget_file_pages(to, std::size_t{end - begin} * sizeof(*to));
   }
-  /// Marks the critical edges that are not free: they kill a component.
+  /// Marks the critical edges that are not free, because they kill a component.
   void mark_all_but(const FreeEdges& free, const RunContext& context) {
     Ticker ticker(context, "marks", size());
     constexpr std::uint32_t block = 1 << 20;
@@ -41,19 +42,19 @@ class StoredStars : public GridFrame {
                                    [&](int edge) { star |= tables.taken_mark(edge); });
     }
   }
-  /// The approximate number of bytes of files that may be in memory while stars and voxels are
-  /// used.
+  /// Sets the approximate number of bytes of files that may stay in memory while stars and voxels
+  /// are read.
   void let_stay(std::size_t bytes) {
     most_ = resident_.bytes() + bytes;
     all_stay_ = file_.size() + voxel_bytes() <= bytes;
   }
-  /// True if this is enough for everything: access is then free.
+  /// True if all stars and voxels may stay in memory; reading them in any order is then fast.
   bool all_stay() const { return all_stay_; }
 
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
   void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
   bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
-  /// To be called now and then, by any thread: pages that came into memory may have to leave.
+  /// Removes pages from memory if there are too many. Threads call it from time to time.
   void tidy() const {
     if (resident_.bytes() <= most_) return;
     forget_file_pages(file_.data(), file_.size());

@@ -28,7 +28,7 @@ struct CriticalCells {
   explicit CriticalCells(std::pmr::memory_resource* memory) : cells(memory), order(memory) {}
 };
 
-/// Puts all cells into the order. @tparam Grid has the values of voxels.
+/// Fills `order` with all cells and sorts it. @tparam Grid has the values of voxels.
 template <class Grid>
 void put_in_order(CriticalCells& critical, const Grid& grid, const RunContext& context) {
   critical.order.resize(critical.cells.size());
@@ -38,13 +38,13 @@ void put_in_order(CriticalCells& critical, const Grid& grid, const RunContext& c
       critical.order, [](const CriticalCells::Place& place) { return place.value; }, context);
 }
 
-/// @param dim 1 or 2.
+/// Lists the critical cells of a dimension, which must be 1 or 2, and puts them in order.
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
-/// Marks the edges that are no longer in the order, in the stars of three axes.
+/// Marks, in stars of three axes, the critical edges that are no longer in `edges.order`.
 void mark_paired(StarGrid& grid, const CriticalCells& edges);
-/// Marks the critical edges of some voxels that are not free.
+/// Marks the critical edges that are not free, in the stars of the voxels from `begin` up to `end`.
 void mark_all_but(StarGrid& grid, const FreeEdges& free, std::uint32_t begin, std::uint32_t end);
-/// The free edges of stars whose other edges are marked.
+/// The free edges of a grid in which all other critical edges are marked.
 FreeEdges free_edges(const StarGrid& grid, const RunContext& context);
 
 }  // namespace ph::cubical

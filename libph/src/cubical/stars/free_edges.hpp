@@ -10,8 +10,8 @@
 
 namespace ph::cubical {
 
-/// The critical edges of three axes that kill no component; they give birth to loops. They are
-/// numbered in the order of (voxel, edge).
+/// The free edges of a grid with three axes: critical edges that kill no component, and therefore
+/// give birth to loops. They are numbered in the order of (voxel, edge).
 class FreeEdges {
  public:
   FreeEdges(const GridFrame& frame, const RunContext& context)
@@ -26,7 +26,7 @@ class FreeEdges {
     at_.push_back({count_, static_cast<std::uint8_t>(edges)});
     count_ += static_cast<std::uint32_t>(std::popcount(edges));
   }
-  /// To be called when all edges were added.
+  /// Must be called once all edges have been added, before the edges are used.
   void finish() {
     voxels_before_.reserve(has_some_.size());
     std::uint32_t voxels = 0;
@@ -37,7 +37,7 @@ class FreeEdges {
   }
 
   std::uint32_t count() const { return count_; }
-  /// Precondition: it is a free edge.
+  /// The number of a free edge. Precondition: the edge is free.
   std::uint32_t number(std::uint32_t voxel, int edge) const {
     const auto& [first, edges] = at_[place(voxel)];
     return first + static_cast<std::uint32_t>(std::popcount(edges & ((1U << edge) - 1)));
@@ -48,7 +48,7 @@ class FreeEdges {
   unsigned edges(std::uint32_t voxel) const {
     return has_some_[voxel / kWord] >> (voxel % kWord) & 1 ? at_[place(voxel)].edges : 0;
   }
-  /// Calls `use(voxel, edges)` for all voxels that have some.
+  /// Calls `use(voxel, edges as bits)` for all voxels with free edges.
   template <class Use>
   void for_each(Use&& use) const {
     auto at = at_.begin();
@@ -62,7 +62,7 @@ class FreeEdges {
  private:
   static constexpr std::uint32_t kWord = 64;
   struct AtVoxel {
-    std::uint32_t first;  // number of its first edge
+    std::uint32_t first;  // number of the voxel's first edge
     std::uint8_t edges;   // edges as bits
   };
   std::size_t place(std::uint32_t voxel) const {

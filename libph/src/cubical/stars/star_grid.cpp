@@ -13,10 +13,10 @@ namespace {
 constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are processed together
 constexpr std::uint32_t kPiece = 1 << 16;  // approximate number of voxels per thread at a time
 
-// Compares the age of u with that of v, which must not be absent. There are two versions, without
-// and with equality, because the places decide between equal voxels. An absent voxel, NaN, is
-// younger than all others in the V-construction and older in the T-construction, where a voxel that
-// never enters was always there.
+// Compares the age of u with the age of v, which must not be absent. There are two versions,
+// without and with equality, because the order of the grid decides between equal voxels. An absent
+// voxel, NaN, is younger than all others in the V-construction and older in the T-construction,
+// where a voxel that never enters was always there.
 template <bool descending, bool absent_is_older>
 struct VoxelAges {
   template <class T>
@@ -43,7 +43,7 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
   if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(shape(), slab.is_in_ring, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
-    // The T-construction runs backwards.
+    // In the T-construction, values are negated.
     if (is_t_construction_)
       grid.superlevel ? find_stars<VoxelAges<false, true>>(voxels)
                       : find_stars<VoxelAges<true, true>>(voxels);
@@ -87,8 +87,8 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
   return star;
 }
 
-// Finds the stars of a part of a row. Inside the row, neighbours are at fixed distances: no test is
-// needed and each takes one comparison, which compilers vectorise.
+// Finds the stars of a part of a row. Inside the row, neighbours are at fixed distances in memory.
+// Each neighbour therefore takes one comparison without further tests, which compilers vectorise.
 template <class Ages, class T>
 void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
   const Axis &deep = axes_[0], &high = axes_[1];
@@ -155,16 +155,15 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
   };
   find(0);
   find(n - 1);
-  // With one axis, ghosts are in the row, and may come from the other end.
+  // With one axis, ghosts are in the row itself, and may come from the other end of a ring.
   if (layer_size() == 1 && slab().is_in_ring && n > 2) {  // mutant: slab-one-axis
     find(1);
     find(n - 2);
   }
 }
 
-// Removes cells that cannot be in the stars of some voxels, and lists the voxels with a critical
-// cell.
-// @return the number of these voxels.
+// Removes cells that cannot be in the stars of the voxels from `begin` up to `end`, and lists the
+// voxels with a critical cell. @return the number of voxels listed.
 std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::uint32_t* list) {
   const auto close = [&](auto&& tables_of) {
     std::size_t count = 0;
@@ -172,8 +171,8 @@ std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::u
       if (stars_[v] == kAbsent) continue;
       const auto [star, critical] = tables_of(v).closed(stars_[v]);
       stars_[v] = star;
-      // Writes first and counts afterwards, without a condition, because critical voxels cannot be
-      // predicted. The sign of one of the two is set unless the number is 0.
+      // Branchless, because the branch would be unpredictable: always writes v, but advances count
+      // only if critical is not 0.
       list[count] = v;
       count += (critical | (0U - critical)) >> 31;
     }

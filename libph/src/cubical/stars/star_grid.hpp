@@ -25,15 +25,15 @@ class StarGrid : public SlabFrame {
   std::span<const std::uint32_t> stars() const { return stars_; }
   /// Prefetches a star some time before it is read.
   void expect_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
-  /// As in StoredStars: here all stars are in memory anyway.
+  /// Does nothing, because all stars are in memory. See StoredStars::tidy.
   static void tidy() {}
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
-  /// Marks edges of a star that kill a component. Only for three axes.
+  /// Marks the edges of a star that kill a component. @param bits their marks. Only for three axes.
   void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
   bool all_enter() const { return all_enter_; }
   /// The voxels whose stars have a critical cell, ascending.
   std::span<const std::uint32_t> critical() const { return critical_; }
-  /// Only for three axes.
+  /// The pairs of the cubes in the star of a voxel. Only for three axes.
   CubePairs pair_cubes(std::uint32_t v) const {
     return (*cube_pairs_)[any_periodic_ ? wrapped(v) : 0].pair_cubes(stars_[v]);
   }

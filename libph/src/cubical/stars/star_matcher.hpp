@@ -10,15 +10,17 @@
 
 namespace ph::cubical {
 
-/// By dimension: the cells of a grid that are in no known pair, in the order of the filtration.
+/// For each dimension: the cells of a grid that are in no known pair, in the order of the
+/// filtration.
 using CriticalNames = std::array<std::pmr::vector<CellGrid::Name>, CellGrid::kMostAxes + 1>;
 
-/// Marks each cell of a grid with the voxel that decides its entry, and with its pair inside the
-/// star, as a discrete gradient. @return the cells in no such pair.
+/// Marks each cell of a grid with the voxel that decides its value, and with its partner inside the
+/// star of that voxel; the pairs form a discrete gradient. @return the cells in no such pair.
 CriticalNames mark_cells(CellGrid& grid, const RunContext& context);
 
 /// The cells of a star as seen from its voxel, for a given number of axes. The code of a cell has
-/// one digit to base 3 per axis, for its step away from the voxel: 0 (none), 1 (down), 2 (up).
+/// one digit to base 3 per axis, for its step away from the voxel along that axis: 0 (none), 1
+/// (down), 2 (up).
 struct StarShapes {
   struct Shape {
     std::uint8_t steps = 0;                                    ///< number of axes with a step
@@ -31,23 +33,24 @@ struct StarShapes {
   std::pmr::vector<Shape> shapes;                          ///< by code
 };
 
-/// Finds the star of a voxel, that is, the cells whose value it decides, and pairs inside it. Each
-/// thread has one.
+/// Finds the star of a voxel, that is, the cells whose value this voxel decides, and pairs cells
+/// inside it. Each thread has its own object.
 ///
 /// A cell of the star lies some steps away from the voxel, at most one along each axis. It is in
 /// the star if all other voxels of the cell are older (T: younger, or missing). Adding a step turns
 /// a cell into a coface (V) or a face (T). Both stars are therefore cut out of the same 3^d cells,
 /// and if steps and cells are ordered by their places (T: backwards), both have the same pairs.
 /// Apparent pairs (ph/detail/reduction/apparent_pairs.hpp) come first: two cells one step apart
-/// such that this step is the first that can be added to the one and the first step of the other.
-/// The rest proceeds as in any discrete gradient: if exactly one path leads from a cell to the
-/// youngest cell that it can reach, the first cell kills the second, and the path is reversed
-/// (Forman, Morse theory for cell complexes, section 11).
+/// such that the step between them is the first step that can be added to the lower cell and the
+/// first step that the upper cell has. Then paths of the gradient are reversed: if exactly one path
+/// leads from a cell to the youngest cell that it can reach, the first cell kills the second, and
+/// the path is reversed (Forman, Morse theory for cell complexes, section 11).
 class StarMatcher {
  public:
   StarMatcher(CellGrid& grid, const StarShapes& shapes, const RunContext& context);
 
-  /// Marks the cells in the star of a voxel that enters. @param at its coordinates.
+  /// Marks the cells in the star of a voxel, which must enter. @param at the coordinates of the
+  /// voxel.
   void mark_star(std::uint32_t voxel, const CellGrid::Coordinates& at);
   CriticalNames& critical() { return critical_; }
 
@@ -64,7 +67,7 @@ class StarMatcher {
   static constexpr Place kNone = UINT16_MAX;
   struct StarCell {
     std::uint32_t cell;
-    std::uint32_t voxel;  // the farthest voxel that it touches; CellGrid::kNone if outside
+    std::uint32_t voxel;  // the farthest voxel that the cell touches; CellGrid::kNone if outside
     std::uint32_t steps;  // steps as bits
     std::uint16_t code;
     Place partner = kNone;
@@ -76,7 +79,8 @@ class StarMatcher {
   void find_cells(std::uint32_t voxel, const CellGrid::Coordinates& at);
   void pair_apparent_cells();
   void pair_rest();
-  /// Pairs a cell with a cell one step below. @return false if paths do not decide it.
+  /// Pairs a cell with a cell one step below if it can reach one. @return false if paths do not
+  /// determine the partner.
   bool pair_along_path(Place cell);
   /// Counts the paths from a cell to the cells in `reached_`: none, one, or more.
   void count_paths(Place cell);
@@ -100,9 +104,10 @@ class StarMatcher {
 
   CellGrid& grid_;
   const StarShapes& shapes_;
-  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;  // in the order of apparent pairs
+  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}>
+      steps_;  // in the order that apparent pairs use
   std::size_t step_count_ = 0;
-  std::uint32_t border_ = UINT32_MAX;  // the ends of the axes at which the last voxel was
+  std::uint32_t border_ = UINT32_MAX;  // the ends of the axes where the previous voxel lay
   std::pmr::vector<StarCell> cells_;   // each cell after the cells with one step less
   std::pmr::vector<Place> place_;      // by code; kNone if the cell is not in the star
   std::pmr::vector<Place> rest_, reached_, stack_;
