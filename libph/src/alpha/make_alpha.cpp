@@ -83,7 +83,7 @@ void check_squares(int exponent) {
   if (exponent >= least && exponent <= most) return;  // mutant: alpha-exponent
   throw Error(ErrorKind::bad_data,
               fmt::format("alpha complex: found coordinates of about 2^{}, expected 2^{} to 2^{} "
-                          "for squared values; take radii",
+                          "for squared values; use radii instead",
                           exponent, least, most));
 }
 

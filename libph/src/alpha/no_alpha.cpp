@@ -10,8 +10,8 @@ std::string alpha_support() { return ""; }
 Alpha::Alpha(PointsView, const AlphaOptions&, const RunContext&) {
   throw Error(
       ErrorKind::not_built_in,
-      "alpha complexes are not built in: they need CGAL (Debian: libcgal-dev), and a program with "
-      "them falls under the GPL");
+      "alpha complexes are not built in: they need CGAL (Debian: libcgal-dev), and a program that "
+      "contains them falls under the GPL");
 }
 
 }  // namespace ph

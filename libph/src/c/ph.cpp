@@ -29,7 +29,7 @@ namespace {
 
 using namespace ph;
 
-// ph_barcode_bars returns the barcode's own array.
+// ph_barcode_bars returns the array of the barcode itself, without a copy.
 static_assert(sizeof(ph_bar) == sizeof(Bar) && offsetof(ph_bar, dim) == offsetof(Bar, dim) &&
               offsetof(ph_bar, birth) == offsetof(Bar, birth) &&
               offsetof(ph_bar, death) == offsetof(Bar, death));
@@ -39,7 +39,8 @@ std::string& last_error() {
   return message;
 }
 
-/// Never throws: a message that does not fit is left out.
+/// Stores a message for ph_error_message and returns `status`. Never throws: if memory is too short
+/// for the message, it is left out.
 ph_status fail(ph_status status, const char* message) noexcept {
   try {
     last_error() = message;
@@ -93,7 +94,8 @@ void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::usage, message);
 }
 
-/// The options that the caller's version of the struct has; the rest are defaults.
+/// The options of the caller. Members that the caller's version of the struct does not have get
+/// their defaults.
 ph_options complete(const ph_options* given) {
   ph_options options;
   ph_options_init(&options);
@@ -115,7 +117,7 @@ static_assert(static_cast<ph_distance>(PointDistance::euclidean) == PH_EUCLIDEAN
 static_assert(static_cast<ph_construction>(CubicalOptions::Construction::vertices) == PH_VERTICES &&
               static_cast<ph_construction>(CubicalOptions::Construction::cells) == PH_CELLS);
 
-/// The value of an enum whose values C has by number.
+/// Converts a number from C to the value of an enum.
 template <class Enum>
 Enum choice(std::int32_t value, Enum last, const char* name) {
   if (value < 0 || value > static_cast<std::int32_t>(last))
@@ -156,7 +158,8 @@ void watched(const ph_options& options, std::stop_source& stop, const Compute& c
   computed.get();
 }
 
-/// @param compute(options, context) computes the result. @param out receives it.
+/// Runs `compute` and turns exceptions into a status. @param compute(options, context) computes the
+/// result and stores it. @param out where `compute` stores the result; must not be NULL.
 template <class Out, class Compute>
 ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   return guarded([&] {
@@ -174,16 +177,16 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   });
 }
 
-/// @param make(options, context) makes the complex.
+/// Computes one barcode. @param make(options, context) makes the complex.
 template <class Make>
 ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
-    const Options task = task_of(options);  // before any number is read
+    const Options task = task_of(options);  // before any number of the input is read
     *out = new ph_barcode(persistence(make(options, context), task, context));
   });
 }
 
-/// @param make(i, options, context) makes the complex of input i.
+/// Computes the barcodes of a batch. @param make(i, options, context) makes the complex of input i.
 template <class Make>
 ph_status barcodes_of(const ph_options* given, std::size_t count, ph_barcode** out,
                       const Make& make) {
@@ -237,7 +240,7 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
                 fmt::format("type: found {}, expected a ph_number, 0 to {}",
                             static_cast<unsigned>(type), static_cast<unsigned>(PH_FLOAT64)));
   const auto voxel = static_cast<VoxelType>(type);
-  // The image may become a copy.
+  // The image may have to copy the voxels.
   if (strides != nullptr) context.memory.require(count * bytes_of(voxel));
   std::vector<std::ptrdiff_t> steps;
   if (strides != nullptr) steps.assign(strides, strides + axes);
@@ -309,7 +312,7 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
     const std::size_t count =
         size < 2 ? 0 : static_cast<std::size_t>(size) * static_cast<std::size_t>(size - 1) / 2;
     context.memory.require(count * sizeof(double));
-    // Converts options before numbers, because compilers may evaluate arguments in any order.
+    // Converts the options first, because compilers may evaluate arguments in any order.
     const RipsOptions rips = rips_options(o);
     return Rips(DistanceMatrix(size, std::vector<double>(lower, lower + count)), rips, context);
   });

@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// Calls `use(run)` for the longest runs of bars with equal values.
+/// Calls `use(run)` for each maximal run of bars with equal values.
 template <class Value, class Use>
 void for_each_run(std::span<Bar> bars, Value value, Use&& use) {
   while (!bars.empty()) {
@@ -93,10 +93,10 @@ InputChain Barcode::representative(std::size_t i) const {
 // Without cells, equal bars are interchangeable: each run of equal births can be sorted by death in
 // place.
 void Barcode::sort_values(const RunContext& context) {
-  std::pmr::vector<Bar> buffer(&context.memory);  // allocated only if needed
+  std::pmr::vector<Bar> buffer(&context.memory);  // takes memory only if it is used
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
-    // Bars of the highest dimension of an image come in this order.
+    // The bars of the highest dimension of an image arrive in this order.
     if (std::ranges::is_sorted(bars, std::ranges::greater(), value_of)) {
       std::ranges::reverse(bars);
       return;
@@ -150,7 +150,7 @@ void Barcode::sort(const RunContext& context) {
     for (Place& place : order) place.value = bars_[place.bar].dim;
     radix_sort_by_value(order, value_of, context);
   }
-  // A stable sort: bars without cells keep their order when they are written and read again.
+  // The sort is stable: bars without cells keep their order when they are written and read again.
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
     const Bar& bar = bars_[order[begin].bar];
     for (end = begin + 1; end < order.size() && bars_[order[end].bar] == bar;) ++end;

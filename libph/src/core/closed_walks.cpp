@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::usage, fmt::format("chain: found {}, expected {}", found, expected));
 }
 
-/// Appends the start and then the end of an edge.
+/// Appends the numbers of the start of an edge, then of its end.
 void append_ends(const InputCell& edge, std::span<const Index> periods,
                  std::pmr::vector<Index>& ends) {
   const std::span<const Index> numbers = edge.numbers;
@@ -28,7 +28,8 @@ void append_ends(const InputCell& edge, std::span<const Index> periods,
     return;
   }
   const auto is_odd = [](Index x) { return x % 2 != 0; };
-  if (std::ranges::count_if(numbers, is_odd) != 1) fail("another cube", "edges of the grid");
+  if (std::ranges::count_if(numbers, is_odd) != 1)
+    fail("a cube that is not an edge", "edges of the grid");
   const auto axis =
       static_cast<std::size_t>(std::ranges::find_if(numbers, is_odd) - numbers.begin());
   for (const Index step : {-1, 1}) {
@@ -40,8 +41,8 @@ void append_ends(const InputCell& edge, std::span<const Index> periods,
   }
 }
 
-/// A chain of edges between vertices 0, 1, ...; closed walks are removed from it until nothing is
-/// left.
+/// A chain of edges between vertices 0, 1, … Closed walks are removed from the chain until nothing
+/// is left.
 class Decomposition {
  public:
   Decomposition(const InputChain& chain, std::int64_t field, std::span<const Index> periods,
@@ -108,7 +109,7 @@ class Decomposition {
   std::span<const Index> tuple_of(std::size_t end) const {
     return std::span<const Index>(numbers_).subspan(end * arity_, arity_);
   }
-  /// The coefficient of an edge in the direction that leaves `from`.
+  /// The coefficient of an edge when it is traversed from the vertex `from`.
   std::int64_t directed(std::uint32_t edge, std::uint32_t from) const {
     return tail_[edge] == from ? left_[edge] : modulo(-left_[edge]);
   }
@@ -141,7 +142,7 @@ class Decomposition {
       fail("a boundary that is not zero", fmt::format("a cycle over Z/{}", p_));
   }
 
-  /// Sorts the edges at each vertex by their other end.
+  /// Sorts the edges at each vertex by their other ends.
   void sort_arcs() {
     offsets_.assign(vertices() + 1, 0);
     for (std::size_t i = 0; i < size_; ++i) {
@@ -166,8 +167,8 @@ class Decomposition {
     place_.assign(vertices(), kNowhere);
   }
 
-  /// The edge on which to leave a vertex, other than the edge on which the path came; preferably
-  /// one with coefficient `wanted`, because that removes much of the chain at once.
+  /// The edge by which a path leaves a vertex, which differs from the edge by which it came. Edges
+  /// with coefficient `wanted` are preferred, because using them removes much of the chain at once.
   const Arc* way_on(std::uint32_t from, std::uint32_t came_by, std::int64_t wanted) {
     std::size_t& first = next_[from];
     while (first < offsets_[from + 1] && left_[arcs_[first].edge] == 0) ++first;
@@ -182,8 +183,8 @@ class Decomposition {
     return any;
   }
 
-  /// Removes all walks that can be reached from a vertex. A path cannot end: the rest is a cycle,
-  /// and each vertex therefore has another edge to leave by.
+  /// Removes all walks that can be reached from a vertex. A path never gets stuck: what is left of
+  /// the chain is a cycle, and each vertex on the path therefore has another edge.
   void walk_from(std::uint32_t start) {
     path_.clear();
     place_[start] = 0;
@@ -191,7 +192,7 @@ class Decomposition {
       const std::int64_t wanted =
           path_.empty() ? 0 : directed(path_.front().edge, path_.front().from);
       const Arc* arc = way_on(here, came_by, wanted);
-      if (!arc) break;  // at the start: nothing is left there
+      if (!arc) break;  // the path is back at its start, where no edge is left
       path_.push_back({here, arc->edge});
       if (place_[arc->to] == kNowhere) {
         here = arc->to;
@@ -206,7 +207,8 @@ class Decomposition {
     place_[start] = kNowhere;
   }
 
-  /// The end of the path is closed: it becomes a walk, with the coefficient of its first edge.
+  /// Cuts off the end of the path, which is closed, and adds it as a walk with the coefficient of
+  /// its first edge.
   void cut_off(std::size_t begin) {
     const std::int64_t a = directed(path_[begin].edge, path_[begin].from);
     Walk walk{{}, a};
@@ -228,13 +230,13 @@ class Decomposition {
   std::int64_t p_;
   std::size_t size_, arity_ = 1;
   Ticker ticker_;
-  std::pmr::vector<Index> numbers_;           // of the tail and the head of each edge
-  std::pmr::vector<std::uint32_t> first_of_;  // by vertex: an edge end at that vertex
+  std::pmr::vector<Index> numbers_;  // the numbers of the start and of the end of each edge
+  std::pmr::vector<std::uint32_t> first_of_;  // by vertex: an end of an edge that lies there
   std::pmr::vector<std::uint32_t> tail_, head_;
   std::pmr::vector<std::int64_t> left_;  // remaining coefficient of each edge, from 0 to p - 1
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Arc> arcs_;
-  std::pmr::vector<std::size_t> next_;     // by vertex: no arc before this one has anything left
+  std::pmr::vector<std::size_t> next_;     // by vertex: the first arc that may have something left
   std::pmr::vector<std::uint32_t> place_;  // by vertex: its position on the path
   std::pmr::vector<Step> path_;
   std::vector<Walk> found_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A mark is a name between two control characters, which no printable text holds: the name of a
-// setting or of one of the parts below, then, behind a third one, its value.
+// A mark consists of a name, and optionally a value, between control characters, which printable
+// text does not contain: kBegin, name, kValue, value, kEnd. The name is the name of a setting, or
+// kPlace or kFound.
 #include "ph/error.hpp"
 
 #include <algorithm>
@@ -35,8 +36,7 @@ struct MessagePart {
   Setting setting = Setting::none;  // setting that the mark names
 };
 
-/// Calls `use` for all parts of a text in order. The beginning of a mark without an end counts as
-/// text.
+/// Calls `use` for all parts of a text in order. A mark that has no end counts as text.
 template <class Use>
 void each_piece(std::string_view text, Use&& use) {
   while (!text.empty()) {
@@ -85,7 +85,8 @@ std::string neutral(Setting setting, std::string_view value) {
   return text;
 }
 
-/// The text of all parts. @return nothing if the program has no name for a setting.
+/// The text of all parts in the words of a program. @return nothing if the program has no name for
+/// a setting that occurs.
 std::optional<std::string> rendered(std::string_view text, const Words& words) {
   std::string result;
   bool has_words = true;

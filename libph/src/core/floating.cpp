@@ -23,14 +23,15 @@ const char* end_of_digits(const char* at, const char* last) {
   return std::find_if_not(at, last, is_digit);
 }
 
-/// True if the text begins with `word`, in any case; `word` is in lower case.
+/// True if the text begins with `word`, in upper or lower case. Precondition: `word` is in lower
+/// case.
 bool begins_with(const char* at, const char* last, std::string_view word) {
   if (last - at < static_cast<std::ptrdiff_t>(word.size())) return false;
   return std::equal(word.begin(), word.end(), at,
                     [](char small, char c) { return to_lower(c) == small; });
 }
 
-/// The end of `(letters, digits and _)` after "nan", if it is there.
+/// The end of a parenthesis with letters, digits and _ after "nan"; `at` if there is none.
 const char* end_of_payload(const char* at, const char* last) {
   if (at == last || *at != '(') return at;
   const char* const end = std::find_if_not(
@@ -67,7 +68,7 @@ bool is_zero(std::string_view number) {
   return digits.find_first_of("123456789") == digits.npos;
 }
 
-// The user's program may have set another locale, in which a comma separates decimals.
+// The C locale, because the calling program may have set a locale with a decimal comma.
 locale_t c_locale() {
   static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
   return c;
@@ -80,7 +81,7 @@ std::from_chars_result read(const char* first, const char* last, T& value) {
   const char* const end = end_of_number(first, last);
   if (end == first) return {first, std::errc::invalid_argument};
   const auto size = static_cast<std::size_t>(end - first);
-  // strtod needs a terminating zero. Most numbers are short.
+  // strtod needs a terminating zero. Most numbers are short enough for an array on the stack.
   std::array<char, 64> few{};
   std::string many;
   const char* text = few.data();

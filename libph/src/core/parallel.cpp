@@ -19,7 +19,8 @@ class Pieces {
          const std::function<void(std::size_t, std::size_t)>& work)
       : count_(count), piece_(piece), context_(context), work_(work) {}
 
-  /// Works until no piece is left. @param on_piece called after each piece with its size.
+  /// Takes and computes pieces until none is left. @param on_piece called after each piece with its
+  /// size.
   template <class OnPiece>
   void take_all(OnPiece&& on_piece) {
     try {
@@ -72,7 +73,7 @@ void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece
     try {
       threads.emplace_back([&] { pieces.take_all([](std::size_t) {}); });
     } catch (const std::system_error&) {
-      break;  // the existing threads do the work
+      break;  // no further thread can start; the existing threads do the work
     }
   }
   pieces.take_all([&](std::size_t steps) {

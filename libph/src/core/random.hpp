@@ -13,14 +13,14 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
   // mutant: random-task
-  /// One of many sequences of a seed, for tasks that threads share.
+  /// The sequence of one task: each task of a seed has its own, whichever thread runs it.
   Random(std::uint64_t seed, std::uint64_t task) : state_(mixed(mixed(seed + kStep) + task)) {}
 
   std::uint64_t bits() { return mixed(state_ += kStep); }
   /// A number in [0, 1).
   double uniform() { return std::ldexp(static_cast<double>(bits() >> 11), -53); }
-  /// An integer below `count`, which must be positive. Numbers that would make some results
-  /// likelier are drawn again.
+  /// An integer from 0 to `count` - 1; `count` must be positive. All are equally likely, because
+  /// numbers that would make some of them likelier are drawn again.
   std::uint64_t below(std::uint64_t count) {
     const std::uint64_t excess = (UINT64_MAX % count + 1) % count;
     std::uint64_t x = bits();

@@ -22,8 +22,8 @@ namespace {
                   format_size(static_cast<double>(bytes))));
 }
 
-// Large blocks come from the system and go back to it at once. The C library would keep them in its
-// heap, with holes that it does not fill again and that no budget counts.
+// Large blocks are mapped by the system and given back to it when they are freed. The C library
+// would keep them in its heap, which gets holes that no budget counts.
 bool is_large(std::size_t bytes, std::size_t alignment) {
   return bytes >= std::size_t{1} << 20 && alignment <= kSmallestPage;
 }
@@ -87,7 +87,8 @@ void RunContext::poll() const {
 
 void RunContext::report(const Progress& progress) const {
   if (!on_progress) return;
-  // The time is shared by all stages: otherwise many short stages in a row would never be reported.
+  // All stages share one time of the last report: otherwise many short stages in a row would never
+  // be reported.
   const auto now = std::chrono::steady_clock::now();
   if (now - last_report_ < std::chrono::milliseconds(100)) return;
   last_report_ = now;

@@ -12,10 +12,10 @@
 namespace ph::gpu {
 namespace {
 
-/// Borůvka's algorithm as on the CPU: each point keeps its last answer, which stays valid while it
-/// names a point of another component, and is a lower bound after that. Edges are ordered by
-/// (length, larger row, smaller row). This order is total: components choose independently, and no
-/// cycle arises.
+/// Borůvka's algorithm as on the CPU. Each point keeps its last answer, that is, the nearest point
+/// of another component that it found. The answer stays valid while that point is in another
+/// component; after that, its distance is a lower bound. Edges are ordered by (length, larger row,
+/// smaller row). This order is total: components choose independently, and no cycle arises.
 class Boruvka {
  public:
   Boruvka(Search& search, double limit, FlagEdge* edges, const RunContext& context)
@@ -51,7 +51,7 @@ class Boruvka {
     return {raw(component_), raw(nearest_), raw(bounds_), raw(ends_), raw(takes_), raw(joins_)};
   }
 
-  /// Finds the length of each component's best edge.
+  /// Finds the length of the shortest edge that leaves each component.
   void propose() {
     thrust::fill(thrust::device, bounds_.begin(), bounds_.end(), bits_of(limit_));
     const BoruvkaView v = view();
@@ -68,7 +68,7 @@ class Boruvka {
     search_.ask(asked_, v, context_);
   }
 
-  /// Chooses the first of the edges of that length.
+  /// Chooses, for each component, the first edge of this length.
   void choose() {
     thrust::fill(thrust::device, ends_.begin(), ends_.end(), UINT64_MAX);
     thrust::fill(thrust::device, takes_.begin(), takes_.end(), kNone);
@@ -102,7 +102,7 @@ class Boruvka {
       edges[rows[c]] = {of_bits(v.bounds[c]), static_cast<std::uint32_t>(ends >> 32),
                         static_cast<std::uint32_t>(ends)};
     });
-    // Each step doubles the distance of the jump.
+    // Each step doubles the length of the jumps towards the root.
     const auto jumps = [=] __host__ __device__(std::uint32_t c) {
       if (v.component[c] != c) return false;
       const std::uint32_t next = load(v.joins[c]), after = load(v.joins[next]);

@@ -23,7 +23,8 @@ void sort_rows(Positions& rows, KeyOf key_of) {
   thrust::stable_sort_by_key(thrust::device, keys.begin(), keys.end(), rows.begin());
 }
 
-/// Rows in the order of the curve; equal points are side by side, with the first of them first.
+/// The rows in the order of a space-filling curve. Equal points are side by side, in the order of
+/// their rows.
 template <int Axes>
 Positions order_of(const double* x, std::uint32_t size, const Curve& curve) {
   Positions rows(size);
@@ -44,8 +45,8 @@ Positions order_of(const double* x, std::uint32_t size, const Curve& curve) {
 template <int Axes>
 class BvhSearch final : public Search {
  public:
-  /// @param x coordinates by row. @param rows at least two distinct points, in the order of the
-  /// curve.
+  /// @param x the coordinates by row. @param rows the rows of at least two points, all distinct, in
+  /// the order of the curve.
   BvhSearch(const double* x, Positions&& rows, const Curve& curve)
       : rows_(std::move(rows)),
         coordinates_(rows_.size() * Axes),
@@ -93,7 +94,7 @@ class BvhSearch final : public Search {
     });
   }
 
-  /// A node records if it belongs entirely to one component: between its ends this never changes.
+  /// Labels each node with its component if all its points belong to one component.
   void see(const BoruvkaView& v) override {
     const auto change = raw(changes_);
     for_each_index(size(), [=] __host__ __device__(std::uint32_t p) {
@@ -135,8 +136,9 @@ class BvhSearch final : public Search {
   Positions labels_, changes_;
 };
 
-/// Joins copies to the first of them. @return the rows of distinct points, in their original order.
-/// @param rows has copies side by side, with the first of them first.
+/// Joins each copy of a point to the first copy. @return the rows of the distinct points, in the
+/// order in which `rows` has them. @param rows has equal points side by side, in the order of their
+/// rows.
 Positions join_copies(const double* x, int axes, Positions& rows, FlagEdge* edges) {
   const auto size = static_cast<std::uint32_t>(rows.size());
   Positions heads(size), distinct(size);

@@ -12,8 +12,8 @@
 
 #include "ph/detail/metric/metric.hpp"
 
-// Common definitions of the device code. Compiled without fused multiply-add (-fmad=false): a
-// number is the same wherever it is computed.
+// Common definitions of the device code. This code is compiled without fused multiply-add
+// (-fmad=false): a number is then the same wherever it is computed.
 
 namespace ph::gpu {
 
@@ -36,7 +36,8 @@ __global__ void call_body(std::uint32_t count, Body body) {
   const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < count) body(i);
 }
-/// Calls body(i) for all i < count, on the device. Later requests wait for it.
+/// Calls body(i) for all i < count, on the device. Requests to the device that are made later wait
+/// until all calls are done.
 template <class Body>
 void for_each_index(std::uint32_t count, Body body) {
   constexpr std::uint32_t threads = 128;
@@ -53,15 +54,15 @@ template <class T>
 PH_DEVICE void store(T& cell, T value) {
   cuda::atomic_ref<T, cuda::thread_scope_device>(cell).store(value, cuda::memory_order_relaxed);
 }
-/// Lowers a cell to `value` unless the cell is smaller. Most calls do not lower it, and a look is
-/// cheap.
+/// Lowers a number to `value` unless it is smaller already. The number is read first, because most
+/// calls do not lower it and reading is cheap.
 PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
   if (value < load(cell))
     cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(cell).fetch_min(
         value, cuda::memory_order_relaxed);
 }
 
-/// For doubles that are not negative, the bits have the same order.
+/// The bits of a double. Doubles that are not negative have the same order as their bits.
 PH_DEVICE std::uint64_t bits_of(double x) { return cuda::std::bit_cast<std::uint64_t>(x); }
 PH_DEVICE double of_bits(std::uint64_t bits) { return cuda::std::bit_cast<double>(bits); }
 
@@ -86,13 +87,13 @@ PH_DEVICE double distance_of_square(double square, const double* x, const double
   }
   return largest * std::sqrt(sum);
 }
-/// An upper bound for the computed squares of all distances <= d, between points or to boxes around
-/// them.
+/// An upper bound for the computed squares of all distances <= d, between two points or between a
+/// point and a box.
 PH_DEVICE double reach_of(double d, int axes) {
   return std::fmax(d * d * (1 + 4e-16 * (axes + 8)), kLeastPlainSquare);
 }
 
-/// A point, and the nearest point of another component.
+/// The nearest point of another component, and its distance.
 struct Nearest {
   double distance;
   std::uint32_t position;  ///< kNone if there is none up to that distance

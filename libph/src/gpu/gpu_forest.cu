@@ -18,7 +18,7 @@
 namespace ph::gpu {
 namespace {
 
-constexpr int kMostAxesOfBoxes = 8;  // as on the CPU: with more axes, boxes exclude little
+constexpr int kMostAxesOfBoxes = 8;  // as on the CPU: with more axes, boxes exclude few points
 
 void require_device(std::size_t points, std::size_t axes) {
   cudaDeviceProp device;
@@ -33,8 +33,8 @@ void require_device(std::size_t points, std::size_t axes) {
   if (needed > free)
     throw Error(ErrorKind::resource, "device gpu: " + std::to_string(points) + " points of " +
                                          std::to_string(axes) + " coordinates need " +
-                                         std::to_string(needed) + " bytes, " +
-                                         std::to_string(free) + " are free of the " +
+                                         std::to_string(needed) + " bytes, but only " +
+                                         std::to_string(free) + " bytes are free of the " +
                                          std::to_string(total) + " of " + device.name);
 }
 

@@ -11,13 +11,14 @@
 
 namespace ph::gpu {
 
-/// A place on the curve: 128 bits, which leave enough digits for most points even if there are far
-/// outliers.
+/// A place on the curve, in 128 bits. This is enough to tell most points apart even if there are
+/// far outliers.
 struct Code {
   std::uint64_t high, low;
 };
 
-/// Uses cubes of equal size on all axes, whatever the extent of each axis.
+/// The space-filling curve through the box of all points. It divides space into cubes, whatever the
+/// extent of each axis.
 struct Curve {
   double origin[8];
   double cells_a_unit;
@@ -25,7 +26,7 @@ struct Curve {
   template <int Axes>
   static constexpr int kBits = Axes <= 2 ? 52 : 128 / Axes;
 
-  /// @param box of all points: the smallest coordinates, then the largest.
+  /// @param box the bounding box of all points: the smallest coordinates, then the largest.
   template <int Axes>
   static Curve of(std::span<const double> box) {
     Curve curve{};
@@ -56,8 +57,8 @@ struct Curve {
   }
 };
 
-/// The data of the hierarchy in kernels. Inner nodes are 0 … size - 2, the root first; a leaf is a
-/// point.
+/// The data of the hierarchy that kernels use. Inner nodes have the numbers 0 to size - 2, and the
+/// root is 0; leaves are points.
 template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;
@@ -65,7 +66,7 @@ struct BvhView {
   static constexpr int kMostLevels = 160;   // bits of a code and of a position
 
   struct Node {
-    std::uint32_t other_end;  // of its positions; the other end is its own number
+    std::uint32_t other_end;  // of the range of its positions; the node's own number is one end
     // The last position of its left child, which is also that child's number.
     std::uint32_t split;
     PH_DEVICE std::uint32_t first(std::uint32_t self) const {
@@ -101,7 +102,8 @@ struct BvhView {
     return sum;
   }
 
-  /// Number of leading bits that the codes of two positions share; -1 beyond the ends.
+  /// The number of leading bits that the codes of two positions share; -1 if a position is out of
+  /// range.
   PH_DEVICE int shared(const Code* codes, std::int64_t i, std::int64_t j) const {
     if (j < 0 || j >= size) return -1;
     const Code a = codes[i], b = codes[j];
@@ -125,7 +127,7 @@ struct BvhView {
     }
     return {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(d > 0 ? i + s : i - s - 1)};
   }
-  /// Fills the box of a node whose children have their boxes.
+  /// Computes the box of a node from the boxes of its children.
   PH_DEVICE void join_boxes(std::uint32_t self) const {
     const Node node = nodes[self];
     const std::uint32_t left = node.split, right = node.split + 1;
@@ -139,8 +141,8 @@ struct BvhView {
     }
   }
 
-  /// The nearest point of another component, in the order (distance, row).
-  /// @param within the largest distance of interest.
+  /// The nearest point of another component; of equally near points, the point with the lowest row.
+  /// @param within points farther away than this may be ignored.
   PH_DEVICE Nearest nearest_foreign(std::uint32_t p, const std::uint32_t* component,
                                     double within) const {
     double x[Axes];
@@ -160,7 +162,7 @@ struct BvhView {
       reach = reach_of(d, Axes);
     };
     constexpr double never = HUGE_VAL;
-    double gaps[kMostLevels];  // of nodes that are postponed, one per level
+    double gaps[kMostLevels];  // distances to the nodes that are postponed, one per level
     std::uint32_t later[kMostLevels];
     int height = 0;
     for (std::uint32_t at = 0;;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for what CUDA compiles.
+// Replaces the files that CUDA compiles, in builds without CUDA.
 #include "libph/src/gpu/gpu_forest.hpp"
 #include "ph/error.hpp"
 

@@ -31,10 +31,11 @@ inline constexpr int kSlab = 16;  // axes that a block holds at a time
 inline constexpr int kSide = 16;  // threads per side
 inline constexpr int kEach = kTile / kSide;
 
-/// For blocks of 64 asked points (x), finds the nearest foreign points in one range out of several
-/// that cover all points (y). Points are sorted by component: two tiles of the same component need
-/// no work.
-/// @param order all points by component. @param answers by asked point and range.
+/// Finds, for a block of 64 asked points (grid axis x), the nearest foreign points within one of
+/// several ranges that cover all points (grid axis y). Points are sorted by component: a pair of
+/// tiles that lie in the same component is skipped.
+/// @param order all points, sorted by component. @param answers receives an answer for each asked
+/// point and range.
 __global__ void __launch_bounds__(kSide* kSide)
     nearest_of_tiles(PairPoints points, const std::uint32_t* asked, std::uint32_t asked_count,
                      const std::uint32_t* order, std::uint32_t range,
@@ -69,7 +70,7 @@ __global__ void __launch_bounds__(kSide* kSide)
         of_others[tx][row] = k < points.axes ? points.point(b)[k] : 0;
       }
       __syncthreads();
-      // Entries beyond the last axis are zero and change no sum.
+      // Entries beyond the last axis are 0 and therefore change no sum.
 #pragma unroll
       for (int s = 0; s < kSlab; ++s) {
         double x[kEach], y[kEach];
@@ -143,7 +144,7 @@ class PairSearch final : public Search {
     const std::uint32_t share = (size() + most_ranges - 1) / most_ranges;
     const std::uint32_t range = std::max(least, (share + kTile - 1) / kTile * kTile);
     const std::uint32_t ranges = (size() + range - 1) / range;
-    // Chooses the number such that a launch takes some tenths of a second.
+    // Chooses a number for which one launch takes a few tenths of a second.
     const double terms_a_point = static_cast<double>(size()) * axes_;
     const auto batch = static_cast<std::uint32_t>(
         std::clamp(1e12 / terms_a_point, 16.0 * kTile, 1e6) / kTile * kTile);

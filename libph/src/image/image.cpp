@@ -41,7 +41,7 @@ bool is_c_order(const std::vector<Index>& extents, std::span<const std::ptrdiff_
   return true;
 }
 
-/// Reads voxels with any strides, one after the other.
+/// Copies voxels with any strides into an array in C order.
 template <class T>
 std::vector<T> copied(const void* data, const std::vector<Index>& extents,
                       std::span<const std::ptrdiff_t> strides, std::size_t count) {

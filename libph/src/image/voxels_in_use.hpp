@@ -6,12 +6,12 @@
 
 namespace ph {
 
-/// To be held while voxels are read in random order: pages of a file that were read are then in
-/// memory, and are counted. They leave the memory at its end.
+/// Exists while voxels are read in random order. The pages of a file that are read stay in memory
+/// during this time, and the budget counts them; the destructor lets them leave the memory.
 class VoxelsInUse {
  public:
-  /// @param image the data that it points to must outlive this. @throws Error (resource) beyond the
-  /// limit.
+  /// @param image the image; the data that it points to must outlive this object. @throws Error
+  /// (resource) if the pages exceed the memory limit.
   VoxelsInUse(const CubicalImage& image, const RunContext& context)
       : voxels_(image.voxels),
         claim_(context.memory, image.is_in_file ? image.size() * bytes_of(image.type) : 0) {}

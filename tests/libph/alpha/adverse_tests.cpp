@@ -112,7 +112,7 @@ TEST(AlphaAdverse, AllPointsOnOneSphere) {
 TEST(AlphaAdverse, SquaresThatNoDoubleHolds) {
   AlphaOptions options{.unit = AlphaOptions::Unit::squared};
   for (const double unit : {1e200, 1e-160, 1e-200})
-    expect_error(ErrorKind::bad_data, "for squared values; take radii",
+    expect_error(ErrorKind::bad_data, "for squared values; use radii instead",
                  [&] { Alpha(times(uniform_points(20, 3, 2), unit), options); });
   EXPECT_NO_THROW(Alpha(times(uniform_points(20, 3, 2), 1e150), options));
 }

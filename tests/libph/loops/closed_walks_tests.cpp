@@ -85,7 +85,7 @@ TEST(ClosedWalks, RefuseWhatIsNoCycleOfEdges) {
   expect_error(ErrorKind::usage, "3 vertices", [] { closed_walks(chain_of({0, 1, 2}, {1}), 2); });
   expect_error(ErrorKind::usage, "rows",
                [] { closed_walks(chain_of({0}, {1}, CellKind::row), 2); });
-  expect_error(ErrorKind::usage, "another cube", [] {
+  expect_error(ErrorKind::usage, "a cube that is not an edge", [] {
     closed_walks(chain_of({1, 1}, {1}, CellKind::grid), 2);
   });
   expect_error(ErrorKind::usage, "a prime", [] { closed_walks(chain_of({}, {}), 4); });

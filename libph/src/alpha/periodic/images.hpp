@@ -49,8 +49,8 @@ struct Images {
   Sites places;                          ///< the images as sites of a space that is not periodic
   std::pmr::vector<std::uint32_t> site;  ///< by place
   std::pmr::vector<Translation> translation;  ///< by place
-  std::pmr::vector<std::uint32_t>
-      begin;  ///< by site: its first place; at the end, the number of places
+  /// By site: its first place. The last entry is the number of places.
+  std::pmr::vector<std::uint32_t> begin;
   /// By cell of the quotient and, in dimension 3, by edge: its frame, which consists of places of
   /// the vertices that are near each other.
   RawVector<std::array<std::uint32_t, 4>> of_cell;

@@ -200,12 +200,11 @@ class Quotient {
   const Images& images_;
   const Box& box_;
   const RunContext& context_;
-  const std::size_t size_;   // vertices per cell
-  const std::size_t sites_;  // number of sites
-  std::pmr::vector<uint32_t>
-      number_;                        // by unrolled cell: its number among the kept cells, or kNone
-  std::pmr::vector<uint32_t> begin_;  // by site: the kept cells whose smallest vertex it is
-  std::pmr::vector<uint32_t> kept_;   // by number: the unrolled cell
+  const std::size_t size_;             // vertices per cell
+  const std::size_t sites_;            // number of sites
+  std::pmr::vector<uint32_t> number_;  // by unrolled cell: its number, or kNone
+  std::pmr::vector<uint32_t> begin_;   // by site: the kept cells whose smallest vertex it is
+  std::pmr::vector<uint32_t> kept_;    // the unrolled cells that are kept, by number
   Triangulation result_;
   RawVector<Cell> of_cell_;
 };

@@ -18,11 +18,12 @@ using std::uint32_t;
 
 void check_values(const Alpha& alpha, double value, std::string_view what) {
   if (alpha.value_kind() != AlphaOptions::Value::alpha)
-    throw Error(ErrorKind::usage, std::string(what) + ": found other values, expected alpha");
+    throw Error(ErrorKind::usage,
+                std::string(what) + ": found values other than alpha, expected alpha");
   if (alpha.is_periodic())
     throw Error(ErrorKind::usage, std::string(what) +
-                                      ": found a periodic space, expected one that "
-                                      "does not close up");
+                                      ": found a periodic space, expected a space "
+                                      "that does not close up");
   if (!std::isnan(value)) return;
   throw Error(ErrorKind::usage, std::string(what) + ": found nan, expected a value");
 }

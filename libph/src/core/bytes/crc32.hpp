@@ -7,12 +7,12 @@
 
 namespace ph {
 
-/// The checksum of zip, PNG and Ethernet: CRC-32 with the reversed polynomial 0xEDB88320. A copy
-/// for the core, which does not need zlib.
+/// The checksum of zip, PNG and Ethernet: CRC-32 with the reversed polynomial 0xEDB88320. It is
+/// implemented here because the core does not depend on zlib.
 inline std::uint32_t crc32(std::span<const std::byte> bytes) {
-  // Processes eight bytes at a time; the table of each byte looks ahead over the bytes behind it
-  // (Kounavis & Berry, Novel table lookup-based algorithms for high-performance CRC generation,
-  // 2008).
+  // Processes eight bytes at a time. Each of the eight positions has its own table, which takes the
+  // bytes after this position into account (Kounavis & Berry, Novel table lookup-based algorithms
+  // for high-performance CRC generation, 2008).
   constexpr std::size_t kAtOnce = 8;
   static constexpr auto kTables = [] {
     std::array<std::array<std::uint32_t, 256>, kAtOnce> tables{};

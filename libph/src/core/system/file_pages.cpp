@@ -23,7 +23,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& folder, std::size_t bytes, int error) {
   throw Error(ErrorKind::io,
-              fmt::format("{}: cannot hold a temporary file of {} MiB: {}; TMPDIR names another "
+              fmt::format("{}: cannot hold a temporary file of {} MiB: {}; set TMPDIR to another "
                           "folder",
                           folder, bytes >> 20, std::generic_category().message(error)));
 }
@@ -33,7 +33,7 @@ std::string temporary_folder() {
   const auto folder = std::filesystem::temp_directory_path(error);
   if (error)
     throw Error(ErrorKind::io,
-                "no folder for temporary files: " + error.message() + "; TMPDIR names one");
+                "no folder for temporary files: " + error.message() + "; set TMPDIR to a folder");
   return folder.string();
 }
 
@@ -53,8 +53,9 @@ int open_nameless(const std::string& folder) {
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
   if (bytes == 0) return;
-  // Includes the pages at both ends: otherwise a file that is given back block by block would leave
-  // one page per block. These pages belong to the mapping, because some of their bytes do.
+  // Includes the pages at both ends, even if the range covers them only in part: otherwise a file
+  // that is given back block by block would leave one page per block in memory. These pages belong
+  // to the mapping, because some of their bytes do.
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = address / page * page;
@@ -94,7 +95,7 @@ ResidentFiles::~ResidentFiles() {
 }
 
 std::size_t ResidentFiles::bytes() const {
-  // The fields, in pages: total, resident, of these the pages of files and shared memory, …
+  // The fields count pages: all pages, resident pages, resident pages of files and shared memory, …
   std::array<char, 128> text{};
   const ssize_t got = ::pread(file_, text.data(), text.size() - 1, 0);
   std::size_t pages = 0;

@@ -20,7 +20,7 @@
 namespace ph::files {
 namespace {
 
-constexpr int kPollMilliseconds = 50;  // delay after which a waiting read notices a stop request
+constexpr int kPollMilliseconds = 50;  // a waiting read notices a stop request after this time
 
 Status from(const struct stat& status) {
   return {S_ISREG(status.st_mode)   ? Kind::regular
@@ -29,11 +29,11 @@ Status from(const struct stat& status) {
           static_cast<std::uint64_t>(status.st_size), status.st_dev, status.st_ino};
 }
 
-/// A name in `folder` that nobody else uses. It does not contain the final name, which may already
-/// have the maximum length.
+/// A name in `folder` that no other file has. It does not contain the final name of the file,
+/// because that name may already have the maximum length.
 std::filesystem::path fresh_name(const std::filesystem::path& folder) {
   std::uint64_t random = 0;
-  // The result is never short for 8 bytes; if it fails (an ancient kernel), the process id still
+  // getrandom never returns fewer than 8 bytes. If it fails (on an old kernel), the process id
   // makes the name distinct.
   if (::getrandom(&random, sizeof random, 0) < 0) random = static_cast<std::uint64_t>(::getpid());
   return folder / fmt::format(".ph-{:016x}.tmp", random);
@@ -56,7 +56,8 @@ std::optional<Status> status_of(int file) {
 bool close(int file) { return ::close(file) == 0; }
 
 int open_to_read(const std::filesystem::path& path) {
-  // Without O_NONBLOCK, opening a FIFO without a writer could not be stopped.
+  // Without O_NONBLOCK, a stop request could not interrupt the opening of a FIFO that has no
+  // writer.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   struct stat status {};
   if (file < 0 || ::fstat(file, &status) != 0 || !S_ISDIR(status.st_mode)) return file;
@@ -125,7 +126,7 @@ bool may_write(const std::filesystem::path& path) { return ::access(path.c_str()
 bool may_replace(const std::filesystem::path& path) {
   struct statx file {};
   struct stat folder {};
-  // If the system cannot tell, renaming the file will.
+  // If statx fails, renaming the file will report the error.
   if (::statx(AT_FDCWD, path.c_str(), 0, STATX_UID, &file) != 0 ||
       ::stat(path.parent_path().c_str(), &folder) != 0)
     return true;
@@ -146,7 +147,8 @@ int open_to_write(const std::filesystem::path& path) {
 }
 
 int create_in(const std::filesystem::path& folder, std::filesystem::path& name) {
-  // Giving it a name later goes through /proc. Not all file systems support files without a name.
+  // A file without a name gets its name later through /proc. Not all file systems support such
+  // files.
   if (::access("/proc/self/fd", X_OK) == 0) {
     const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (file >= 0) return file;
@@ -165,7 +167,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
 
 bool take_mode(int file, const std::filesystem::path& of) {
   struct stat status {};
-  // Excludes the bits that set an ID, because they were granted to the old content.
+  // Leaves out the set-user-ID and set-group-ID bits, because they were granted to the old content.
   // mutant: output-mode
   if (::stat(of.c_str(), &status) != 0 || ::fchmod(file, status.st_mode & 0777) != 0) return false;
   if (::fchown(file, status.st_uid, status.st_gid) != 0)
@@ -178,7 +180,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
     const ssize_t written = ::write(file, from, most);
     if (written >= 0) return written;
     if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      // Standard output was made non-blocking by someone: wait until there is room.
+      // Another program has made standard output non-blocking: waits until there is room.
       pollfd room{file, POLLOUT, 0};
       if (::poll(&room, 1, -1) < 0 && errno != EINTR) return -1;
     } else if (errno != EINTR) {
@@ -188,7 +190,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
 }
 
 bool sync(int file) {
-  // Some file systems cannot sync, which is not a reason to refuse them.
+  // Some file systems cannot sync; this does not count as an error.
   return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
 }
 

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// The number in the first line of a file of the kernel, if there is one.
+/// The number in the first line of a file of the kernel; nothing if there is no number.
 std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
   std::string word;
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const std::string& path) {
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root) {
   std::optional<std::uint64_t> least;
-  // A line is "number:controllers:/path"; version 2 has no controllers.
+  // A line is "number:controllers:/path"; in version 2 of control groups, `controllers` is empty.
   for (std::string line; std::getline(memberships, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;

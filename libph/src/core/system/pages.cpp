@@ -11,8 +11,8 @@
 namespace ph {
 namespace {
 
-// Blocks lie on pages of 2 MiB if the system offers them on request: this takes a few page faults
-// instead of thousands, and random reads miss the page table less often.
+// Blocks are placed on pages of 2 MiB if the system offers them on request. This takes a few page
+// faults instead of thousands, and random reads miss the address cache (TLB) less often.
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 // Tells the system how the complete pages of a block will be used.
@@ -37,7 +37,8 @@ std::size_t mapped_size(std::size_t bytes) {
 
 void* map_pages(std::size_t bytes) {
   const std::size_t size = mapped_size(bytes);
-  // A huge page begins at a multiple of its size: the memory before and after it is given back.
+  // A huge page begins at a multiple of its size. More memory is therefore mapped, and the memory
+  // before and after the block is given back.
   const std::size_t room = size + kHugePage;
   if (room < size) throw std::bad_alloc();
   void* const all = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

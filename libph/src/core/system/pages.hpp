@@ -4,24 +4,25 @@
 
 namespace ph {
 
-/// Asks the system to put the large parts of a fresh block on huge pages before it is touched, for
-/// fewer page faults and fewer misses of the address cache. A hint: the system decides.
+/// Asks the system to put the large parts of a fresh block on huge pages, which means fewer page
+/// faults and fewer misses of the address cache. Must be called before the block is touched. The
+/// system may ignore the request.
 void prefer_huge_pages(void* block, std::size_t bytes);
 
 /// No machine has smaller pages; mapped blocks are aligned to this size.
 constexpr std::size_t kSmallestPage = 4096;
 
-/// Memory that a block of pages takes: complete pages, and complete huge pages if it nearly fills
-/// them.
+/// The memory that a block of `map_pages` takes: complete pages, and complete huge pages if the
+/// block nearly fills them.
 std::size_t mapped_size(std::size_t bytes);
-/// Maps a block of pages, on huge pages as far as it fills them: this means few page faults, and
-/// random reads miss the address cache less often.
+/// Maps a block of pages, and uses huge pages as far as the block fills them: this means few page
+/// faults, and random reads miss the address cache less often.
 /// @throws std::bad_alloc
 void* map_pages(std::size_t bytes);
 /// Gives a block of `map_pages` back to the system.
 void unmap_pages(void* block, std::size_t bytes);
 
-/// Gives the complete pages under a block back to the system. The block stays allocated; its
+/// Gives the complete pages inside a block back to the system. The block stays allocated, but its
 /// content is lost.
 void drop_pages(void* block, std::size_t bytes);
 

@@ -29,8 +29,7 @@ class LoopMessage {
   struct Header {
     std::uint64_t image;  ///< distinguishes images, fields and options
     std::int32_t from, to;
-    std::uint64_t
-        number;  ///< number of this message among the messages from the sender to the receiver
+    std::uint64_t number;  ///< counts messages from sender to receiver
   };
   struct Layer {
     std::uint64_t layer;  ///< layer in the stars' grid

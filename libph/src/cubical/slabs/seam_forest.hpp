@@ -49,9 +49,8 @@ struct Seam {
   /// Frees the values, which are not needed once the seam is being joined.
   void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
-  std::pmr::vector<std::uint32_t>
-      roots;  ///< by place: the root of the node, or kNone if the node never enters
-  std::pmr::vector<double> values;  ///< in the order of the stars
+  std::pmr::vector<std::uint32_t> roots;  ///< by place; kNone if the node never enters
+  std::pmr::vector<double> values;        ///< in the order of the stars
 };
 
 /// The persistent components of one of the two graphs of a grid, as far as some consecutive layers
@@ -200,8 +199,7 @@ class SeamForest {
   std::uint32_t resolved = 0;
   std::array<std::uint32_t, 2> outside{};  ///< the roots of the two parts of the outside
   Seam before, after;                      ///< empty where the grid ends
-  std::pmr::vector<SeamBridge>
-      bridges;  ///< in ascending order; bridges of equal value in the order of the grid
+  std::pmr::vector<SeamBridge> bridges;    ///< ascending; equal values in the order of the grid
 
   bool is_in_order() const { return std::ranges::is_sorted(roots, {}, &SeamForest::age_of); }
 

@@ -104,8 +104,7 @@ class StarMatcher {
 
   CellGrid& grid_;
   const StarShapes& shapes_;
-  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}>
-      steps_;  // in the order that apparent pairs use
+  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;  // in the order of apparent pairs
   std::size_t step_count_ = 0;
   std::uint32_t border_ = UINT32_MAX;  // the ends of the axes where the previous voxel lay
   std::pmr::vector<StarCell> cells_;   // each cell after the cells with one step less

@@ -21,7 +21,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& folder, std::size_t bytes, const std::string& why) {
   throw Error(
       ErrorKind::io,
-      fmt::format("{}: cannot hold a temporary file of {} MiB: {}; TMP names another folder",
+      fmt::format("{}: cannot hold a temporary file of {} MiB: {}; set TMP to another folder",
                   folder, bytes >> 20, why));
 }
 
@@ -34,11 +34,11 @@ std::filesystem::path temporary_folder() {
   auto folder = std::filesystem::temp_directory_path(error);
   if (error)
     throw Error(ErrorKind::io,
-                "no folder for temporary files: " + error.message() + "; TMP names one");
+                "no folder for temporary files: " + error.message() + "; set TMP to a folder");
   return folder;
 }
 
-/// The file is deleted when it is closed, however the process ends.
+/// Opens a temporary file, which is deleted when it is closed, however the process ends.
 int open_temporary(const std::filesystem::path& folder) {
   std::random_device random;
   int file = -1, error = 0;

@@ -19,7 +19,7 @@ namespace {
 
 HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
 
-/// Sets errno from the system's last error.
+/// Sets errno to match the last error of the system.
 void keep_error() {
   const DWORD code = GetLastError();
   const auto condition = std::system_category().default_error_condition(static_cast<int>(code));
@@ -42,7 +42,7 @@ std::optional<Status> status_of(HANDLE handle) {
   return status;
 }
 
-/// Binary: line ends are not converted. Not inherited by programs that we start.
+/// Line ends are not converted, and programs that we start do not inherit the file.
 constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
 
 int open(const std::filesystem::path& path, int how) {
@@ -62,7 +62,7 @@ unsigned at_most(std::size_t bytes) {
 std::optional<Status> status_of(const std::filesystem::path& path) {
   const HANDLE handle =
       CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // folders as well
+                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // opens folders as well
   if (handle == INVALID_HANDLE_VALUE) {
     keep_error();
     return std::nullopt;
@@ -133,7 +133,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   std::random_device random;
   for (int attempt = 0; attempt < 16; ++attempt) {
     auto fresh = folder / fmt::format(".ph-{:08x}{:08x}.tmp", random(), random());
-    // An open file can be deleted, in case the process has to end.
+    // FILE_SHARE_DELETE: the open file can be deleted if the process has to end.
     const HANDLE handle =
         CreateFileW(fresh.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
                     CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
@@ -147,7 +147,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   return -1;
 }
 
-// The only mode bit says that nobody may write, and such a file would not be replaced.
+// Windows has only one mode bit, which forbids writing; a file with this bit would not be replaced.
 bool take_mode(int, const std::filesystem::path&) { return true; }
 
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
@@ -161,7 +161,7 @@ bool sync(int file) {
 }
 
 std::filesystem::path name_in(int, const std::filesystem::path&) {
-  errno = ENOTSUP;  // every file has a name
+  errno = ENOTSUP;  // not supported: every file has a name
   return {};
 }
 
