@@ -78,9 +78,9 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
 
 namespace {
 
-/// Lists the cells of a Delta-complex with their boundaries. The sites of a cell ascend, but their
-/// numbers in the input need not; chains use cells oriented by ascending input points, and the list
-/// follows them.
+/// Lists the cells of a Delta-complex with their boundaries. The sites of a cell ascend, but the
+/// input points of these sites need not. Chains use cells whose input points ascend; boundaries are
+/// therefore given for such cells.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,

@@ -189,7 +189,8 @@ std::size_t Barcode::longest(int dim) const {
     throw Error(ErrorKind::usage, "the barcode has no bar of dimension " + std::to_string(dim));
   }
   const auto it = std::max_element(all.begin(), all.end(), [](const Bar& a, const Bar& b) {
-    // A bar from -infinity is as long as a bar that never dies, which nevertheless comes first.
+    // A bar that is born at -infinity is as long as a bar that never dies; the bar that never dies
+    // comes first.
     if (a.is_infinite() != b.is_infinite()) return b.is_infinite();
     return a.persistence() < b.persistence();
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A mark consists of a name, and optionally a value, between control characters, which printable
-// text does not contain: kBegin, name, kValue, value, kEnd. The name is the name of a setting, or
-// kPlace or kFound.
+// The text of a message may contain marks. A mark consists of a name, and optionally a value,
+// between control characters, which printable text does not contain: kBegin, name, kValue, value,
+// kEnd. The name is the name of a setting, or kPlace or kFound.
 #include "ph/error.hpp"
 
 #include <algorithm>

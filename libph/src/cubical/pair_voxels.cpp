@@ -18,7 +18,7 @@ namespace ph::cubical {
 
 namespace {
 
-constexpr double kBytesOfVoxel = 8;  // a star and a node of a graph, or two ranks
+constexpr double kBytesOfVoxel = 8;  // for a star and a node of a graph, or for two ranks
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
 

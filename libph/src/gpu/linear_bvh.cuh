@@ -67,7 +67,7 @@ struct BvhView {
 
   struct Node {
     std::uint32_t other_end;  // of the range of its positions; the node's own number is one end
-    // The last position of its left child, which is also that child's number.
+    // The last position of the left child, which is also the number of that child.
     std::uint32_t split;
     PH_DEVICE std::uint32_t first(std::uint32_t self) const {
       return self < other_end ? self : other_end;

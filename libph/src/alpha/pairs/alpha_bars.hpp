@@ -37,8 +37,8 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
   return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
 }
 
-/// Turns pairs of simplices into bars, and chains of simplices of sites into chains of simplices of
-/// input points.
+/// Turns pairs of simplices into bars, and passes on cycles. Simplices are given by sites; the
+/// results give them by input points.
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)

@@ -17,8 +17,8 @@ struct EdgeTerm {
   typename K::Element coefficient;
 };
 
-/// The spanning forest of the edges that join components. It completes chains to cycles: the edges
-/// outside the forest determine the edges of the cycle inside it.
+/// The spanning forest of the edges that join components. It completes chains to cycles, because
+/// the edges of a cycle outside the forest determine its edges in the forest.
 template <Field K>
 class EdgeForest {
  public:

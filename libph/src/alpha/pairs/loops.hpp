@@ -64,7 +64,7 @@ class Loops {
   }
 
  private:
-  /// The data that a thread shares with no other thread.
+  /// The working column of one thread, and the finished columns that it stores.
   struct Worker {
     Worker(const Loops& loops)
         : chain(loops.cells_, loops.joins_, loops.field_, loops.context_),

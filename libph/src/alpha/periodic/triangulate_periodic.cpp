@@ -15,7 +15,7 @@ std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p
 /// A margin that is likely to be enough if the sites are uniformly distributed. In the interior it
 /// is the radius of the largest empty sphere plus the usual size of a cell. Near the end of an open
 /// axis, only a cap of an empty sphere lies among the sites; the flatter the cap, the wider it is,
-/// up to the diagonal of the closed axes.
+/// up to the diagonal of the box along its closed axes.
 class LikelyMargin {
  public:
   LikelyMargin(const Sites& sites, const Box& box) : box_(box) {
@@ -54,7 +54,7 @@ class LikelyMargin {
  private:
   const Box& box_;
   std::array<double, 3> low_, high_;
-  double around_ = 0;  // the diagonal of the closed axes
+  double around_ = 0;  // the diagonal of the box along its closed axes
   double inside_ = 0;
   int dim_ = 0;
 };

@@ -153,8 +153,7 @@ class ParallelReduction {
     const Column* older = nullptr;   // the column that has the pivot
   };
 
-  // The data that a thread shares with no other thread, except for finished columns: other threads
-  // read these, and they therefore do not move.
+  // The data of one thread. Other threads read its finished columns, which therefore do not move.
   struct Worker {
     using Unit = std::uint64_t;
     static_assert(alignof(Column) <= alignof(Unit) && sizeof(Column) % sizeof(Unit) == 0 &&
@@ -192,7 +191,7 @@ class ParallelReduction {
     return worker;
   }
 
-  // Makes looking for the column that has the pivot the next step, and prefetches for it.
+  // Prepares the next step, which looks up the column that has the pivot, and prefetches for it.
   template <class ExpectOwner>
   static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
     expect_owner(lane.pivot->cell);

@@ -72,7 +72,7 @@ class Basins {
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
-  // Joins nodes that were always there and are connected, because voxels never enter.
+  // Joins the nodes that are connected because a voxel never enters.
   void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {

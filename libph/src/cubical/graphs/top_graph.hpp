@@ -12,7 +12,7 @@
 namespace ph::cubical {
 
 /// The graph of top cells for two or three axes. Roots are critical top cells. Bridges are critical
-/// facets; with two axes, edges that are marked as paired with vertices are left out. The graph
+/// facets; with two axes, edges that are marked as paired with voxels are left out. The graph
 /// equals the graph of voxels of the image with reversed values.
 class TopGraph : public TopNodes<StarGrid, 3> {
  public:

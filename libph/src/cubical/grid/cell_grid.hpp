@@ -34,7 +34,7 @@ class CellMark {
   bool is_killed() const { return state() >= kKilled && state() < kKiller; }
   bool is_local_killer() const { return state() >= kKiller; }
   bool kills() const { return state() == kKills || is_local_killer(); }
-  /// The direction of the other cell of its pair. Precondition: is_killed() or is_local_killer().
+  /// The direction from the cell to its partner. Precondition: is_killed() or is_local_killer().
   int direction() const {
     return static_cast<int>(state() - (is_killed() ? unsigned{kKilled} : unsigned{kKiller}));
   }

@@ -132,8 +132,8 @@ class GridFrame {
     /// last in the grid.
     std::uint32_t wrapped = UINT32_MAX;
   };
-  /// True if the cells of a voxel at this coordinate are arranged differently from those inside the
-  /// grid.
+  /// True if the cells of a voxel at this coordinate are arranged differently from the cells of
+  /// voxels inside the grid.
   bool is_at_end(int a, std::uint32_t x) const {
     return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent || is_wrapped(a, x));
   }

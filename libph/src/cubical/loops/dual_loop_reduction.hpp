@@ -21,8 +21,8 @@ class DualLoopReduction {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param edges,squares critical cells of the stars' grid; neither of the two graphs pairs the
-  /// cells listed in their orders.
+  /// @param edges,squares critical cells of the stars' grid; the cells listed in `edges.order` and
+  /// `squares.order` are in no pair of the two graphs.
   DualLoopReduction(const StarGrid& grid, const CriticalCells& edges, const CriticalCells& squares,
                     const K& field, const RunContext& context)
       : grid_(grid),

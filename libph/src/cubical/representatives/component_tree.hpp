@@ -18,9 +18,9 @@ namespace ph::cubical {
 /// death, or items that enter before the death in the order of the filtration.
 enum class Before { value, order };
 
-/// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with the
-/// data that `ComponentPairing` forgets: the component into which each one merges. A component is
-/// named by the basin of its oldest root.
+/// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with data
+/// that `ComponentPairing` does not keep: the component that each component merges into. A
+/// component is named by the basin of its oldest root.
 template <class Graph>
 class ComponentTree {
  public:

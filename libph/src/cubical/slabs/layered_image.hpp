@@ -22,7 +22,8 @@ class LayeredImage {
     if (image.size() > GridCell::kMostVoxels) return false;
     return GridFrame::can_hold(LayeredImage(image).layers_of(image.voxels, 3));
   }
-  /// Precondition: GridShape keeps at least one axis and can hold all that it keeps.
+  /// Precondition: GridShape keeps at least one axis of the image, and at most
+  /// GridShape::kMostAxes.
   explicit LayeredImage(const CubicalImage& image) : image_(image), shape_(image) {}
 
   const GridShape& shape() const { return shape_; }

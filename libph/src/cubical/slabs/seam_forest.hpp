@@ -194,8 +194,8 @@ class SeamForest {
   /// of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
   /// The number of further roots, numbered after `roots`, that are nodes of the seam before the
-  /// layers. It is not 0 only if the layers right before are about to be joined; joining then
-  /// replaces these roots by others, and they need no data.
+  /// layers. It is 0 unless the layers right before are about to be joined; joining then replaces
+  /// these roots, which therefore need no data.
   std::uint32_t resolved = 0;
   std::array<std::uint32_t, 2> outside{};  ///< the roots of the two parts of the outside
   Seam before, after;                      ///< empty where the grid ends
