@@ -56,7 +56,7 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         if (grid.is_in_file && begin > 0)
           forget_file_pages(voxels + (begin - block), block * sizeof(T));
         const std::size_t end = std::min(count, begin + block);
-        bool any = false;  // without a branch, which allows several at a time
+        bool any = false;  // no branch, which lets the compiler vectorise the loop
         for (std::size_t i = begin; i < end; ++i) any |= voxels[i] != voxels[i];
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
@@ -77,7 +77,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
       lazy_(std::make_shared<Lazy>()) {
   check(image, options);
   const std::size_t count = voxels_.size();
-  if (count == 0) return;  // a file may hold an image without dimensions and voxels
+  if (count == 0) return;  // a file may hold an image that has neither axes nor voxels
   context.poll();
   claim_ = std::make_shared<MemoryClaim>(context.memory, voxels_.bytes());
   const double most = std::numeric_limits<double>::max();
@@ -111,7 +111,7 @@ void Cubical::prepare(const RunContext& context) const {
 
 const Cubical::Table& Cubical::make_table(const RunContext& context) const {
   std::unique_lock lock(lazy_->mutex, std::defer_lock);
-  while (!lock.try_lock()) {  // another thread is making it: this thread can still be stopped
+  while (!lock.try_lock()) {  // another thread makes the table; this one can still be stopped
     context.poll();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -127,10 +127,10 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
                 fmt::format("image: found {} voxels, at most 2^32 - 2 are possible if cells are "
                             "listed, as by all engines except gradient",
                             voxels_.size()));
-  // The table outlives the run, whose budget may be gone by then.
+  // The table may outlive this run, so its memory comes from the context of the constructor.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};
-  // Ranks of the voxels that enter, by (value, position).
+  // Voxels that enter get their ranks in the order of (value, position).
   struct Voxel {
     double value;
     std::uint32_t position;
@@ -172,8 +172,9 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     ticker.work(more);
   }
 
-  // Voxels are at the even coordinates (V) or at the odd ones (T). A cube of V enters with its last
-  // vertex, a face of T with its first coface: the keys spread axis by axis.
+  // Voxels lie at even coordinates (V construction) or at odd ones (T construction). A cube of V
+  // enters with its last vertex, a face of T with its first coface. The keys of the voxels are
+  // spread to the other cells along one axis after the other.
   const std::uint64_t voxel_parity = grid_.voxels_are_vertices ? 0 : 1;
   const auto grid_index = [&](std::uint64_t voxel) {
     std::uint64_t index = 0;
@@ -199,7 +200,8 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
   for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
-      // The layers below and above along the axis; at the border of T there is only one.
+      // The layers below and above along the axis; at the border of a T construction, only one of
+      // them exists.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       // mutant: cubical-wrap
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;

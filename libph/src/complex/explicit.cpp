@@ -46,14 +46,16 @@ void check_size(std::size_t cells) {
   }
 }
 
-// Tables have one row per dimension: a wrong number in a file must not make them huge.
+// Tables have one row per dimension. The limit keeps a wrong number in a file from making them
+// huge.
 constexpr int kLargestDimension = 65535;
 
 [[noreturn]] void refuse(std::string_view what, const std::string& fault) {
   throw Error(ErrorKind::bad_data, fmt::format("{}: {}", what, fault));
 }
 
-// Checks compressed rows: row i has the entries offsets[i] .. offsets[i+1] of `items`.
+// Checks the offsets of compressed rows: row i consists of the entries from offsets[i] to offsets[i
+// + 1] - 1. @param items the number of all entries.
 void check_offsets(std::string_view what, const std::vector<std::size_t>& offsets,
                    std::size_t items) {
   if (!offsets.empty() && offsets.front() == 0 && offsets.back() == items &&
@@ -79,7 +81,8 @@ void check_layout(const BoundaryMatrix& matrix) {
                              matrix.rows.size()));
 }
 
-// The boundary matrix of a set of simplices whose vertices are ascending.
+// The boundary matrix of a set of simplices. The vertices of each simplex must be in ascending
+// order.
 BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
                            const RunContext& context) {
   std::pmr::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices>
@@ -229,7 +232,8 @@ void ExplicitComplex::order_cells(const std::vector<int>& dims, std::span<const 
   }
 }
 
-// They come last in the order, and no cell that enters has one of them as a facet.
+// Cells of infinite value come last in the order, and none of them is a facet of a cell that
+// enters.
 void ExplicitComplex::leave_out_what_never_enters() {
   if (values_.empty() || values_.back() < kInfinity) return;
   const auto never = static_cast<std::uint32_t>(values_.size() - 1);
@@ -276,7 +280,7 @@ void ExplicitComplex::build_cofacets() {
   cofacets_.cells.resize(facets_.cells.size());
   cofacets_.incidences.resize(facets_.cells.size());
   std::vector<std::size_t> next(cofacets_.offsets.begin(), cofacets_.offsets.end() - 1);
-  for (std::uint32_t id = 0; id < n; ++id) {  // ascending: the oldest cofacet comes first
+  for (std::uint32_t id = 0; id < n; ++id) {  // ascending, which puts the oldest cofacet first
     for (std::size_t k = facets_.offsets[id]; k < facets_.offsets[id + 1]; ++k) {
       const std::size_t at = next[facets_.cells[k]]++;
       cofacets_.cells[at] = id;

@@ -15,9 +15,10 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-constexpr std::size_t kBytesPerEntry = 40;  // of the matrix, and of the complex made from it
+constexpr std::size_t kBytesPerEntry = 40;  // counts the matrix and the complex made from it
 
-/// The doubled grid around the voxels of an image.
+/// The cubes of an image, as points of the doubled grid: a cube has an odd coordinate along each
+/// axis in which it extends, and an even one along each other axis.
 class Cubes {
  public:
   Cubes(const Image& image, const CubicalOptions& options) : image_(image), options_(options) {
@@ -46,8 +47,8 @@ class Cubes {
     const double value = extreme_value(x, 0, 0);
     return value <= options_.threshold.value_or(kInfinity) ? value : kInfinity;
   }
-  /// Calls `visit(facet, incidence)` for the facets across axis k of a cube, which has an odd
-  /// coordinate there.
+  /// Calls `visit(facet, incidence)` for each facet of cube x across axis k. The coordinate x[k]
+  /// must be odd.
   template <class Visit>
   void for_each_facet(const Coordinates& x, std::size_t k, Visit&& visit) const {
     int sign = 1;
@@ -55,7 +56,7 @@ class Cubes {
     Coordinates lower = x, upper = x;
     lower[k] = x[k] - 1;
     upper[k] = (x[k] + 1) % lengths_[k];
-    if (lower == upper) return;  // the cube goes once around: its two ends cancel
+    if (lower == upper) return;  // the cube goes once around the axis, and its two ends cancel
     visit(upper, sign);
     visit(lower, -sign);
   }
@@ -64,8 +65,9 @@ class Cubes {
   bool voxels_are_vertices() const {
     return options_.construction == CubicalOptions::Construction::vertices;
   }
-  /// The value of a cube, axis by axis, among the voxels at coordinate x[k] of the doubled grid or
-  /// next to it: the last voxel (V) or the first one (T) decides.
+  /// The value of the cube x, by recursion from axis k on: the value of its last voxel (V
+  /// construction) or of its first voxel (T construction). @param voxel the coordinates of a voxel
+  /// along the axes before k, combined into one number.
   double extreme_value(const Coordinates& x, std::size_t k, Index voxel) const {
     if (k == x.size()) return voxel_value(voxel);
     const Index n = image_.extents[k];
@@ -102,7 +104,7 @@ ExplicitComplex listed_cubes(const Image& image, const CubicalOptions& options,
   const Cubes cubes(image, options);
   const auto count = static_cast<std::size_t>(cubes.size());
   const MemoryClaim claim(context.memory, count * (image.extents.size() + 1) * kBytesPerEntry);
-  // Facets are named before they are numbered, because a cell of a lower dimension may come later.
+  // All cubes are numbered before facets are listed, because a facet may come after its cube.
   std::vector<Index> numbers(count, kNotThere);
   std::vector<double> values(count);
   Index there = 0;

@@ -15,14 +15,15 @@
 namespace ph {
 namespace {
 
-/// The lower envelope of parabolas x² + height at integers, for one line of the image at a time.
+/// The lower envelope of the parabolas (x - q)² + f(q), one per integer q, for one line of the
+/// image at a time.
 class Envelope {
  public:
   Envelope(std::size_t length, std::pmr::memory_resource* memory)
       : heights_(length, memory), sites_(length, memory), starts_(length, memory) {}
 
-  /// Replaces f by min over q of (p - q)² + f(q). The result is infinite if f is infinite
-  /// everywhere.
+  /// Replaces each f(p) by the minimum over q of (p - q)² + f(q). If f is infinite everywhere, it
+  /// stays infinite.
   void transform(double* line, std::size_t stride, Ticker& ticker) {
     const std::size_t length = heights_.size();
     std::size_t count = 0;
@@ -53,16 +54,17 @@ class Envelope {
   }
 
  private:
-  /// The point at which the parabola of q, on the right, falls below the parabola of p.
+  /// The point where the parabola of q, which lies to the right of p, falls below the parabola of
+  /// p.
   double crossing(std::size_t p, std::size_t q) const {
     const auto a = static_cast<double>(p), b = static_cast<double>(q);
     return ((heights_[q] + b * b) - (heights_[p] + a * a)) / (2 * (b - a));
   }
 
   std::pmr::vector<double> heights_;
-  // Sites of the parabolas of the envelope, from left to right.
+  // The integers q whose parabolas form the envelope, from left to right.
   std::pmr::vector<std::size_t> sites_;
-  std::pmr::vector<double> starts_;  // the point from which each is the lowest
+  std::pmr::vector<double> starts_;  // the point from which each parabola is the lowest
 };
 
 void check(PointsView points, double voxel, Index margin) {
@@ -82,7 +84,7 @@ void check(PointsView points, double voxel, Index margin) {
         throw Error(ErrorKind::bad_data, "points: found a coordinate that is not finite");
 }
 
-/// A grid around points.
+/// The grid of voxels around a set of points.
 class Grid {
  public:
   Grid(PointsView points, double voxel, Index margin)
@@ -135,7 +137,8 @@ class Grid {
   std::size_t size_ = 0;
 };
 
-/// Replaces 0 and infinity by distances to the zeros.
+/// Replaces each value by the distance to the nearest voxel of value 0. All values must be 0 or
+/// infinity.
 void make_distances(const Grid& grid, double voxel, std::vector<double>& values, Ticker& ticker,
                     std::pmr::memory_resource* memory) {
   for (std::size_t k = 0; k < grid.extents().size(); ++k) {

@@ -40,7 +40,7 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
                       i));
 }
 
-/// For numbers whose squares may be too large for doubles.
+/// Works even if the squares of the numbers are too large for doubles.
 double root_mean_square(const std::vector<double>& numbers) {
   const double largest = std::ranges::max(numbers);
   if (!(largest > 0)) return 0;
@@ -49,7 +49,8 @@ double root_mean_square(const std::vector<double>& numbers) {
   return largest * std::sqrt(sum / static_cast<double>(numbers.size()));
 }
 
-/// The first diagram with the least sum of squared distances.
+/// The number of the diagram with the least sum of squared distances to all diagrams; the first if
+/// several have it.
 std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   const DistanceMatrix distances = diagram_distances(
       diagrams,
@@ -74,8 +75,8 @@ std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   return best;
 }
 
-/// The mean of some bars and, if there are fewer of them than `count`, of the points on the
-/// diagonal nearest to their mean. Infinite ends stay infinite.
+/// The mean of `count` points: the given bars and, if there are fewer than `count`, copies of the
+/// point on the diagonal that is nearest to their mean. Infinite ends stay infinite.
 Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
   const auto n = static_cast<double>(partners.size());
   double birth = 0, death = 0;
@@ -97,7 +98,7 @@ class Alternation {
       if (bar.birth < bar.death) bars_.push_back({0, bar.birth, bar.death});
   }
 
-  /// Matches all diagrams with the bars. @return the root mean square of the distances.
+  /// Matches each diagram with the present bars. @return the root mean square of the distances.
   double match() {
     const diagram::ThreadContexts contexts(diagrams_.size(), context_);
     for_each_piece("barycentre", diagrams_.size(), 1, context_,
@@ -113,7 +114,8 @@ class Alternation {
       distances.push_back(matching.distance.value);
     return root_mean_square(distances);
   }
-  /// Moves bars to the place that their partners prefer, by the matchings of the last `match`.
+  /// Moves each bar to the mean of its partners in the last `match`. A bar of a diagram that had no
+  /// partner adds a new bar.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;
@@ -132,7 +134,7 @@ class Alternation {
     std::erase_if(moved, [](const Bar& bar) { return !(bar.birth < bar.death); });
     bars_.swap(moved);
   }
-  /// The bars in order. Their former numbers are lost.
+  /// The bars, sorted by birth and then by death.
   std::vector<Bar> bars() const {
     std::vector<Bar> sorted = bars_;
     std::ranges::sort(sorted, {}, [](const Bar& bar) { return std::tie(bar.birth, bar.death); });

@@ -18,16 +18,17 @@ struct Pair {
   std::size_t bars() const { return a.size() + b.size(); }
 };
 
-/// @param count number of pairs. @param add_pairs adds them to a list.
+/// @param count the number of pairs. @param add_pairs appends all pairs to the list that it is
+/// given.
 template <class AddPairs>
 std::vector<double> distances_of(std::size_t count, const DiagramDistance& distance,
                                  const RunContext& context, AddPairs&& add_pairs) {
-  // The claim counts half of the sorted list once more, for the buffer of the merge.
+  // The claim counts half of the sorted list once more, for the buffer of the stable sort.
   const MemoryClaim claim(context.memory, count * (3 * sizeof(Pair) / 2 + sizeof(double)));
   std::vector<Pair> pairs;
   pairs.reserve(count);
   add_pairs(pairs);
-  // The largest come first, which keeps a thread from starting a large one at the end.
+  // The largest pairs come first, which keeps a thread from starting a large pair at the end.
   std::ranges::stable_sort(pairs, std::ranges::greater(), &Pair::bars);
   std::vector<double> result(pairs.size());
   const diagram::ThreadContexts contexts(pairs.size(), context);

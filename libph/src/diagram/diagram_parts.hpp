@@ -21,22 +21,22 @@ struct PlacedEnd {
 /// The bars of a diagram, divided by which of their ends are finite. Infinite bars are represented
 /// by their finite ends.
 struct DiagramParts {
-  std::vector<Point> finite;  // longest first, equally long ones in their original order
+  std::vector<Point> finite;  // longest first, bars of equal length in their original order
   std::vector<std::uint32_t> places;
   // Births of bars without death, and deaths of bars without birth.
   std::vector<PlacedEnd> rays[2];
   std::vector<std::uint32_t> lines;  // bars without birth and death
 
-  /// Leaves out bars of length 0. @param function its name, for messages.
-  /// @throws Error (bad_data) on a NaN, or a death before its birth.
+  /// Leaves out bars of length 0. @param function the name of the calling function, for messages.
+  /// @throws Error (bad_data) on a NaN, or on a bar that dies before it is born.
   DiagramParts(std::span<const Bar> bars, std::string_view function);
 };
 
 /// True if the infinite bars can be paired: both diagrams have the same number of each kind.
 bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 
-/// The places of infinite bars that are paired: on a line, crossing pairs have no advantage. Both
-/// must have the same number of each kind.
+/// Appends pairs of infinite bars, in the order of their finite ends, because crossing pairs have
+/// no advantage on a line. Both diagrams must have the same number of infinite bars of each kind.
 void pair_infinite(const DiagramParts& a, const DiagramParts& b,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 

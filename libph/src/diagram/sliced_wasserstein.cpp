@@ -17,8 +17,8 @@ namespace {
 using diagram::DiagramParts;
 using diagram::Point;
 
-/// Points of a diagram and, for each point of the other one, the nearest point of the diagonal; in
-/// a unit in which all numbers are below 1.
+/// The points of one diagram and, for each point of the other diagram, the nearest point of the
+/// diagonal, all divided by 2^exponent.
 std::vector<Point> with_diagonal(const DiagramParts& own, const DiagramParts& other, int exponent) {
   std::vector<Point> points;
   points.reserve(own.finite.size() + other.finite.size());
@@ -49,8 +49,8 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
                 fmt::format("sliced_wasserstein_distance: found {} directions, expected at least 1",
                             directions));
   const auto count = static_cast<std::size_t>(directions);
-  // Memory: the bars in parts, points of both for all, numbers of both for each thread, and one sum
-  // per direction.
+  // Memory for the parts of both diagrams, for the points that all threads share, for the
+  // projections in each thread, and for one sum per direction.
   const MemoryClaim claim(
       context.memory,
       sizeof(double) * (count + (a.size() + b.size()) * (12 + 2 * thread_count(context))));

@@ -12,7 +12,7 @@ namespace {
 
 using diagram::DiagramParts;
 
-/// The part of the distance that infinite bars decide.
+/// The bottleneck distance of the infinite bars alone.
 double distance_of_infinite(const DiagramParts& a, const DiagramParts& b) {
   if (!diagram::have_as_many_infinite(a, b)) return kInfinity;
   double result = 0;
@@ -22,7 +22,7 @@ double distance_of_infinite(const DiagramParts& a, const DiagramParts& b) {
   return result;
 }
 
-/// The finite bars of two diagrams, and matchings from either side.
+/// The finite bars of two diagrams, and a one-sided matching in each direction.
 class TwoSides {
  public:
   TwoSides(const DiagramParts& a, const DiagramParts& b, const RunContext& context)
@@ -35,8 +35,8 @@ class TwoSides {
     const DistanceBounds second = back_.narrow(bounds, limits);
     return {std::max(bounds.value, second.value), second.lower};
   }
-  /// For each bar of the first diagram: its partner in the second, or kNone. @param distance as
-  /// found by `bounds`
+  /// For each bar of the first diagram: its partner in the second, or kNone. @param distance the
+  /// value that `bounds` has returned.
   std::vector<std::uint32_t> partners(double distance) {
     there_.match_at(distance);
     back_.match_at(distance);
@@ -49,7 +49,7 @@ class TwoSides {
   diagram::OneSidedMatching there_, back_;
 };
 
-// Trees count their own memory, and so do the sets of their remaining points.
+// Without the trees and the sets of their remaining points, which count their own memory.
 constexpr std::size_t kBytesABar = 160;
 
 }  // namespace

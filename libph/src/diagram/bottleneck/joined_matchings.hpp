@@ -9,16 +9,16 @@
 
 namespace ph::diagram {
 
-/// Merges two matchings, one with all long bars of the first diagram and one with all long bars of
-/// the second, into one with all long bars of both. Together they form paths and cycles, whose
-/// pairs alternate between the two matchings; on each path, one of the two has all long bars
-/// (Mendelsohn and Dulmage).
+/// Merges two matchings, one that covers all long bars of the first diagram and one that covers all
+/// long bars of the second, into one that covers the long bars of both. The pairs of the two
+/// matchings form paths and cycles on which the matchings alternate. On each path, one of the two
+/// matchings covers all long bars (Mendelsohn and Dulmage).
 class JoinedMatchings {
  public:
   using Mates = std::span<const std::uint32_t>;
 
-  /// @param first_of_a, first_of_b the first matching, by bars of either diagram; kNone if there is
-  /// no pair.
+  /// @param first_of_a, first_of_b the first matching: the partner of each bar of the first and of
+  /// the second diagram, or kNone. @param second_of_a, second_of_b the second matching, likewise.
   JoinedMatchings(Mates first_of_a, Mates first_of_b, Mates second_of_a, Mates second_of_b)
       : mates_{{first_of_a, first_of_b}, {second_of_a, second_of_b}},
         seen_(first_of_a.size() + first_of_b.size()) {}
@@ -26,7 +26,8 @@ class JoinedMatchings {
   /// @return the partner of each bar of the first diagram, or kNone.
   std::vector<std::uint32_t> join() {
     partners_.assign(mates_[0][0].size(), kNone);
-    // Starts paths at their ends, which have a pair in only one matching; the rest are cycles.
+    // Follows paths first, from their ends, which have a pair in only one matching. Only cycles are
+    // left after that.
     for (const bool ends : {true, false})
       for (std::size_t side : {0U, 1U})
         for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {
@@ -46,8 +47,8 @@ class JoinedMatchings {
     return seen_[side * mates_[0][0].size() + i];
   }
   /// Follows a path from one of its ends, or a cycle, and keeps the pairs of one matching: the one
-  /// with more pairs. If both have as many, it keeps the first matching if the bar at the end
-  /// belongs to the first diagram, otherwise the second.
+  /// with more pairs. If both have the same number of pairs, it keeps the first matching if the
+  /// path starts at a bar of the first diagram, otherwise the second matching.
   void take(std::size_t side, std::uint32_t start, std::size_t matching) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs[2];
     std::size_t at_side = side, at_matching = matching;

@@ -24,7 +24,7 @@ double OneSidedMatching::lower_bound(double bound) {
     ticker_.work();
     const PointsLeft::Nearest nearest = free_->nearest(p, alone);
     bound = std::max(bound, nearest.distance);
-    // No bar is near a bar whose length decides the bound: any position is fine.
+    // If no bar is closer than the diagonal, any position will do.
     candidates_.push_back({p, alone, place, nearest.position == kNone ? 0 : nearest.position});
   }
   return bound;
@@ -51,19 +51,19 @@ DistanceBounds OneSidedMatching::narrow(const DistanceBounds& bounds,
   };
   if (!is_done() && limits.at_most >= found.lower && limits.at_most < found.value)
     probe(limits.at_most);
-  // The radius that would end the search, if it is possible.
+  // If this radius turns out to be possible, the search is over.
   const auto last = [&] {
     return std::max(found.lower * (1 + limits.relative_error), std::min(bounds.value, found.value));
   };
-  // Moves away from the lower bound in growing steps: the answer is usually near.
+  // Moves away from the lower bound in growing steps, because the answer is usually near it.
   bool is_possible = is_done() || probe(last());
   for (double step = 1.01; !is_done() && !is_possible; step *= step) {
     const double radius = std::max(found.lower * step, last());
     if (!(radius < found.value)) break;
     is_possible = probe(radius);
   }
-  // Searches between the bounds. Every fourth time it tries the radius that would end the search:
-  // the bounds rise to the answer.
+  // Searches between the bounds. Every fourth time it tries the radius that would end the search,
+  // because the lower bound may already be the answer.
   for (int i = 1; !is_done(); ++i) {
     const double middle = found.lower + (found.value - found.lower) / 2;
     probe(i % 4 == 0 || middle >= found.value ? last() : middle);
@@ -80,14 +80,14 @@ std::optional<double> OneSidedMatching::hall_bound(double radius) {
   }
   keep_pairs_within(radius);
   std::vector<Number> alone = pair_with_free(radius);
-  // Searches in depth as long as this pairs many bars, which happens when most bars have many
-  // partners.
+  // Searches depth first as long as this pairs at least half of the bars that are left, which
+  // happens when most bars have many possible partners.
   for (std::size_t before = 2 * alone.size(); alone.size() <= before / 2 && !alone.empty();) {
     before = alone.size();
     search_in_depth(alone, radius);
   }
   while (!alone.empty()) {
-    // Searches thoroughly from one of them: if this fails, no other one has to be tried.
+    // Searches exhaustively from one unpaired bar. If this fails, no other bar has to be tried.
     std::swap(alone[random_() % alone.size()], alone.back());
     std::vector<Number> one = {alone.back()};
     alone.pop_back();
@@ -156,8 +156,8 @@ void OneSidedMatching::grow_trees(std::vector<Number>& roots, double radius) {
   unseen_->restore_all();
   nodes_.clear();
   const auto is_paired = [&](Number root) { return partner_[root] != kNone; };
-  // A bar that is reached looks for a free bar at once: the last layer of a tree, the largest,
-  // never grows.
+  // A bar looks for a free bar as soon as it is reached. The last layer of a tree, which is the
+  // largest, is therefore never expanded.
   const auto reach = [&](Number a, Number root) {
     root_of_[a] = root;
     nodes_.push_back(a);

@@ -11,16 +11,17 @@ namespace ph::diagram {
 
 /// The remaining points of a tree, in the maximum metric: one byte per node. The byte of a leaf has
 /// one bit per point; the byte of an inner node is zero if and only if no point is left. Distances
-/// equal those of `distance`, to the last digit.
+/// are exactly those that `distance` computes.
 class PointsLeft {
  public:
   using Position = PointTree::Position;
 
-  /// All points are left. @param tree must outlive this object.
+  /// Starts with all points left. @param tree must outlive this object.
   PointsLeft(const PointTree& tree, const RunContext& context);
 
   void restore_all() { left_ = all_; }
-  /// The same as restore_all and then `remove` for each point that `is_left` rejects, but in O(n).
+  /// Does the same as restore_all followed by `remove` for each point that `is_left` rejects, but
+  /// in O(n).
   template <class IsLeft>
   void restore(IsLeft&& is_left) {
     for (Node node = tree_.node_count() - 1; node > 0; --node) {
@@ -40,11 +41,12 @@ class PointsLeft {
     return (left_[leaf] >> (q - tree_.begin(leaf)) & 1U) != 0;
   }
   void remove(Position q);
-  /// Removes some point at a distance of at most `radius`, trying points near `near` in the order
-  /// of the tree first. @return its position, or kNone if there is none.
+  /// Removes one point at a distance of at most `radius` from p. Points near `near` in the order of
+  /// the tree are tried first. @return its position, or kNone if there is none.
   Position take(const Point& p, double radius, Position near);
 
-  /// Removes all points at a distance of at most `radius`, and calls `visit(position)` for each.
+  /// Removes all points at a distance of at most `radius` from p, and calls `visit(position)` for
+  /// each.
   template <class Visit>
   void take_all(const Point& p, double radius, Visit&& visit) {
     if (left_[1] != 0 && tree_.distance_to_box(p, 1) <= radius) take_all_below(1, p, radius, visit);
@@ -64,7 +66,8 @@ class PointsLeft {
  private:
   using Node = PointTree::Node;
 
-  /// A node becomes zero once both of its children are; until then nothing changes above it.
+  /// Updates the ancestors of a node that may have become zero, up to the first ancestor that still
+  /// has points.
   void empty_above(Node node) {
     while (node > 1 && left_[node] == 0) {
       node /= 2;

@@ -11,7 +11,8 @@ Assignment::Side::Side(std::span<const Point> points, std::size_t others, const 
     : tree(points, context), prices(tree, cost, context), partner(points.size(), kNone) {
   for (Position q = 0; q < points.size(); ++q) {
     alone.push_back(std::min(cost.alone(tree.point(q)), most));
-    // Both trees are divided along the same, or nearly the same, axes.
+    // The search begins at the same relative position, because both trees are divided along nearly
+    // the same axes.
     near.push_back(static_cast<Position>(std::uint64_t{q} * others / points.size()));
   }
 }
@@ -43,7 +44,8 @@ Assignment::Costs Assignment::costs() const {
         cost += pair_cost(0, x, mine.partner[x]);
     }
   }
-  // Each price is a difference of two numbers, rounded: twice the unit of either is enough.
+  // Each price is a rounded difference of two numbers, whose error is at most twice the rounding
+  // unit.
   constexpr long double unit = 2.3e-16L;
   sizes += cost;
   return {static_cast<double>(cost),

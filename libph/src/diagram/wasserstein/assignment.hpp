@@ -12,17 +12,18 @@
 
 namespace ph::diagram {
 
-/// A matching of two sets of points with one diagonal, with prices that certify its quality.
+/// A matching between two sets of points, and prices that certify its quality. A point may also
+/// stay alone, at the cost of moving it to the diagonal.
 ///
 /// Prices u of the first set and w of the second are feasible: u_a + w_b <= cost(a, b) for all
-/// pairs, u_a <= cost(a alone), w_b <= cost(b alone). Every matching therefore costs at least their
-/// sum. The matching costs exactly that sum if its pairs have u_a + w_b = cost(a, b) and each point
-/// without a partner has its cost alone as price.
+/// pairs, u_a <= cost(a alone), w_b <= cost(b alone). Every matching therefore costs at least the
+/// sum of all prices. A matching costs exactly that sum if u_a + w_b = cost(a, b) for each of its
+/// pairs and if the price of each point without a partner is its cost alone.
 class Assignment {
  public:
   using Position = PointTree::Position;
 
-  /// Points of one diagram, their prices and partners by position in their tree.
+  /// The points of one diagram. Their prices and partners are listed by position in the tree.
   struct Side {
     PointTree tree;
     WeightedTree prices;
@@ -36,8 +37,9 @@ class Assignment {
 
   /// Starts without pairs, with prices of -infinity. Both sets must have points and outlive this
   /// object.
-  /// @param most an upper bound for the cost of a point without a partner. If a matching costs less
-  /// than that, the optimal matching does not change, and prices are rounded to digits of its size.
+  /// @param most an upper bound for the cost of a point without a partner. If some matching costs
+  /// less than that, the bound does not change the optimal matching, and it keeps rounding errors
+  /// of prices small.
   Assignment(std::span<const Point> a, std::span<const Point> b, const GroundCost& cost,
              const RunContext& context, double most = std::numeric_limits<double>::infinity())
       : cost_(cost),
@@ -52,7 +54,7 @@ class Assignment {
   double pair_cost(std::size_t k, Position x, Position y) const {
     return cost_.pair(sides_[k].tree.point(x), sides_[1 - k].tree.point(y));
   }
-  /// The two best partners for x of side k, at the prices of the other side.
+  /// The two best partners for point x of side k, at the prices of the other side.
   WeightedTree::Best best_two(std::size_t k, Position x);
   void pair(std::size_t k, Position x, Position y) {
     sides_[k].partner[x] = y;
@@ -73,7 +75,8 @@ class Assignment {
     double cost, lower;
   };
   Costs costs() const;
-  /// By place among the points of the first set: the place of the partner in the second, or kNone.
+  /// For each point of the first set, in the order of the input: the place of its partner in the
+  /// second set, or kNone.
   std::vector<std::uint32_t> partners() const;
 
  private:
@@ -84,7 +87,7 @@ class Assignment {
 /// Finds the best matching and its prices by shortest augmenting paths, one per point of the first
 /// set (Jonker, Volgenant 1987). It is slower than an auction, but has no increments: the number of
 /// its steps is bounded for any costs.
-/// @param assignment in any state.
+/// @param assignment may be in any state.
 void assign_by_shortest_paths(Assignment& assignment, const RunContext& context);
 
 }  // namespace ph::diagram

@@ -13,16 +13,15 @@ constexpr double kStep = 6;
 /// After this many bids per bar, the first round takes larger steps.
 constexpr std::uint64_t kBidsAStep = 3;
 
-/// An upper bound for the rounding error of the difference: a bid that is lower by this is really
-/// lower.
+/// An upper bound for the rounding error of cost - price. A bid that is lower by this amount is
+/// truly lower.
 double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(price)); }
 
 }  // namespace
 
 Auction::Auction(Assignment& assignment, const RunContext& context)
     : assignment_(assignment), ticker_(context, "Wasserstein distance") {
-  // The first prices do not exceed costs: they start at zero and are raised on one side after the
-  // other.
+  // The first prices are feasible: they start at zero and are raised on one side after the other.
   Assignment::Side& mine = assignment_.side(0);
   for (Position x = 0; x < mine.tree.size(); ++x) mine.prices.set(x, 0);
   for (const std::size_t k : {1U, 0U})
@@ -41,15 +40,17 @@ bool Auction::run(const std::function<bool(const Assignment::Costs&)>& is_enough
       alone += cost;
       ++count;
     }
-  // The cost of pairs is usually of the size of the first prices; for equal diagrams these are
-  // zero.
+  // The cost of a pair is usually about as large as the first prices, which are zero for equal
+  // diagrams.
   increment_ = std::max(assignment_.costs().lower, 1e-3 * alone) / static_cast<double>(count);
-  // If many points bid for few, prices must rise far: the first round may take larger steps.
+  // If many points bid for few, prices must rise far. The first round may therefore take larger
+  // steps.
   most_increment_ = std::max(increment_, alone / static_cast<double>(count));
   for (;;) {
     if (!round(most_bids)) return false;
     const Assignment::Costs costs = assignment_.costs();
-    // Pairs exceed their prices by at most the increment: the rest is rounding.
+    // The cost of a pair exceeds its prices by at most the increment. When that is this small, all
+    // else is rounding.
     if (is_enough(costs) || increment_ * static_cast<double>(count) <= 1e-14 * costs.cost)
       return true;
     increment_ /= kStep;

@@ -11,21 +11,23 @@ namespace ph::diagram {
 /// 1992), in rounds with decreasing increments.
 class Auction {
  public:
-  /// @param assignment without pairs; it must outlive this object.
+  /// @param assignment must have no pairs, and must outlive this object.
   Auction(Assignment& assignment, const RunContext& context);
 
-  /// Runs rounds until the costs are close enough, or until prices cannot be told apart any more.
-  /// @param is_enough asked after each round.
-  /// @param most_bids limit for the bids of a round; the auction is abandoned beyond it.
-  /// @return false if it was abandoned: the assignment is meaningless then.
+  /// Runs rounds until the costs are close enough, or until the increment is no larger than
+  /// rounding errors.
+  /// @param is_enough called after each round; true if the costs are close enough.
+  /// @param most_bids the largest number of bids in a round, beyond which the auction is abandoned.
+  /// @return false if the auction was abandoned; the assignment is then meaningless.
   bool run(const std::function<bool(const Assignment::Costs&)>& is_enough, std::uint64_t most_bids);
 
  private:
   using Position = PointTree::Position;
 
-  /// Settles all points at increment_, which may rise to most_increment_. @return as settle.
+  /// Settles all points at increment_, which may rise to most_increment_. @return false if there
+  /// are too many bids.
   bool round(std::uint64_t most_bids);
-  /// x bids for its best partner, and so does every point that is outbid.
+  /// Point x bids for its best partner, and so does every point that is outbid.
   /// @return false if there are too many bids.
   bool settle(std::size_t k, Position x);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGone = -std::numeric_limits<double>::infinity();
 
-/// Trees of shortest paths in the reduced costs (Dijkstra), one after the other.
+/// Grows one tree of shortest paths after the other, for the reduced costs (Dijkstra).
 class ShortestPaths {
  public:
   using Position = PointTree::Position;
@@ -39,7 +39,7 @@ class ShortestPaths {
       step = steps_.top();
       steps_.pop();
       if (step.to == kNone) break;
-      // Another path reached it first.
+      // Another path reached this point first.
       if (other_.prices.weight(step.to) == kGone) {
         add_step(step.node);
         continue;
@@ -64,7 +64,8 @@ class ShortestPaths {
     double length;  // length of the path
     double price;   // former price of y
   };
-  /// A step from a node to a point of the other side, or kNone if x stays alone.
+  /// A step from a node to a point of the other side. `to` is kNone if the point of the node stays
+  /// alone.
   struct Step {
     double length;
     std::size_t node;
@@ -108,7 +109,7 @@ class ShortestPaths {
   Assignment& assignment_;
   Assignment::Side &mine_, &other_;
   std::vector<Node> nodes_;
-  std::vector<std::size_t> reached_from_;  // node, by position
+  std::vector<std::size_t> reached_from_;  // node from which each position was reached
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
   Ticker ticker_;
 };
