@@ -23,7 +23,7 @@ TEST(Extension, TheEngineIsThere) {
 }
 
 TEST(Extension, ANameIsGivenOnce) {
-  expect_error(ErrorKind::usage, "engine twist: there is one of that name",
+  expect_error(ErrorKind::usage, "engine twist: found a second engine of that name",
                [] { add_engine<TwistEngine>(); });
 }
 

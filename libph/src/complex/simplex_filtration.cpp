@@ -17,7 +17,7 @@ void refuse_late_face(std::span<const Index> face, double face_value, std::span<
                       double coface_value) {
   throw Error(ErrorKind::bad_data,
               fmt::format("simplex {}: found value {}, expected at least {}, the value of its face "
-                          "{}; if that is rounding, take the largest value of all faces",
+                          "{}; if rounding is the cause, use the largest value of all faces",
                           fmt::join(coface, " "), coface_value, face_value, fmt::join(face, " ")));
 }
 

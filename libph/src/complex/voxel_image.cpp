@@ -101,7 +101,7 @@ class Grid {
       size *= extent;
       if (!(size < 4294967295.0))
         throw Error(ErrorKind::resource,
-                    fmt::format("voxels of {} make an image of more than 2^32 - 2 voxels", voxel));
+                    fmt::format("a voxel size of {} makes an image of more than 2^32 - 2 voxels", voxel));
       extents_.push_back(static_cast<Index>(extent));
     }
     size_ = static_cast<std::size_t>(size);

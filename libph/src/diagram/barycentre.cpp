@@ -36,7 +36,7 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
       throw Error(
           ErrorKind::bad_data,
           fmt::format("barycentre: found different numbers of infinite bars in diagram {} and "
-                      "in diagram 0, expected as many of each kind; leave them out",
+                      "in diagram 0, expected the same number of each kind; leave out infinite bars",
                       i));
 }
 

@@ -17,7 +17,8 @@ using RenameCell = std::function<void(Numbers&)>;
 
 Numbers numbers_of(const InputCell& cell) { return {cell.numbers.begin(), cell.numbers.end()}; }
 
-/// Gives the last bar added the representative of bar i of another barcode.
+/// Gives the bar that was added last to `to` the representative of bar i of `from`, without the
+/// cells that `keep` rejects.
 void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const KeepCell& keep,
                          const RenameCell& rename) {
   if (from.representatives() == Representatives::none) return;
@@ -34,7 +35,7 @@ void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const 
   to.set_representative(from.representatives(), numbers, coefficients);
 }
 
-/// The cells beyond a value, each with its numbers in the input.
+/// The cells with a value above the threshold, each given by its numbers in the input.
 std::set<Numbers> cells_beyond(const ExplicitComplex& complex, double threshold) {
   std::set<Numbers> beyond;
   for (int dim = 0; dim <= complex.top_dim(); ++dim)
@@ -47,7 +48,8 @@ std::set<Numbers> cells_beyond(const ExplicitComplex& complex, double threshold)
   return beyond;
 }
 
-/// Grid coordinates and matrix rows are not numbers of points.
+/// @throws Error (usage) unless cells are given by vertices, because grid coordinates and matrix
+/// rows are not numbers of points.
 void require_vertices(CellKind kind) {
   if (kind != CellKind::vertices)
     throw Error(ErrorKind::usage,

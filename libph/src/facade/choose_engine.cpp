@@ -58,7 +58,7 @@ void refuse(Engine asked, const Task& task) {
     throw Error(ErrorKind::usage,
                 "sets of voxels need an image of at most three axes that have more than one voxel, "
                 "and bars of positive length");
-  throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
+  throw Error(ErrorKind::usage, "cocycles need a complex that can list the cofacets of its cells");
 }
 
 }  // namespace ph::detail

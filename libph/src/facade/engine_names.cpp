@@ -31,7 +31,7 @@ std::vector<EngineFacts>& detail::engine_facts() {
 void detail::add_facts(const EngineFacts& facts) {
   if (engine_named(facts.id.name()))
     throw Error(ErrorKind::usage,
-                fmt::format("engine {}: there is one of that name", facts.id.name()));
+                fmt::format("engine {}: found a second engine of that name", facts.id.name()));
   engine_facts().push_back(facts);
 }
 
@@ -39,7 +39,7 @@ const EngineFacts& facts_of(Engine engine) {
   const auto& all = detail::engine_facts();
   const auto found = std::ranges::find(all, engine, &EngineFacts::id);
   if (found == all.end())
-    throw Error(ErrorKind::usage, fmt::format("engine: there is none named {}", engine.name()));
+    throw Error(ErrorKind::usage, fmt::format("engine: found the unknown name {}", engine.name()));
   return *found;
 }
 

@@ -32,7 +32,7 @@ std::vector<double> cells_of(const F& filtration, int top, const RunContext& con
   return cells;
 }
 
-/// Bytes that the complex holds while the engine works.
+/// The number of bytes that the complex takes while the engine works.
 double stored_bytes(const Cubical& cubical, bool lists_cells) {
   const auto voxels = static_cast<double>(cubical.cubical_image().size());
   const auto held = static_cast<double>(cubical.voxel_bytes());
@@ -50,7 +50,8 @@ double stored_bytes(const ExplicitComplex& complex, bool) {
 }
 
 double stored_bytes(const Alpha& alpha, bool lists_cells) {
-  // Bytes per cell of the triangulation, and per cell listed for generic engines instead.
+  // Bytes per top cell of the triangulation, and bytes per cell if cells are listed for generic
+  // engines.
   constexpr double bytes_of_top_cell = 90, bytes_of_listed_cell = 160;
   const std::vector<std::size_t> counts = alpha.simplex_counts();
   double all = 0;
@@ -71,7 +72,7 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   const bool is_short = forecast.high - held > left || context.slab_layers > 0;
   if (!is_short || with_representatives) return forecast;
   forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
-  constexpr double bytes_of_bars = 8;  // per voxel of noise
+  constexpr double bytes_of_bars = 8;  // per voxel, measured on noise
   if (cubical::can_pair_by_layers(grid, wanted))
     forecast.high = std::max(std::min(forecast.high, held + left),
                              forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
@@ -102,7 +103,7 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   return e;
 }
 
-/// For a filtration whose form exists or can be made.
+/// The estimate for a filtration whose form exists or can be made.
 Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = planned;
@@ -136,7 +137,7 @@ Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunConte
       count_cliques(complex, detail::listed_rips_dim(settled.engine, max_dim), context);
   e.cells = cliques.counts;
   e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
-  if (collapsed)  // without cells, no homology
+  if (collapsed)  // there are no cells if the homology was not planned
     max_dim = std::min(max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
   e.options.max_dim = max_dim;
   const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);
@@ -147,7 +148,8 @@ Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunConte
   return e;
 }
 
-/// For a filtration whose edges do not fit the memory: a sample of pairs estimates their number.
+/// The estimate for a filtration whose edges do not fit into memory; their number is estimated from
+/// a sample of pairs.
 Estimate estimate_sampled(const Rips& rips, const Options& options, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = detail::plan_without_edges(rips, options);
@@ -163,13 +165,14 @@ Estimate estimate_sampled(const Rips& rips, const Options& options, const RunCon
 /// False if making the edges would take long and a sample says that they do not fit.
 bool can_be_tried(const Rips& rips, const RunContext& context) {
   constexpr double bytes_of_edge = 16;
-  constexpr Index few_points = 60'000;  // their distances take seconds
+  constexpr Index few_points = 60'000;  // computing their distances takes seconds
   return rips.size() <= few_points || !rips.has_input() || rips.options().approximation ||
          bytes_of_edge * rips.sample(context).edges < static_cast<double>(context.memory.left());
 }
 
 Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
-  // Without a limit, the machine's memory is the limit: an estimate must not fill it.
+  // If no limit is set, the memory of the machine is the limit, because an estimate must not fill
+  // it.
   RunContext within(context.memory);
   within.memory.set_limit(std::min(context.memory.left(), machine_memory()));
   within.stop = context.stop;

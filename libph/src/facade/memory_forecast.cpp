@@ -14,28 +14,30 @@
 namespace ph::detail {
 namespace {
 
-// Bytes of a bar while bars are sorted; its cells (vertex and edge, or edge and triangle) are
-// extra.
+// Bytes per bar while bars are sorted, and additional bytes per bar for its birth and death cells
+// (vertex and edge, or edge and triangle).
 constexpr double kBytesPerBar = 24 + 24, kBytesPerCells = 32 + 5 * 8 + 48;
 double bytes_per_bar(const Options& options) {
   return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
 }
 
-// Small containers, the allocator and the pages of the program's own code.
+// Bytes that every run takes: small containers, the allocator, and the pages of the program's own
+// code.
 constexpr double kAlways = 4 << 20;
-// Cells that the engine lists in the larger of the parts that it computes: enough to show how
-// memory grows, and few enough to take seconds and a fraction of the total time.
+// The number of cells that the engine lists in the larger of the parts that it computes: enough to
+// show how memory grows, but few enough to take only seconds and a fraction of the total time.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
 constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
-// Measured: memory grows in leaps, and faster overall than from part to part, unless the complex is
-// many such parts side by side.
+// Margins, because memory grows in leaps (measured), and grows faster overall than from part to
+// part unless the complex consists of many such parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
 
 double sum(std::span<const double> counts) {
   return std::accumulate(counts.begin(), counts.end(), 0.0);
 }
 
-/// Memory that does not depend on the homology, except for the edges: bit rows, adjacency.
+/// The memory for bit rows or adjacency lists, which does not depend on the homology. It does not
+/// include the edges.
 double structure(std::size_t size, std::size_t edge_count, Engine engine) {
   if (const auto bytes_of_engine = facts_of(engine).rips_bytes)
     return bytes_of_engine(size, edge_count);
@@ -156,7 +158,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   const double edges = 16 * static_cast<double>(graph.edge_count());
   const double known = edges + structure(graph, options.engine);
   const double most = known + bytes_per_bar(options) * static_cast<double>(graph.size()) + kAlways;
-  // The link sweep stops once nothing more happens; its lists are not full by then.
+  // The link sweep stops once nothing more can happen, usually before its lists are full.
   const double least = options.engine == Engine::edge_links ? edges : known;
   if (graph.is_forest() || graph.size() < 2) return {least, most};
   const bool lists_edges_only = listed_rips_dim(options.engine, *options.max_dim) < 2;
@@ -171,8 +173,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   };
   const Pilot large = pilot(1, wanted);
   if (large.listed >= listed) return {least, most + 1.25 * large.extra};
-  // extra = listed^power, fitted to smaller parts; there are two of them, because memory grows in
-  // leaps.
+  // extra = listed^power, fitted to smaller parts. Two of these are computed and averaged, because
+  // memory grows in leaps.
   Pilot small;
   for (const std::uint64_t seed : {1, 2}) {
     const Pilot one = pilot(seed, wanted / 4);
@@ -218,7 +220,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
     const Barcode barcode = persistence(Rips(std::move(sample), rips_options, own), options, own);
     return static_cast<double>(own.memory.peak());
   };
-  const double least = 2.5 * held;  // the tree has a copy of the points, and boxes
+  const double least = 2.5 * held;  // the tree holds a copy of the points, and boxes
   if (points.rows() == 0) return {held, held + kAlways};
   const Index large = std::min(kLarge, points.rows()), small = std::min(kSmall, points.rows());
   const double of_large = peak_of(large);
@@ -227,8 +229,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
   if (small < large)
     power = std::log(of_large / of_small) /
             std::log(static_cast<double>(large) / static_cast<double>(small));
-  // Measured: pairs of nodes that wait across holes are added to the part that grows with the
-  // points.
+  // Measured: besides the part that grows with the points, there are pairs of nodes on opposite
+  // sides of holes that wait in the queue.
   power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
   const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
   return {least, held + 2 * of_large * std::pow(factor, power) +
@@ -237,8 +239,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
-  // Measured on noise: critical cells with their columns, and bars; representatives have long
-  // chains.
+  // Measured on noise: bytes for critical cells with their columns, and for bars. Representatives
+  // take more, because their chains are long.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;
   return {stored,
@@ -246,14 +248,14 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
 }
 
 MemoryForecast forecast_intervals(double stored, bool with_representatives) {
-  // Measured: critical simplices with their columns (almost none for a surface, many for noise),
-  // and cycles.
+  // Measured: factors for critical simplices with their columns (almost none for a surface, many
+  // for noise), and for cycles.
   return {stored, (with_representatives ? 5.5 : 2.0) * stored + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
-  // A column with its place in the table of pivots and in the list to reduce, or the pair of a
-  // cell; fill-in is extra.
+  // Bytes for a column with its entries in the table of pivots and in the list of columns to
+  // reduce, or for the pair of a cell. Fill-in is not counted.
   constexpr double bytes_per_column = 128;
   return {stored, stored + bytes_per_column * sum(cells) + kAlways};
 }

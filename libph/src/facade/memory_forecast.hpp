@@ -7,7 +7,7 @@
 
 namespace ph::detail {
 
-/// Lower and upper bound, in bytes, for the expected peak of a computation.
+/// A lower and an upper bound, in bytes, for the expected peak memory of a computation.
 struct MemoryForecast {
   double low = 0, high = 0;
 };
@@ -18,12 +18,13 @@ int listed_rips_dim(Engine engine, int max_dim);
 /// The memory that the homology of a Rips complex takes in addition to its edges. The engine
 /// computes three small parts of the complex; the memory that it takes there beyond bit rows or
 /// adjacency is extrapolated.
-/// @param cells by dimension, up to listed_rips_dim. @param options with engine and dimension,
-/// without collapse.
+/// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must
+/// name an engine and a dimension, without a collapse.
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
-/// The same including the edges, which are too many to make, from their approximate number.
+/// The same for edges that are too many to be made, from their approximate number. The forecast
+/// includes the edges.
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
 
 /// The same for an engine that takes only points: it computes two samples of them.
@@ -31,8 +32,9 @@ MemoryForecast forecast_edges(Index vertices, double edges, const Options& optio
 MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
                                const Options& options, const RunContext& context);
 
-/// The same for an image that is paired voxel by voxel: between a smooth image, with almost no
-/// critical cells, and noise. @param stored includes the data kept per voxel.
+/// The same for an image that is paired voxel by voxel. The bounds are for a smooth image, with
+/// almost no critical cells, and for noise. @param stored the bytes of the image and of the data
+/// kept per voxel.
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives);
 

@@ -61,8 +61,8 @@ std::vector<Index> MergeTree::components(double value) const {
     if (!(m.value <= value)) break;  // stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A parent was born before its child: follow parents to the root, halving the path for later
-  // vertices.
+  // A parent was born before its child: the loop follows parents to the root, and halves the path
+  // for later vertices.
   for (std::size_t v = 0; v < parent.size(); ++v) {
     for (Index root = parent[v]; root >= 0;) {
       Index& up = parent[static_cast<std::size_t>(root)];
@@ -101,7 +101,8 @@ std::vector<MergeTree::Class> MergeTree::classes() const {
   for (std::size_t v = 0; v < births.size(); ++v)
     if (!dead[v] && births[v] < kInfinity)
       classes.push_back({births[v], kInfinity, static_cast<Index>(v), -1});
-  // The merges are in the order of deaths, which the sort by birth preserves.
+  // Merges are in the order of deaths. The sort by birth is stable and therefore keeps that order
+  // among equal births.
   radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
   for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
     end = std::find_if(begin, classes.end(), [&](const Class& c) {
@@ -130,7 +131,7 @@ std::vector<Branch> MergeTree::branches() const {
 }
 
 std::vector<LinkageRow> linkage(const MergeTree& tree) {
-  std::vector<Index> cluster(tree.births.size());  // by the vertex that gave birth to it
+  std::vector<Index> cluster(tree.births.size());  // cluster of each vertex that gave birth to one
   std::iota(cluster.begin(), cluster.end(), Index{0});
   std::vector<LinkageRow> rows;
   rows.reserve(tree.merges.size());

@@ -39,7 +39,8 @@ Barcode persistence(const Cubical& cubical, const Options& options, const RunCon
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
                     const RunContext& context) {
   if (!complex.threshold()) return detail::compute(complex, options, context);
-  // A class that outlives the threshold is alive, however short its bar would have been.
+  // A class that outlives the threshold becomes an infinite bar, however short its full bar is.
+  // Short bars are therefore removed only after the cut.
   Options all = options;
   all.min_persistence = std::min(options.min_persistence, 0.0);
   return cut_at(detail::compute(complex, all, context), complex, *complex.threshold(),
@@ -62,7 +63,7 @@ std::string first_difference(const Barcode& a, const Barcode& b) {
   const auto before = [](const Bar& x, const Bar& y) {
     return std::tie(x.dim, x.birth, x.death) < std::tie(y.dim, y.birth, y.death);
   };
-  // A barcode to which bars were added may be unsorted.
+  // A barcode may be unsorted if the caller has added bars to it.
   const auto sorted = [&](const Barcode& barcode) {
     std::vector<Bar> bars(barcode.begin(), barcode.end());
     std::ranges::sort(bars, before);

@@ -12,15 +12,17 @@
 namespace ph::detail {
 namespace {
 
-// Engines depend only on the kind of a filtration, not on the size of its cells.
+// Any filtration type with this layout will do, because engines depend only on the kind of a
+// filtration, not on the size of its cells.
 using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 
-// Measured for H2 to H7: the more edges are dominated, the larger the gain, up to a factor of some
-// hundred; at two thirds it still saves half of the time and of the memory. Below that share, on
-// spheres of higher dimension and on distances that are not a metric, nearly all edges are kept and
-// the time of the collapse is lost.
+// Measured for H2 to H7: the more edges are dominated, the larger is the gain of a collapse, up to
+// a factor of a few hundred. If two thirds are dominated, it still saves half of the time and of
+// the memory. Below that share, on spheres of higher dimension and on distances that are not a
+// metric, nearly all edges are kept and the collapse is a waste of time.
 constexpr double kWorthwhileShare = 0.6;
-// Up to this dimension, the top dimension of the complex, which takes long to find, is ignored.
+// Up to this dimension, engines are chosen without the top dimension of the complex, which takes
+// long to find.
 constexpr int kHighestByEdges = 3;
 
 /// The reason why a collapse would spoil the result; empty if it would not.
@@ -36,7 +38,8 @@ struct CollapseChoice {
   bool collapses;
   std::string reason;
 };
-/// @param dominated returns the share of dominated edges; called if that decides.
+/// Decides if edges are collapsed. @param dominated returns the share of dominated edges; called
+/// only if that share decides.
 /// @throws Error (usage) if a collapse was asked for and would spoil the result.
 template <class Dominated>
 CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
@@ -62,8 +65,8 @@ bool is_forest_alone(const Rips& rips) {
          !rips.has_form(RipsForm::distinct_edges);
 }
 
-/// The highest dimension to compute. @throws Error (usage) as check, on a lowest dimension above
-/// it, or on a lowest dimension above 0 if a forest was given.
+/// The highest dimension to compute. @throws Error (usage) as check does; on a lowest dimension
+/// above the highest; on a highest dimension above 0 if a forest was given.
 int max_dim_of(const Rips& rips, const Options& options) {
   const bool is_forest = is_forest_alone(rips);
   check(options);
@@ -77,8 +80,7 @@ int max_dim_of(const Rips& rips, const Options& options) {
   }
   if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
-                fmt::format("lowest dimension: found {}, expected at most {}, the highest unless "
-                            "another is given",
+                fmt::format("lowest dimension: found {}, expected at most {}, the highest dimension computed unless another one is given",
                             options.min_dim, max_dim));
   }
   return max_dim;
@@ -108,7 +110,8 @@ RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice
   return plan;
 }
 
-/// The form of edges for a task.
+/// The form that lists edges for a task: a spanning forest if nothing else is available, otherwise
+/// all edges or the edges of distinct points.
 RipsForm edges_for(const Rips& rips, const Options& options) {
   if (is_forest_alone(rips)) return RipsForm::forest;
   const RipsOptions& asked = rips.options();
@@ -128,7 +131,7 @@ std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
   return std::nullopt;
 }
 
-/// The condition that an engine lacks in the input; empty if it lacks none.
+/// The condition of an engine that the input does not meet; empty if the input meets all.
 std::string_view obstacle_to(const EngineFacts& engine, const RipsInput& input, const Task& task) {
   return engine.rips_obstacle ? engine.rips_obstacle(input, task) : std::string_view();
 }
@@ -163,7 +166,7 @@ FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, In
   return choice;
 }
 
-/// The plan if it depends on the edges.
+/// Makes a plan that depends on the edges.
 RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
                       const RunContext& context) {
   const int max_dim = *options.max_dim;
@@ -183,7 +186,7 @@ RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
   });
 }
 
-/// The decisions that are made before any edge.
+/// The decisions that are made before any edge is made.
 struct Settled {
   Settled(const Rips& rips, Options asked) : options(std::move(asked)) {
     const int max_dim = max_dim_of(rips, options);
@@ -191,18 +194,17 @@ struct Settled {
     choice = choose_form(rips, options, max_dim, most_vertices(rips));
     if (!choice.engine && options.engine == Engine::automatic &&
         !choose_form(rips, options, max_dim, 1).engine)
-      refuse(options.engine, task_of(options, max_dim));  // whatever the edges are
+      refuse(options.engine, task_of(options, max_dim));  // refuses tasks that are impossible whatever the edges are
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
       throw Error(ErrorKind::usage,
                   "device gpu: computes components (H0) of points with Euclidean distances, found "
-                  "more than components; max_dim 0 asks for them alone, without an approximation "
-                  "or an engine by name");
+                  "more than components; set max_dim to 0 and choose neither an approximation nor an engine");
   }
   Options options;             // including the highest dimension
   FormChoice choice;           // without an engine if none can do the task for so many vertices
-  bool goes_by_edges = false;  // everything is decided
+  bool goes_by_edges = false;  // true if the plan needs no edges
 };
 
 }  // namespace

@@ -8,16 +8,16 @@ namespace ph::detail {
 ///
 /// Engines are asked about the input if they can judge it, otherwise about a graph without edges.
 /// If the best engine works edge by edge, the form is the first one that it takes and the input can
-/// give. Otherwise the engine, the dimension and the collapse depend on the edges: they are made,
-/// because that engine needs them anyway.
+/// give. Otherwise the engine, the dimension and the collapse depend on the edges. These are then
+/// made, because that engine needs them anyway.
 RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context);
 /// The form that can be planned without edges, or nothing if the plan depends on the edges or the
 /// form consists of them. @throws Error (usage) as `plan`.
 std::optional<RipsForm> form_without_edges(const Rips& rips, const Options& options);
-/// The plan as far as it is known without edges: it ignores a collapse.
+/// The plan as far as it is known without edges. It does not include a collapse.
 /// @throws Error (usage) as `plan`.
 RunPlan plan_without_edges(const Rips& rips, const Options& options);
-/// The same as `build` and `run`.
+/// `build` and `run` for Rips filtrations.
 void build_rips(const Rips& rips, const RunPlan& plan, const RunContext& context);
 Barcode run_rips(const Rips& rips, const RunPlan& plan, const RunContext& context);
 

@@ -17,7 +17,8 @@ namespace ph {
 namespace {
 
 constexpr std::size_t kMostFits = 3;
-// An estimate counts pages of the code and small containers; the memory limit does not.
+// Bytes by which an estimate may exceed the memory limit, because only the estimate counts pages of
+// code and small containers.
 constexpr double kBesideLimit = 4 << 20;
 // CPU seconds after which no trial begins; trials are stopped after twice that time. The user is
 // waiting for an error message.
@@ -25,8 +26,9 @@ constexpr double kPatience = 3;  // seconds
 // The share of the remaining memory limit that a trial gets, because the heap is fragmented.
 constexpr double kTrialShare = 0.75;
 constexpr double kBytesPerEdge = 16;
-constexpr double kFewestPairs = 100;  // pairs of a sample within the threshold
-// A sample of fewer points says little; a sample that needs more distances takes too long.
+constexpr double kFewestPairs = 100;  // the least number of sampled pairs within the threshold
+// A sample of fewer points says little about the memory, and a sample with more distances takes too
+// long.
 constexpr Index kFewestPoints = 20;
 constexpr double kMostDistances = 2e8;
 
@@ -49,7 +51,7 @@ class Search {
       try_task(changed, {{Setting::engine, "auto"}});
     }
     if (options_.representatives != Representatives::none) drop_representatives();
-    // Changes that are quick to try come first, because time is limited.
+    // Tries changes that are quick to try first, because time is limited.
     lower_dimension(options_, {});
     if (rips_ && rips_->has_form(RipsForm::edges)) {
       sample_ = rips_->sample(context_);
@@ -70,8 +72,8 @@ class Search {
   }
   bool is_enough() const { return found_.size() == kMostFits || seconds_since(start_) > kPatience; }
 
-  /// Keeps changes if the run fits with them. @param make returns the complex, built in the context
-  /// of the trial. @return true if it fits.
+  /// Tries a run with some changes and keeps them if it fits into memory. @param make returns the
+  /// complex, built in the context of the trial. @return true if the run fits.
   template <class Make>
   bool try_out(const Options& options, std::vector<Remedy> changes, Make&& make) {
     if (is_enough()) return false;
@@ -92,8 +94,8 @@ class Search {
       const AnyComplex complex = make(trial);
       const Estimate e = estimate(complex, options, trial);
       const auto limit = static_cast<double>(context_.memory.limit());
-      // Images in slabs adapt themselves to the limit: for a small limit, this would hide
-      // everything else.
+      // A run on an image in slabs adapts to the limit. If the limit is small, the full allowance
+      // would hide everything else.
       const bool is_image = std::holds_alternative<Cubical>(complex);
       const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
       if (e.bytes_high > limit + beside) return false;
@@ -109,7 +111,7 @@ class Search {
   }
   bool try_task(const Options& options, std::vector<Remedy> changes) {
     return try_out(options, std::move(changes), [&](const RunContext& trial) {
-      // Results of the trial are not kept.
+      // A copy of the filtration, so that nothing made in the trial is kept.
       return rips_ && rips_->has_form(RipsForm::edges)
                  ? AnyComplex(rips_->with(rips_->options(), trial))
                  : complex_;
@@ -129,7 +131,8 @@ class Search {
     if (!try_task(changed, changes)) lower_dimension(changed, changes);
   }
 
-  /// Tries the highest of the lower dimensions. @param others the other changes.
+  /// Tries lower dimensions and keeps the highest that fits. @param others changes that were made
+  /// before.
   void lower_dimension(Options changed, const std::vector<Remedy>& others) {
     if (is_enough()) return;
     const int highest =
@@ -153,9 +156,9 @@ class Search {
     return try_question(std::move(changed), {{Setting::threshold, text}});
   }
 
-  /// Tries a few thresholds, largest first: they leave a half of the edges, a fifth, … If so few
-  /// pairs are edges that the sample cannot count them, it tries three quarters of the threshold, a
-  /// half, …
+  /// Tries a few thresholds, largest first: they leave a half of the edges, a fifth, and so on. If
+  /// so few pairs are edges that the sample cannot count them, it tries three quarters of the
+  /// threshold, a half, and so on.…
   void lower_threshold() {
     const std::optional<double> given = rips_->options().threshold;
     const double highest = given.value_or(std::numeric_limits<double>::infinity());

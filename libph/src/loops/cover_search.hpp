@@ -11,7 +11,7 @@
 
 namespace ph::detail {
 
-/// Steps that may still be taken, for all loops and for the current one.
+/// The numbers of steps that may still be taken for all loops together and for the current loop.
 struct StepBudget {
   std::uint64_t of_all, of_one = 0;
   void begin(std::uint64_t most) { of_one = std::min(of_all, most); }
@@ -23,7 +23,7 @@ struct StepBudget {
   }
 };
 
-/// The graph in which a loop is searched: the edges up to `limit`, without the birth edge.
+/// The graph in which a path is searched: the edges up to `limit`, without the birth edge.
 struct Around {
   EarlyGraph::Key limit, birth;
 };
@@ -34,8 +34,9 @@ enum class Verdict { found, none, gave_up };
 /// Finds shortest paths on which cocycles have given values.
 ///
 /// Dijkstra's algorithm, started at the end, computes the distance of each vertex from the end. If
-/// the shortest path has the values, it is the answer. Otherwise A* searches pairs (vertex, values
-/// so far); these distances guide it, because a path with values cannot be shorter.
+/// the cocycles have the wanted values on the shortest path, it is the answer. Otherwise A*
+/// searches pairs (vertex, values so far), guided by these distances, which are lower bounds for
+/// paths with given values.
 class CoverSearch {
  public:
   using Path = std::vector<std::uint32_t>;
@@ -43,10 +44,11 @@ class CoverSearch {
   CoverSearch(const EarlyGraph& graph, const EdgeCocycles& cocycles, std::int64_t field,
               const RunContext& context);
 
-  /// Sets the cocycles that count from now on, by number, and the wanted values.
+  /// Sets the numbers of the cocycles that count from now on, and the values wanted of them.
   void set_target(std::span<const std::uint32_t> cocycles, std::span<const std::uint32_t> values);
 
-  /// Finds a path from `from` to `to`, both included, shorter than `bound`.
+  /// Finds a path from `from` to `to`, both included, that has the wanted values and is shorter
+  /// than `bound`.
   Verdict find(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                StepBudget& budget, Path& path);
 
@@ -71,17 +73,17 @@ class CoverSearch {
   Verdict search_cover(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                        StepBudget& budget, Path& path);
   bool is_near(std::uint32_t v) const { return stamp_[v] == run_; }
-  /// Computes the values after one more step. @return true if they changed.
+  /// Adds the values of the cocycles on one more step. @return true if they changed.
   bool add_step(Values& values, std::uint32_t from, std::uint32_t to, EarlyGraph::Key key) const;
 
   const EarlyGraph& graph_;
   const EdgeCocycles& cocycles_;
   std::uint64_t p_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> slot_;  // by cocycle; kNone if it does not count
+  std::pmr::vector<std::uint32_t> slot_;  // index of each cocycle in Values; kNone if it does not count
   std::vector<std::uint32_t> counted_;
   Values target_;
-  // By vertex, for the distances to the end that were measured last.
+  // For each vertex: data of the distances to the end that were measured last.
   std::pmr::vector<std::uint32_t> stamp_, towards_;
   std::pmr::vector<Distance> distance_;
   std::uint32_t run_ = 0;

@@ -11,9 +11,9 @@
 
 namespace ph::detail {
 
-/// The first edges of a RipsGraph: the edges that exist when loops are born. At each vertex,
-/// neighbours come in the order of their edges, which makes the graph at any earlier value
-/// available as well.
+/// The first edges of a RipsGraph: the edges that exist when loops are born. The neighbours of each
+/// vertex are sorted by the order of their edges. This gives access to the graph at any earlier
+/// value as well.
 class EarlyGraph {
  public:
   using Key = RipsGraph::Key;
@@ -22,7 +22,7 @@ class EarlyGraph {
     Key key;
   };
 
-  /// @param last the largest value of an edge.
+  /// @param last edges with larger values are left out.
   EarlyGraph(const RipsGraph& graph, double last, const RunContext& context)
       : graph_(graph), last_value_(last), offsets_(&context.memory), neighbours_(&context.memory) {
     edges_ = edges_up_to(last);
@@ -45,9 +45,10 @@ class EarlyGraph {
   std::size_t vertices() const { return offsets_.size() - 1; }
   Key edges() const { return edges_; }
   double last_value() const { return last_value_; }
-  /// The number of edges with a value <= `last`, which is the key of the last of them.
+  /// The number of edges with a value <= `last`, which is the key of the last such edge.
   Key edges_up_to(double last) const {
-    // Looking at edges sorts them: no more than twice the wanted number are looked at.
+    // Edges are sorted only when they are looked at. At most twice the wanted number is therefore
+    // looked at.
     const Key all = static_cast<Key>(graph_.edge_count());
     Key low = 0, high = std::min<Key>(1, all);
     while (high < all && graph_.value(high) <= last) {
@@ -66,7 +67,8 @@ class EarlyGraph {
   double value(Key key) const { return graph_.value(key); }
   const FlagEdge& edge(Key key) const { return graph_.edge(key); }
 
-  /// Calls `use(vertex, key)` for the neighbours of v by edges up to `limit`, except for one edge.
+  /// Calls `use(vertex, key)` for each neighbour of v along the edges up to `limit`, except along
+  /// the edge `except`.
   template <class Use>
   void for_each_neighbour(std::uint32_t v, Key limit, Key except, Use&& use) const {
     for (const Neighbour& n : neighbours(v)) {
@@ -74,7 +76,7 @@ class EarlyGraph {
       if (n.key != except) use(n.vertex, n.key);
     }
   }
-  /// Nothing if no edge up to the last one joins them.
+  /// The key of the edge between u and v; nothing if no early edge joins them.
   std::optional<Key> key_of(std::uint32_t u, std::uint32_t v) const {
     const auto of_u = neighbours(u), of_v = neighbours(v);
     const bool u_has_fewer = of_u.size() <= of_v.size();

@@ -9,14 +9,14 @@
 
 namespace ph::detail {
 
-/// The lifetime of a bar, used to compare bars.
+/// The birth and death of a bar, by which bars are compared.
 struct Lifetime {
   double birth, death;
   EarlyGraph::Key birth_key;
 };
 
-/// Decides which bars of a filtration matter for the cycles of another bar: bars that are born
-/// before it and live at least as long.
+/// Decides which bars of a filtration matter for the cycles of a given bar: its *elders*, which are
+/// born before it and do not die before it.
 class Elders {
  public:
   /// @param by_value true if the birth edge among edges of equal value may differ from the first in
@@ -27,7 +27,7 @@ class Elders {
     if (elder.death < of.death) return false;  // mutant: loops-elder
     return by_value_ ? elder.birth <= of.birth : elder.birth_key < of.birth_key;
   }
-  /// True if `a` is born before `b` in the sense of elders.
+  /// True if `a` is born before `b`, by value or by edge as chosen.
   bool is_born_before(const Lifetime& a, const Lifetime& b) const {
     return by_value_ ? a.birth < b.birth : a.birth_key < b.birth_key;
   }
@@ -42,13 +42,14 @@ class EdgeCocycles {
  public:
   struct Term {
     std::uint32_t cocycle;
-    std::uint32_t value;  ///< from the smaller to the larger vertex; 1 … p - 1
+    std::uint32_t value;  ///< value from the smaller to the larger vertex, 1 … p - 1
   };
 
   explicit EdgeCocycles(const RunContext& context)
       : lifetimes_(&context.memory), offsets_(&context.memory), terms_(&context.memory) {}
 
-  /// @param cocycles the bars of H1 of the same vertices; `keep` selects the wanted ones.
+  /// @param cocycles a barcode of the same vertices, with cocycles in H1. @param keep selects the
+  /// bars whose cocycles are taken.
   template <class Keep>
   void take(const EarlyGraph& graph, const Barcode& cocycles, std::int64_t field, Keep&& keep,
             Ticker& ticker) {
@@ -84,7 +85,7 @@ class EdgeCocycles {
     for (const Placed& p : placed) terms_[next[p.key]++] = p.term;
   }
 
-  /// The lifetimes, by number of a cocycle.
+  /// The lifetime of the bar of each cocycle.
   std::span<const Lifetime> lifetimes() const { return lifetimes_; }
   std::span<const Term> on(EarlyGraph::Key key) const {
     if (offsets_.empty()) return {};
@@ -97,7 +98,7 @@ class EdgeCocycles {
 
  private:
   std::pmr::vector<Lifetime> lifetimes_;
-  std::pmr::vector<std::size_t> offsets_;  // by key
+  std::pmr::vector<std::size_t> offsets_;  // start of each edge's terms, by key
   std::pmr::vector<Term> terms_;
 };
 

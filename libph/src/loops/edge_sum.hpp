@@ -11,11 +11,12 @@
 
 namespace ph::detail {
 
-/// Adds chains of edges.
+/// A sum of chains of edges.
 class EdgeSum {
  public:
   explicit EdgeSum(std::int64_t field) : p_(field) {}
-  /// Adds a closed walk of vertices, whose names ascend as the vertices do.
+  /// Adds a closed walk, given by its vertices. The names of vertices must ascend with their
+  /// numbers.
   void add(const EarlyGraph& graph, std::span<const std::uint32_t> walk, std::int64_t coefficient) {
     if (walk.size() < 2) return;  // nothing is left of the walk
     for (std::size_t i = 0; i < walk.size(); ++i) {
@@ -53,11 +54,12 @@ class EdgeSum {
 };
 
 /// Splits a closed walk wherever it returns to a vertex. The parts pass no vertex twice, and
-/// together are no longer than the walk. They have the same order as the loops of EdgeSum.
+/// together are no longer than the walk. They are in the same order as the loops of EdgeSum.
 inline std::vector<Loop> parts_of(std::span<const std::uint32_t> walk, const EarlyGraph& graph,
                                   std::int64_t coefficient, std::int64_t field,
                                   const RunContext& context) {
-  // By their vertices, from the smallest on, towards its smaller neighbour.
+  // Sorted by their lists of vertices, which start at the smallest vertex and go on to the smaller
+  // of its two neighbours.
   std::map<std::vector<std::uint32_t>, EdgeSum> parts;
   std::vector<std::uint32_t> open;
   const auto close = [&](auto first) {

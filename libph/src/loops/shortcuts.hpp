@@ -9,8 +9,8 @@
 namespace ph::detail {
 
 /// Shortens closed walks step by step, each step across one or two triangles whose edges all exist:
-/// the result is homologous over every field. The clique of three edges is a triangle of a flag
-/// complex; only edges must therefore be checked.
+/// the result is homologous over every field. Only edges must be checked, because three edges that
+/// form a clique bound a triangle of the flag complex.
 class Shortcuts {
  public:
   using Walk = std::vector<std::uint32_t>;
@@ -20,7 +20,7 @@ class Shortcuts {
         near_first_(graph.vertices(), {0, 0}, &context.memory),
         near_middle_(graph.vertices(), {0, 0}, &context.memory) {}
 
-  /// Shortens a walk until no step shortens it or the budget ends.
+  /// Shortens a walk until no step shortens it further or the budget is used up.
   /// @param keeps_last_step true if the step from the last vertex to the first, the birth edge,
   ///        must stay. Without such a step, a walk that bounds a triangle becomes empty.
   void shorten(Walk& walk, bool keeps_last_step, const Around& around, StepBudget& budget) {
@@ -34,10 +34,11 @@ class Shortcuts {
       for (std::size_t i = 1; i + 1 < walk.size();) {
         const Change change = change_at(walk, i, around, budget);
         goes_on |= change != Change::none;
-        // A removal brings two other vertices together.
+        // After a removal, vertices that were not consecutive before are, so the search goes back
+        // by one.
         i = change == Change::removed ? std::max<std::size_t>(i, 2) - 1 : i + 1;
       }
-      if (!keeps_last_step && walk.size() > 3)  // the only vertex that was not in the middle
+      if (!keeps_last_step && walk.size() > 3)  // the first vertex was not in the middle of a change yet
         goes_on |= change_around(walk, around, budget);
     }
   }
@@ -49,7 +50,7 @@ class Shortcuts {
     double value;
   };
 
-  /// Tries a change at walk[i], between two other vertices.
+  /// Tries to remove or replace the vertex walk[i], which lies between two others.
   Change change_at(Walk& walk, std::size_t i, const Around& around, StepBudget& budget) {
     const std::uint32_t first = walk[i - 1], middle = walk[i], last = walk[i + 1];
     const auto at = walk.begin() + static_cast<std::ptrdiff_t>(i);
@@ -82,7 +83,8 @@ class Shortcuts {
     return Change::moved;
   }
 
-  /// Tries a change at the first vertex of a walk, between the last and the second.
+  /// Tries to remove or replace the first vertex of a walk, which lies between the last and the
+  /// second.
   bool change_around(Walk& walk, const Around& around, StepBudget& budget) {
     std::rotate(walk.begin(), walk.end() - 1, walk.end());
     return change_at(walk, 1, around, budget) != Change::none;
@@ -103,7 +105,7 @@ class Shortcuts {
   }
 
   const EarlyGraph& graph_;
-  std::pmr::vector<Mark> near_first_, near_middle_;  // by vertex: the edge from that vertex
+  std::pmr::vector<Mark> near_first_, near_middle_;  // for each vertex: the edge from it
   std::uint64_t stamp_ = 0, first_stamp_ = 0, middle_stamp_ = 0;
 };
 

@@ -20,12 +20,13 @@
 namespace ph::detail {
 namespace {
 
-// Limits for steps across an edge, some nanoseconds each: for all loops, and for one.
+// Limits for the number of steps across an edge, for all loops together and for one loop. A step
+// takes a few nanoseconds.
 constexpr std::uint64_t kMostSteps = 300'000'000, kMostStepsOfOne = 20'000'000;
-// Limit for the cofacets of edges that are listed for cocycles: persistent cohomology then takes
-// about a second.
+// Limit for the number of cofacets of edges that are listed to compute cocycles. Persistent
+// cohomology takes about a second for so many.
 constexpr double kMostCofacets = 5e7;
-// Sums of the same lengths in different orders differ by this.
+// The relative difference that the order of summation may make in a sum of lengths.
 constexpr double kRounding = 1e-12;
 
 using Key = EarlyGraph::Key;
@@ -43,7 +44,7 @@ struct Candidate {
   bool needs_cocycles;
 };
 
-/// The largest birth of a bar of H1 with loops; nothing if there is none.
+/// The latest birth of a bar of H1 that has loops; nothing if no bar has loops.
 std::optional<double> last_birth(const Barcode& cycles, const std::vector<BarLoops>& loops) {
   std::optional<double> last;
   for (std::size_t i = 0; i < loops.size(); ++i)
@@ -76,7 +77,7 @@ class Tightener {
     std::vector<Candidate> candidates = list_candidates(all);
     EdgeCocycles cocycles(context_);
     const double reach = compute_cocycles(candidates, cocycles);
-    // The most persistent come first, because the budget may end.
+    // The most persistent bars come first, because the budget may not be enough for all.
     std::ranges::stable_sort(candidates, std::greater<>(),
                              [&](const Candidate& c) { return cycles_[c.bar].persistence(); });
     CoverSearch search(graph_, cocycles, options_.field, context_);
@@ -100,13 +101,13 @@ class Tightener {
   }
   Key key_of(std::uint32_t u, std::uint32_t v) const {
     if (const auto key = graph_.key_of(u, v)) return *key;
-    throw Error(ErrorKind::usage, "loops: found a cycle of another complex");
+    throw Error(ErrorKind::usage, "loops: found a cycle of a different complex");
   }
   Key key_of(const InputCell& edge) const {
     return key_of(graph_.vertex_of(edge.numbers[0]), graph_.vertex_of(edge.numbers[1]));
   }
 
-  /// Lists the bars of positive length with loops, and finds out if another bar is their elder.
+  /// Lists the bars of positive length that have loops, and finds out if each of them has an elder.
   std::vector<Candidate> list_candidates(const std::vector<BarLoops>& all) const {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -118,9 +119,10 @@ class Tightener {
     std::ranges::stable_sort(candidates, [&](const Candidate& a, const Candidate& b) {
       return elders_.is_born_before(a.lifetime, b.lifetime);
     });
-    double last_death = -kInfinity;  // of the bars born before
+    double last_death = -kInfinity;  // last death among the bars born before
     for (std::size_t begin = 0, end; begin < candidates.size(); begin = end) {
-      // A group is a single birth edge if edges decide, otherwise all bars of one value.
+      // A group consists of bars of which none is born before another: a single bar if births are
+      // compared by edge, otherwise all bars with the same birth.
       double last_of_group = -kInfinity;
       for (end = begin;
            end < candidates.size() &&
@@ -143,7 +145,7 @@ class Tightener {
            (key < graph_.edges() && graph_.value(key + 1) == value);
   }
 
-  /// Computes cocycles for as many of the bars that need some as is possible in little time.
+  /// Computes cocycles for the bars that need some, or for as many of them as little time allows.
   /// @return the last death among the bars whose cocycles were computed.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
     std::vector<Candidate> asking;  // sorted by birth
@@ -155,7 +157,7 @@ class Tightener {
     if (asking.empty()) return -kInfinity;
     double reach = -kInfinity;
     for (const Candidate& c : asking) reach = std::max(reach, c.lifetime.death);
-    // By position among the bars that ask: the first death from that position on.
+    // For each position in `asking`: the first death from that position on.
     std::vector<double> first_death(asking.size());
     for (std::size_t i = asking.size(); i-- > 0;)
       first_death[i] = std::min(asking[i].lifetime.death,
@@ -190,11 +192,11 @@ class Tightener {
     return -kInfinity;
   }
 
-  /// The value below which the complex has few enough triangles.
+  /// The largest value up to which the complex has few enough triangles.
   double last_affordable_value() const {
     std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
-    double cofacets = 0;  // an upper bound: an edge has as many as its ends have neighbours
+    double cofacets = 0;  // an upper bound, from the numbers of neighbours of the ends of edges
     for (Key key = 1; key <= all_.edge_count(); ++key) {
       const FlagEdge& e = all_.edge(key);
       cofacets += 2.0 * degrees[e.u]++ + 2.0 * degrees[e.v]++ + 2;
@@ -217,7 +219,7 @@ class Tightener {
     const InputChain chain = cycles_.representative(c.bar);
     for (std::size_t i = 0; i < chain.size(); ++i)
       if (key_of(chain.cell(i)) > around.limit)
-        throw Error(ErrorKind::usage, "loops: found a cycle with edges younger than its birth");
+        throw Error(ErrorKind::usage, "loops: found a cycle with an edge that enters after the birth of its bar");
 
     for (bool goes_on = true; goes_on;) {
       EdgeSum sum(options_.field);
@@ -244,14 +246,15 @@ class Tightener {
     Walk path;
     const Verdict verdict = search.find(high, low, around, bound, budget, path);
     if (verdict == Verdict::found) {
-      // Puts the birth edge first, then the path, whose last vertex is the first of the walk.
+      // Moves the last vertex of the path, which is the first vertex of the walk, to the front. The
+      // walk then begins with the birth edge.
       std::rotate(path.begin(), path.end() - 1, path.end());
       EdgeSum found(options_.field);
       found.add(graph_, path, coefficient);
       std::vector<Loop> loops = found.loops(context_);
       measure(loops);
-      // Over Z/p, splitting edge by edge may give more length than the walk; the parts of the walk
-      // do not.
+      // Over Z/p, the loops from splitting the sum of edges may be longer than the walk. The parts
+      // of the walk are never longer.
       std::vector<Loop> parts = parts_of(path, graph_, coefficient, options_.field, context_);
       measure(parts);
       // mutant: loops-taken-apart
@@ -262,7 +265,8 @@ class Tightener {
       out.tightness = Tightness::shortest;
   }
 
-  /// Turns a walk so that its last step is the birth edge. @return true if it has that edge.
+  /// Rotates or reverses a walk to make the birth edge its last step. @return true if the walk has
+  /// that edge.
   static bool turn_to(Walk& walk, std::uint32_t low, std::uint32_t high) {
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const std::uint32_t next = walk[(i + 1) % walk.size()];
@@ -274,7 +278,8 @@ class Tightener {
     return false;
   }
 
-  /// Computes the values that the counting cocycles must have on a path that closes the birth edge.
+  /// Computes the values that the cocycles that count must have on a path that closes the birth
+  /// edge to a loop.
   /// @return the coefficient of that edge in the chain.
   std::int64_t set_target(const Candidate& c, const InputChain& chain, const EdgeCocycles& cocycles,
                           CoverSearch& search) const {
@@ -282,7 +287,7 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // Deaths are known as far as cocycles were computed.
+      // A bar that needs no cocycles may have none whose death is known.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);
@@ -334,7 +339,7 @@ void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Op
     Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
-  } catch (const Error& error) {  // every bar's loops are either old or new, and correct
+  } catch (const Error& error) {  // the loops of each bar are still the old ones or already the new ones, and both are correct
     if (error.kind() != ErrorKind::resource) throw;
   } catch (const std::bad_alloc&) {
   }

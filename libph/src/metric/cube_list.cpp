@@ -9,8 +9,8 @@ CubeList::CubeList(PointsView points, double radius, const RunContext& context)
     : cubes_(&context.memory), points_(&context.memory) {
   // Slightly larger than the radius: rounding must not put two points within the radius two cubes
   // apart. There are at most 10^9 cubes per axis; a coordinate in units of cubes is then off by at
-  // most 10^-7, which is less than that margin. If the radius is 0, any cubes are fine in which
-  // equal points meet.
+  // most 10^-7, which is less than that margin. If the radius is 0, any cubes will do, because
+  // equal points always lie in the same cube.
   const double reach = largest_coordinate(points);
   const double edge = std::max(radius * (1 + 1e-6), 1e-9 * reach);
   const double scale = reach > 0 ? 1 / edge : 0;

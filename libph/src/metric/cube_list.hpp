@@ -15,8 +15,8 @@ namespace ph {
 
 /// The points of R^1, R^2 or R^3 sorted into cubes slightly larger than a radius: all neighbours of
 /// a point lie in the 27 cubes around it. Coordinates of cubes are integers stored as doubles,
-/// which cannot overflow. It is kept beside the k-d tree, which takes 1.1 to 1.8 times as long
-/// (docs/development/adr/0020).
+/// which cannot overflow. This class exists in addition to the k-d tree because the tree takes 1.1
+/// to 1.8 times as long (docs/development/adr/0020).
 class CubeList {
  public:
   struct Point {
@@ -29,7 +29,7 @@ class CubeList {
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
   /// depends on the points alone. Few of these pairs are farther apart than the radius: the time is
-  /// O(pairs within it).
+  /// proportional to the number of pairs within the radius.
   template <class Visit>
   void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 
@@ -42,7 +42,7 @@ class CubeList {
     return std::span(points_).subspan(cube.begin, cube.end - cube.begin);
   }
 
-  std::pmr::vector<Cube> cubes_;  // by z, then y, then x
+  std::pmr::vector<Cube> cubes_;  // sorted by z, then y, then x
   std::pmr::vector<Point> points_;
 };
 
@@ -52,7 +52,7 @@ void CubeList::for_each_candidate_pair(Visit&& visit, const RunContext& context)
   // Half of the neighbours: the next cube of the same row, and three cubes in each of the following
   // rows.
   constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-  std::array<std::size_t, 4> first{};  // per row: cubes before this one are done
+  std::array<std::size_t, 4> first{};  // for each row: the first cube that may still be adjacent
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
     const Cube& cube = cubes_[c];
     const auto here = points(cube);

@@ -32,7 +32,7 @@ double detail::root_mean_square(std::span<const double> distances) {
 std::vector<double> distance_to_measure(PointsView points, Index neighbours, PointDistance distance,
                                         double p, const RunContext& context) {
   const PointMetric checked(points, distance, p);
-  points = checked.points();  // now with contiguous rows
+  points = checked.points();  // now the rows are contiguous
   detail::check_neighbours(neighbours, points.rows());
   const auto others = static_cast<std::size_t>(neighbours - 1);
   // A list of neighbours is kept sorted as it grows: beyond this length, a search of all points is

@@ -13,9 +13,9 @@
 namespace ph {
 namespace {
 
-// For Euclidean points, axis by axis: squared distances to the chosen points, many at a time. The
-// loops have no branches, and no sums across points, which a compiler may not reorder: they become
-// vector code.
+// The squared Euclidean distances of all points to the chosen points, computed axis by axis. The
+// compiler can vectorise the loops, because they have neither branches nor sums across points,
+// which it may not reorder.
 class Squares {
  public:
   Squares(PointsView points, const RunContext& context)
@@ -53,7 +53,7 @@ class Squares {
       for (std::size_t l = 0; l < lanes.size(); ++l) lanes[l] = std::max(lanes[l], nearest_[i + l]);
     double largest = *std::ranges::max_element(lanes);
     for (std::size_t i = whole; i < size_; ++i) largest = std::max(largest, nearest_[i]);
-    // Squares may differ although distances, their rounded roots, are equal.
+    // Squares may differ although their rounded roots, the distances, are equal.
     const double root = std::sqrt(largest), almost = largest * (1 - 1e-15);
     for (std::size_t i = 0; i < size_; ++i)
       // mutant: greedy-root
@@ -71,7 +71,7 @@ class Squares {
   std::pmr::vector<double> nearest_;
 };
 
-/// Nothing if squares would lose digits.
+/// The permutation by squared distances; nothing if squares would lose digits.
 std::optional<GreedyPermutation> by_squares(PointsView points, const GreedyLimits& limits,
                                             const RunContext& context) {
   const double reach = largest_coordinate(points);

@@ -60,7 +60,7 @@ class OneSidedMatching {
   /// near.
   std::vector<Number> pair_with_free(double radius);
   /// Looks for disjoint alternating paths to free bars, one after another, depth first.
-  /// @param roots keeps the bars that are not paired.
+  /// @param roots bars without a partner; those that find a partner are removed.
   void search_in_depth(std::vector<Number>& roots, double radius);
   /// Grows disjoint trees of alternating paths from the roots, breadth first. When a tree reaches a
   /// free bar, its root gets a partner and the tree stops growing. @param roots bars without a

@@ -21,19 +21,23 @@ using diagram::Assignment;
 using diagram::DiagramParts;
 using diagram::Point;
 
-// Close enough to the optimum to be called optimal: sums of many costs have this rounding error.
+// A matching this close to the optimum, relative to its cost, counts as optimal, because sums of
+// many costs have this rounding error.
 constexpr double kRounding = 1e-13;
 
-// A matching may exceed the optimum by this fraction of its cost; otherwise the search is repeated.
+// If a matching may exceed the optimum by more than this fraction of its cost, the search is
+// repeated.
 constexpr double kUnsure = 1e-9;
 
-// Repeating the search is worthwhile in a unit whose power is smaller by this factor.
+// Repeating the search in a smaller unit is worthwhile if the unit's power shrinks by at least this
+// factor.
 constexpr double kFiner = 16;
 
-// Bids per round and bar. Auctions without bidding wars over equal bars need about 2 to 20.
+// The largest number of bids per bar in a round. Auctions without bidding wars over equal bars need
+// about 2 to 20.
 constexpr std::uint64_t kMostBids = 400;
 
-// Trees and their weights count their own memory.
+// Without the trees and their weights, which count their own memory.
 constexpr std::size_t kBytesAPricedBar = 200;
 
 void check(const WassersteinOptions& options, std::string_view function) {
@@ -41,7 +45,7 @@ void check(const WassersteinOptions& options, std::string_view function) {
     throw Error(
         ErrorKind::usage,
         fmt::format("{}: order: found {}, expected a finite number >= 1{}", function, options.order,
-                    options.order == kInfinity ? "; infinity is bottleneck_distance" : ""));
+                    options.order == kInfinity ? "; for infinity, use bottleneck_distance" : ""));
   if (!(options.ground >= 1))
     throw Error(ErrorKind::usage, fmt::format("{}: ground: found {}, expected a number >= 1",
                                               function, options.ground));
@@ -52,7 +56,8 @@ void check(const WassersteinOptions& options, std::string_view function) {
 double norm_of(std::span<const double> lengths, double order) {
   const double largest = lengths.empty() ? 0 : std::ranges::max(lengths);
   if (largest == 0 || largest == kInfinity) return largest;
-  // Division by a power of two loses no digits; powers of high order are taken of numbers up to 1.
+  // Division by a power of two loses no digits. For orders above 2, dividing by the largest number
+  // instead keeps all bases of powers at most 1.
   const double unit = order <= 2 ? std::ldexp(1, std::ilogb(largest)) : largest;
   double sum = 0;
   for (const double length : lengths)
@@ -143,7 +148,7 @@ class Comparison {
   }
 
  private:
-  /// Powers may have vanished beside the power of the most expensive bar.
+  /// True if powers have not underflowed beside the power of the most expensive bar.
   static bool has_digits(const Assignment::Costs& costs) {
     return costs.cost >= std::numeric_limits<double>::min();  // mutant: wasserstein-vanishes
   }
@@ -151,8 +156,8 @@ class Comparison {
     return costs.cost - costs.lower <= kUnsure * costs.cost;
   }
 
-  /// Fills partners_.
-  /// @param bounds bounds of the distance from the costs.
+  /// Finds a matching and stores it in partners_.
+  /// @param most as for Assignment. @param bounds computes bounds of the distance from costs.
   template <class Bounds>
   Assignment::Costs match(const Unit& unit, double most, Bounds&& bounds) {
     const std::vector<Point> a = unit.in_unit(first_), b = unit.in_unit(second_);
@@ -167,9 +172,9 @@ class Comparison {
     return assignment.costs();
   }
 
-  /// Prices have the digits of the most expensive bar. If a matching costs far less than that bar,
-  /// it may be optimal only by chance: the search is repeated among matchings that cost no more, in
-  /// a unit of their size.
+  /// Prices are rounded relative to the most expensive bar. If a matching costs far less than that
+  /// bar, these prices do not prove it optimal. The search is therefore repeated among matchings
+  /// that cost no more than about this one, in a unit of their size.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {
@@ -201,7 +206,8 @@ class Comparison {
     return found;
   }
 
-  /// The distances of the pairs, and of single bars from the diagonal.
+  /// The cost of the matching in partners_, computed from the distances of its pairs and the
+  /// distances of all other bars from the diagonal.
   double length_of_matching() const {
     const diagram::GroundCost cost(1, options_.ground);
     std::vector<double> lengths;
@@ -217,7 +223,7 @@ class Comparison {
     return norm_of(lengths, options_.order);
   }
 
-  /// In smaller units, coordinates would overflow.
+  /// The smallest usable unit: in smaller ones, coordinates would overflow.
   double smallest_unit() const {
     double most = 0;
     for (const DiagramParts* parts : {&first_, &second_})
@@ -225,7 +231,7 @@ class Comparison {
     return std::ldexp(most, -1000);
   }
 
-  /// The largest distance from a bar to a possible place.
+  /// The largest distance from a finite bar to the diagonal or between matched infinite bars.
   double largest() const {
     double largest = 0;
     for (const DiagramParts* parts : {&first_, &second_})
@@ -241,7 +247,7 @@ class Comparison {
   const MemoryClaim claim_;
   const DiagramParts first_, second_;
   std::vector<double> rays_;             // distances between the ends of infinite bars
-  std::vector<std::uint32_t> partners_;  // by place in first_.finite
+  std::vector<std::uint32_t> partners_;  // partner of each bar of first_.finite
 };
 
 }  // namespace

@@ -8,25 +8,25 @@
 
 namespace ph::diagram {
 
-/// Points of a tree with changing weights: finds the point with the least cost minus weight. Each
-/// node stores the largest weight of its points.
+/// The points of a tree with weights that may change. Finds the points with the least difference of
+/// cost and weight. Each node stores the largest weight of its points.
 class WeightedTree {
  public:
   using Position = PointTree::Position;
 
-  /// Weights are -infinity at first: such points do not exist. @param tree, cost must outlive this
-  /// object.
+  /// All weights are -infinity at first; the search ignores such points. @param tree, cost must
+  /// outlive this object.
   WeightedTree(const PointTree& tree, const GroundCost& cost, const RunContext& context);
 
   double weight(Position q) const { return weights_[q]; }
   void set(Position q, double weight);
 
-  /// The two smallest values of cost minus weight; infinity if there is no such point.
+  /// The two smallest values of cost minus weight; a value is infinite if there is no point for it.
   struct Best {
     double first, second;
-    Position position = kNone;  // position of the first
+    Position position = kNone;  // position of the point with the smallest value
   };
-  /// @param near a position where to start: any will do, but one nearby is fast.
+  /// @param near the position where the search starts: any will do, but one near p is faster.
   Best best_two(const Point& p, Position near) const;
 
  private:
@@ -39,8 +39,8 @@ class WeightedTree {
 
   const PointTree& tree_;
   const GroundCost& cost_;
-  std::pmr::vector<double> weights_;  // by position
-  std::pmr::vector<double> largest_;  // by node
+  std::pmr::vector<double> weights_;  // of each position
+  std::pmr::vector<double> largest_;  // of each node
 };
 
 }  // namespace ph::diagram

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A part of a cloud as bytes: the cloud, which parts, their points, edges, claims. What is read is
-// checked, so that no number leads out of a list.
+// A part of a cloud as bytes: the data of the cloud, the numbers of the parts, their points, edges
+// and claims. All numbers that are read are checked, so that none points outside a list.
 #include <cmath>
 #include <string_view>
 #include <utility>

@@ -18,10 +18,10 @@
 namespace ph {
 namespace {
 
-/// The number of points to draw, unless the user chooses it. More points cost time in each part;
-/// with fewer, more points lie near a block: for a cloud that fills three dimensions, a share of
-/// (blocks / sample)^1/3. Rounding is the same everywhere, which makes all parts draw the same
-/// points.
+/// The number of points to draw, unless the user chooses it. More points cost time in each part.
+/// With fewer points, more points of the cloud count as near a block: for a cloud that fills three
+/// dimensions, a share of (blocks / sample)^1/3. All parts compute the same number and therefore
+/// draw the same points.
 Index points_to_draw(Index points, double blocks) {
   constexpr double least_a_block = 64, most = 1 << 28;
   const double n = static_cast<double>(points);
@@ -34,7 +34,7 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
     throw Error(ErrorKind::usage, "parts of a cloud: " + what);
   };
   if (options.distance != PointDistance::euclidean)
-    refuse("found another distance, expected the Euclidean one");
+    refuse("found a distance other than the Euclidean distance");
   if (!has_fast_spanning_forest(points, options.distance))
     refuse(fmt::format("found {} coordinates, expected at most 8", points.cols()));
   if (options.threshold && !(*options.threshold >= 0))
@@ -93,8 +93,8 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. For a
-  // small block, and at the end of clusters, more points are near the block than in it.
+  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. If a
+  // block is small, or at the border of a cluster, more points are near the block than in it.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;
   forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};
@@ -151,7 +151,7 @@ void CloudPart::join(CloudPart other, const RunContext& context) {
   std::ranges::merge(state_->present, others, std::back_inserter(present));
   if (other.state_->size > state_->whole.points - state_->size)
     throw Error(ErrorKind::bad_data,
-                fmt::format("parts of a cloud: found more points than the {} that it has",
+                fmt::format("parts of a cloud: found more points than the {} of the cloud",
                             state_->whole.points));
   state_->forest.join(std::move(other.state_->forest), context);
   state_->present = std::move(present);
@@ -168,7 +168,8 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-// Each part left out edges because of hops that the entire forest must contain.
+// Each part left out edges because other edges, which it claimed to be in the forest, join their
+// ends. The entire forest must fulfil all these claims.
 void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||
@@ -176,7 +177,7 @@ void CloudPart::State::check_joined() const {
   if (size != whole.points || !forest.claims.empty() || !is_spanning)  // mutant: cloud-joined
     throw Error(ErrorKind::bad_data,
                 "parts of a cloud: found points that are not joined as the parts claim; "
-                "expected parts of one cloud that did not change meanwhile");
+                "expected parts of one cloud, made while its points did not change");
 }
 
 // Each edge of the forest kills one component; all components are born at 0.

@@ -11,8 +11,8 @@ namespace ph {
 /// Data that all parts of a cloud share.
 struct WholeCloud {
   Index points, axes, sample;
-  int parts, blocks;  // blocks of each part
-  double limit;       // infinite if there is none
+  int parts, blocks;  // number of parts, and number of blocks in each part
+  double limit;       // the threshold; infinite if there is none
   std::uint64_t fingerprint;
 
   friend bool operator==(const WholeCloud&, const WholeCloud&) = default;
@@ -26,7 +26,7 @@ struct CloudPart::State {
 
   WholeCloud whole;
   const RunContext& context;
-  std::vector<int> present;  // ascending numbers
+  std::vector<int> present;  // numbers of the parts, ascending
   Index size = 0;            // number of points of the parts that are present
   NumberedForest forest;
 };

@@ -59,14 +59,14 @@ std::uint64_t layers_of(const GridShape& shape) {
   return shape.axis(shape.layer_axis()).extent;
 }
 
-/// The lowest min_dim that needs only the graph of top cells: a periodic axis with one voxel copies
-/// all bars one dimension up.
+/// The lowest min_dim for which the graph of top cells is enough. Each periodic axis with one voxel
+/// raises it, because such an axis copies all bars one dimension up.
 int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
 
-/// The voxels of layers and of one layer on either side, copied only where a periodic axis begins
-/// again.
+/// The voxels of some layers and of one more layer on either side. They are copied only if a
+/// periodic axis makes the outer layers wrap around.
 Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
                  const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);
@@ -169,7 +169,8 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   if (state_->whole.loops) {
-    // Loops need the stars of all layers at once: the stars are found once, for all bars.
+    // Loops need the lower stars of all voxels of the part at once. They are therefore computed
+    // only once, for all bars.
     auto& own = state_->own.emplace(cubical, layout, part, context);
     state_->pairs.add(own.stars, layout.first_voxel(part), pairs, &own.free);
   } else {
@@ -223,7 +224,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  // The T-construction counts from the other end.
+  // In the T construction, parts come in the opposite order.
   const bool come_before = state_->shape.is_t_construction();  // mutant: part-turned
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);

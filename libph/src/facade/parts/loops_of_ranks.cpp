@@ -11,15 +11,15 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// The message from one rank to another in a round: true if the sender has sent anything to
-/// anybody, followed by the message for that rank, if there is one.
+/// The message from one rank to another in a round: first a byte that says if the sender has sent
+/// anything to any rank, then the message for that rank, which may be empty.
 Bytes letter(bool is_busy, const Bytes& message) {
   Bytes bytes{std::byte{is_busy}};
   bytes.insert(bytes.end(), message.begin(), message.end());
   return bytes;
 }
 
-/// Does one round. @return true if any rank has sent something.
+/// Lets all ranks exchange the messages of one round. @return true if any rank has sent something.
 bool exchange(ImageLoops& loops, int parts, Post& post) {
   const int rank = post.rank();
   std::vector<Bytes> messages(static_cast<std::size_t>(parts));
@@ -34,7 +34,7 @@ bool exchange(ImageLoops& loops, int parts, Post& post) {
   };
   const auto receive = [&](int other) {
     const Bytes bytes = post.receive(other);
-    if (bytes.empty()) throw Error(ErrorKind::io, "a message of loops: found nothing");
+    if (bytes.empty()) throw Error(ErrorKind::io, "a message of loops: found no bytes");
     is_any_busy = is_any_busy || bytes[0] != std::byte{0};
     if (bytes.size() > 1) loops.receive(std::span(bytes).subspan(1));
   };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A part as bytes: the image, which parts, bars, forests with their seams. What is
-// read is checked, so that no number leads out of a list.
+// A part of an image as bytes: the data of the image, the numbers of the parts, bars, and forests with their seams. All numbers that are read are checked, so that none points outside a list.
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
@@ -109,7 +108,7 @@ void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   });
 }
 
-/// The name of a cell as it is read.
+/// The voxel and the number of a cell, as they were read.
 struct CellName {
   std::uint64_t voxel;
   std::uint32_t number;
@@ -118,7 +117,8 @@ CellName get_name(ByteReader& from) {
   const auto voxel = from.get<std::uint64_t>("cell");
   return {voxel, from.get<std::uint32_t>("cell")};
 }
-/// @param axes of the grid. @param dim of the cell.
+/// Refuses names that no cell has. @param axes the number of axes of the grid. @param dim the
+/// dimension of the cell.
 GridCell checked(const ByteReader& from, const CellName& name, int axes, int dim) {
   if (name.voxel >= GridCell::kMostVoxels || !cubical::direction_in_star(axes, dim, name.number))
     from.refuse("cell");
@@ -146,7 +146,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
-    // Other roots have no cell: zeros are stored there.
+    // Roots of other kinds have no cell; zeros are stored for them.
     root.cell = checked(from, name, top_dim, root.kind == SeamRoot::Kind::critical ? root_dim : 0);
   }
   if (!forest.is_in_order()) from.refuse("order of roots");

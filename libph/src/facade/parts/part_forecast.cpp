@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What parts of an image take, and how to cut it so that they take as long, from a sample of it.
+// Forecasts the time and the memory that parts of an image take, from a sample of its voxels, and
+// cuts the image into parts that take equally long.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,8 +17,8 @@ using cubical::checked_whole;
 using cubical::GridShape;
 using cubical::WholeImage;
 
-/// The share of voxels in each layer that come before all their neighbours, that is, minima. It
-/// reads some rows of some layers.
+/// Estimates the share of minima in each layer, that is, of voxels that come before all their
+/// neighbours. It reads only some rows of some layers.
 template <class T>
 class LayerSample {
  public:
@@ -29,7 +30,7 @@ class LayerSample {
         width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
-    constexpr std::uint64_t few = 64;  // of this many layers, one is read
+    constexpr std::uint64_t few = 64;  // one of this many layers is read
     const std::uint64_t step = std::clamp<std::uint64_t>(layers_ / few, 1, 16);
     std::vector<double> shares(layers_);
     for (std::uint64_t z = 0; z < layers_; z += step) {
@@ -71,15 +72,16 @@ class LayerSample {
   std::uint64_t layers_, layer_size_, width_;
 };
 
-/// The time per voxel, in units of a voxel that is not near a minimum: measured on noise with three
-/// axes, where one voxel in seven is a minimum.
+/// The time per voxel, relative to the time of a voxel that is not near a minimum. Measured on
+/// noise with three axes, where one voxel in seven is a minimum.
 double cost(double minima, bool loops) {
   constexpr double of_components = 20, of_loops = 300;
   return 1 + (loops ? of_loops : of_components) * minima;
 }
 
-/// Bytes that loop columns crossing a border send per adjacent minimum: at most the amount for
-/// noise, whose columns grow with the volume and come back often. Measured on 256³ and 512³ voxels.
+/// An upper bound for the bytes that are sent across a border for columns of loops, per minimum in
+/// the adjacent layers. It holds for noise, where columns grow with the volume and cross the border
+/// often. Measured on 256³ and 512³ voxels.
 double bytes_across(double layer_size) {
   constexpr double of_small = 20000, small = 256, power = 3.5;
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
@@ -123,9 +125,9 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const bool vertices = whole.loops || cubical::wants_vertices(shape, whole.wanted());
   const bool tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted());
   const auto layer_size = static_cast<double>(layout.layer_size());
-  // Bytes, measured on noise, waves and blurred noise of 128³ to 512³ voxels. A seam has values,
-  // roots, and components that may still be joined there. A minimum has a bar, and a number of
-  // other bars in the other graph and among loops.
+  // Bytes, measured on noise, waves and blurred noise of 128³ to 512³ voxels. A seam stores values,
+  // roots, and components that may still be joined there. Each minimum gives a bar, and on average
+  // a fixed number of bars in the other graph and among loops.
   const double seam = layer_size * ((vertices ? 48 : 0) + (tops ? 25 : 0));
   const double bar = whole.cells ? 72 : 24;
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),
@@ -157,8 +159,8 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   }
   const double bars_of_all = (bars + loops) * minima_of_all;
   forecast.join = {seams_of_all / 2, 2 * seams_of_all + 4 * bars_of_all + (4 << 20)};
-  // Bars go to the first rank, most of them in one step; each seam is sent once, except for the
-  // seams of the first part.
+  // All bars are sent to the first rank, most of them in one step. Each seam is sent once, except
+  // for the seams of the first part.
   const double share_of_others = minima_of_all > 0 ? 1 - minima_of_first / minima_of_all : 0;
   const double borders = seam > 0 ? seams_of_all / (2 * seam) : 0;
   const double across = whole.loops ? borders * bytes_across(layer_size) * minima_of_all /

@@ -31,8 +31,8 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
-  bool loops;                            ///< true if bars are wanted that come from neither graph
-  std::vector<Index> first_layers = {};  ///< of the parts; empty for parts of equal size
+  bool loops;                            ///< true if bars are wanted that neither graph gives
+  std::vector<Index> first_layers = {};  ///< first layer of each part; empty for parts of equal size
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
   /// The image without its voxels.
@@ -85,14 +85,16 @@ struct WholeImage {
            static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;
   }
   PartLayout layout(const GridShape& shape) const { return {shape, parts, first_layers}; }
-  /// Distinguishes images and options with high probability.
+  /// A hash of the image's data and the options: different ones have different hashes with high
+  /// probability.
   std::uint64_t hash() const;
 };
 
-/// @throws Error (usage) if it cannot be cut into such parts, (bad_data) if voxels are missing.
+/// @throws Error (usage) if the image cannot be cut into such parts, (bad_data) if voxels are
+/// missing.
 WholeImage checked_whole(const Image& image, int parts, const ImagePartOptions& options);
 
-/// The data with which the loops of a part begin.
+/// The data from which the computation of a part's loops starts.
 struct OwnLayers {
   OwnLayers(const Cubical& cubical, const PartLayout& layout, int part, const RunContext& context)
       : voxels(cubical),
@@ -100,10 +102,10 @@ struct OwnLayers {
         stars(voxels.cubical_image(), layout, part, context),
         free(&context.memory) {}
 
-  Cubical voxels;  ///< voxels of the part with its ghosts
+  Cubical voxels;  ///< voxels of the part and of the layers next to it
   std::unique_ptr<VoxelsInUse> in_use;
   PartStars stars;
-  FreeCells free;  ///< as far as the part alone determines them
+  FreeCells free;  ///< the free cells that the part alone determines
 };
 
 }  // namespace cubical
@@ -131,8 +133,8 @@ struct ImagePart::State {
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
   cubical::FreeCells
-      freed;  // cells found by joins, for all parts; cells found by a part stay with it
-  std::optional<cubical::OwnLayers> own;  // for a single part, until its loops take it
+      freed;  // cells found by joins of parts; those that a single part finds stay in `own`
+  std::optional<cubical::OwnLayers> own;  // only in a single part, until ImageLoops takes it
   Barcode bars;                           // not sorted yet
   MemoryClaim claim;
 };

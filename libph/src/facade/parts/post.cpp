@@ -43,11 +43,11 @@ std::vector<std::byte> Post::receive(int from) {
       ByteReader(all.last(kChecksumSize), "message").get<std::uint32_t>("checksum");
   // mutant: message-checksum
   if (crc32(all.first(all.size() - kChecksumSize)) != expected_checksum)
-    refuse("found another checksum than was sent: it is damaged");
+    refuse("found a checksum that differs from the one sent: the message is damaged");
   const auto number = ByteReader(all.first(kNumberSize), "message").get<std::uint64_t>("number");
   const std::uint64_t expected = received_[static_cast<std::size_t>(from)]++;
   if (number != expected)  // mutant: message-order
-    refuse(fmt::format("found number {}, expected {}: one was lost, repeated or early", number,
+    refuse(fmt::format("found number {}, expected {}: a message was lost, repeated or sent early", number,
                        expected));
   bytes.resize(bytes.size() - kChecksumSize);
   bytes.erase(bytes.begin(), bytes.begin() + kNumberSize);

@@ -12,8 +12,8 @@
 
 namespace ph {
 
-// Squares of lengths decide what is far, in a way that holds for the rounded distances of
-// PointMetric.
+// Distances are compared by their squares, with enough slack for conclusions to hold for the
+// rounded distances of PointMetric.
 
 inline double squared_distance(const double* x, const double* y, Index axes) {
   double sum = 0;
@@ -21,18 +21,18 @@ inline double squared_distance(const double* x, const double* y, Index axes) {
   return sum;
 }
 /// If the computed square of a gap between two points exceeds this, their distance exceeds the root
-/// of `square`. Sums of squares have relative errors of (axes + 2) · 2^-53, and arbitrary ones
-/// below 1e-280: the bound need not be tight.
+/// of `square`. Sums of squares have a relative error of (axes + 2) · 2^-53, or an arbitrary one
+/// below 1e-280. The bound need not be tight.
 inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
 
-/// The box around the points of a cell, or around some of them, and their largest distance from the
-/// points of the sample in their cells.
+/// For each cell: the box around all or some points of the cell, and their largest distance from
+/// the sample point of the cell.
 class CellBoxes {
  public:
-  /// @param count number of cells, of any kind.
+  /// @param count the number of boxes.
   CellBoxes(std::size_t count, Index axes, const RunContext& context)
       : axes_(axes), sides_(count * box_size(), &context.memory), squares_(count, &context.memory) {
     for (std::size_t i = 0; i < sides_.size(); i += 2) {
@@ -40,7 +40,7 @@ class CellBoxes {
       sides_[i + 1] = -std::numeric_limits<double>::infinity();
     }
   }
-  /// @param square its squared distance to the sample.
+  /// Adds a point x to box i. @param square the squared distance of x to the sample.
   void add_point(std::size_t i, const double* x, double square) {
     double* const box = sides_.data() + i * box_size();
     for (Index k = 0; k < axes_; ++k) {
@@ -62,10 +62,10 @@ class CellBoxes {
   std::span<const double> box(std::size_t i) const {
     return {sides_.data() + i * box_size(), box_size()};
   }
-  /// The square of the largest distance to the sample.
+  /// The square of the largest distance of a point of the box to the sample.
   double square(std::size_t i) const { return squares_[i]; }
-  /// The square of the gap to another box, whose coordinates are `stride` apart; for a point, `low`
-  /// and `high` are the same.
+  /// The square of the gap between box i and the box from `low` to `high`, arrays whose coordinates
+  /// are `stride` apart. For a point, `low` and `high` are the same.
   double gap(std::size_t i, const double* low, const double* high, Index stride) const {
     const double* const box = sides_.data() + i * box_size();
     double sum = 0;

@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// The coordinates of points, one point after another, side by side.
+/// Gives access to one point after another, with its coordinates contiguous in memory.
 class Rows {
  public:
   explicit Rows(PointsView points)
@@ -54,7 +54,8 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
       sizes_(mine.size()),
       first_block_(mine.begin) {
   if (tree_.cell_count() == 0) return;
-  // The last bit of distances depends on whether squares of the entire cloud are plain.
+  // The last bit of a distance depends on the entire cloud: on whether squares of its coordinate
+  // differences stay in range.
   bottlenecks_.emplace(tree_, 0, context);
   scan(mine, context);
   const auto is_plain = [&](double largest) {
@@ -74,7 +75,8 @@ std::uint64_t CloudBlocks::fingerprint_of(PointsView points) {
   return fingerprint;
 }
 
-// Collects the data of the entire cloud that affect distances, and the points of its own blocks.
+// Collects the data of the entire cloud that affect distances, and data of the points in the blocks
+// of this object.
 void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
   const Index axes = points_.cols();
   const auto d = static_cast<std::size_t>(axes);
@@ -167,8 +169,8 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
     place[i] = static_cast<std::uint32_t>(result.numbers.size());
     if (occurs[i]) result.numbers.push_back(members.numbers[i]);
   }
-  // Other parts find edges between other points, but the search relied on these ends being joined:
-  // this becomes a claim.
+  // An edge between points outside the block is found by another part. The search relied on its
+  // ends being joined, so the edge becomes a claim.
   std::size_t kept = 0;
   for (const FlagEdge& e : result.edges) {
     const FlagEdge renumbered{e.value, place[e.u], place[e.v]};
@@ -184,7 +186,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   return result;
 }
 
-/// Claims for the edges of the sample's tree that begin in the block.
+/// Claims for the edges of the sample's spanning tree that begin in the block.
 NumberedForest CloudBlocks::sample_claims(std::uint32_t block, double limit,
                                           const RunContext& context) const {
   NumberedForest claims(context);

@@ -13,26 +13,26 @@
 
 namespace ph {
 
-/// Some blocks of a cloud, and block by block the edges of the cloud's minimum spanning forest that
-/// have an end in them. It reads the cloud from beginning to end, once when it is made and once per
-/// block; it holds one block and the points near it.
+/// Some blocks of a cloud. Computes, block by block, the edges of the cloud's minimum spanning
+/// forest that have an end in the block. It reads the entire cloud once when it is made and once
+/// per block, and holds only one block and the points near it.
 class CloudBlocks {
  public:
-  /// @param points with at least one coordinate each; otherwise all are equal.
+  /// @param points must have at least one coordinate.
   /// @param sample, blocks as for SampleTree. @param mine the blocks of this object.
-  /// @throws Error (bad_data) on a coordinate that is not finite; as SampleTree.
+  /// @throws Error as SampleTree; (bad_data) on a coordinate that is not finite.
   CloudBlocks(PointsView points, std::size_t sample, std::uint32_t blocks, SampleTree::Range mine,
               const RunContext& context);
 
   /// A fingerprint of all coordinates of the cloud.
   std::uint64_t fingerprint() const { return fingerprint_; }
-  /// The same without making blocks. O(coordinates).
+  /// The fingerprint of a cloud without making blocks, in O(coordinates).
   static std::uint64_t fingerprint_of(PointsView points);
   /// Number of points in the blocks.
   Index size() const { return size_; }
   /// All edges of the minimum spanning forest of the cloud that have an end in the block and that
-  /// this block must find, and possibly others. For claims see
-  /// docs/explanation/engines/cloud-parts.md.
+  /// this block must find, and possibly others. docs/explanation/engines/cloud-parts.md explains
+  /// claims.
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:

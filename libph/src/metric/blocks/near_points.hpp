@@ -10,14 +10,14 @@
 
 namespace ph {
 
-/// The regions of all points of a cloud, cell by cell, as far as the splits and a box around all
-/// points determine them: each node of the tree has a box, and the largest distance from a point in
-/// it to the sample.
+/// Bounds for the position of all points of a cloud, from the splits of the tree and a box around
+/// all points: for each node of the tree, a box and the largest possible distance from a point of
+/// the box to the sample.
 class CellRegions {
  public:
-  /// @param box around all points: smallest and largest coordinate, axis by axis.
+  /// @param box around all points: the smallest and the largest coordinate on each axis.
   CellRegions(const SampleTree& tree, std::span<const double> box, const RunContext& context);
-  const CellBoxes& boxes() const { return boxes_; }  ///< by node
+  const CellBoxes& boxes() const { return boxes_; }  ///< one box per node
 
  private:
   void add(const SampleTree& tree, SampleTree::Node node, std::vector<double>& box);
@@ -26,24 +26,25 @@ class CellRegions {
 };
 
 /// Finds the points of other blocks that may have an edge to a block in the minimum spanning tree
-/// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to a point
-/// of the sample in its block, on through the sample to a point in the block of x, and to x. A
-/// point x is left out if this holds for all u; see docs/explanation/engines/cloud-parts.md.
+/// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to a sample
+/// point in its own block, from there through the sample to a sample point in the block of x, and
+/// finally to x. A point x is left out if this holds for all u; see
+/// docs/explanation/engines/cloud-parts.md.
 class NearPoints {
  public:
   using Node = SampleTree::Node;
 
-  /// @param boxes two per cell, for the points whose nearest point of the sample is the cell's:
-  /// first for the points nearby (Bottlenecks::square_around), then for the others. They must
-  /// outlive this object.
-  /// @param first_cell the position of the block's first cell in them.
-  /// @param block a block that is not empty. @param limit longer edges are not wanted.
+  /// @param boxes two boxes per cell, around the points for which the sample point of the cell is
+  /// the nearest: the first box for points near it (see Bottlenecks::square_around), the second for
+  /// all others. They must outlive this object.
+  /// @param first_cell the position of the block's first cell in `boxes`.
+  /// @param block must not be empty. @param limit longer edges are not wanted.
   NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks, const CellRegions& regions,
              const CellBoxes& boxes, std::size_t first_cell, std::uint32_t block, double limit,
              const RunContext& context);
 
   enum class Place { elsewhere, near, inside };
-  /// The place of any point of the cloud.
+  /// The place of a point of the cloud: inside the block, near it, or elsewhere.
   Place place(const double* x) const {
     Node node = SampleTree::kRoot;
     while (kinds_[node] == Kind::mixed) node = tree_.child(node, x);
@@ -52,8 +53,8 @@ class NearPoints {
     return is_near(x, node) ? Place::near : Place::elsewhere;
   }
 
-  /// True if `block` is the one that looks for edges between the two blocks: each block takes half
-  /// of the others.
+  /// True if it is `block`, not `other`, that looks for edges between the two. Each block does so
+  /// for half of the other blocks.
   static bool looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks);
 
  private:
@@ -61,8 +62,9 @@ class NearPoints {
   bool mark(Node node, const CellRegions& regions);
   bool may_be_near(Node node, const CellRegions& regions) const;
   bool is_near(const double* x, Node leaf) const;
-  /// The square of the longest edge that points of a node of the block may have to another node, or
-  /// to a point. @param square an upper bound for their squared distances to the sample.
+  /// The square of the length of the longest edge that points of the node `own` of the block may
+  /// have to a point outside the block. @param square an upper bound for the squared distances of
+  /// these points to the sample.
   double reach(Node own, double square, double within, SampleTree::Cell cell, double gap) const;
   std::size_t box_of(Node own_leaf) const {
     return 2 * (first_cell_ + (tree_.cells(own_leaf).begin - tree_.cells(own_).begin));
@@ -75,7 +77,7 @@ class NearPoints {
   const double limit_, longest_;
   const CellBoxes& cell_boxes_;
   const std::size_t first_cell_;
-  CellBoxes boxes_;  // by node below own_
+  CellBoxes boxes_;  // one box per node below own_
   std::pmr::vector<Kind> kinds_;
 };
 

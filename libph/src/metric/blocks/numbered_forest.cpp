@@ -18,7 +18,8 @@ bool is_same(const FlagEdge& a, const FlagEdge& b) {
   return a.value == b.value && a.u == b.u && a.v == b.v;
 }
 
-/// The union of two ascending lists of numbers, with the positions of both lists in it.
+/// The union of two ascending lists of numbers, and the positions of the entries of both lists in
+/// the union.
 struct Merged {
   std::pmr::vector<Index> numbers;
   std::pmr::vector<std::uint32_t> places[2];

@@ -9,20 +9,21 @@
 namespace ph {
 
 /// The minimum spanning forest of some edges between points of a cloud, and claims that must hold
-/// for the entire cloud's forest. Joining two of them gives the forest of both lists of edges: the
-/// bytes are the same for every grouping.
+/// for the forest of the entire cloud. Joining two of these objects gives the forest of all edges
+/// of both. The result is the same, byte for byte, whatever the order of joins.
 struct NumberedForest {
   explicit NumberedForest(const RunContext& context)
       : numbers(&context.memory), edges(&context.memory), claims(&context.memory) {}
 
-  /// Numbers of the points that occur, ascending; edges and claims use positions in it.
+  /// Numbers of the points that occur, ascending. Edges and claims refer to points by their
+  /// positions in this list.
   std::pmr::vector<Index> numbers;
   FlagEdges edges;  ///< sorted
   /// Sorted. A claim says that its ends are joined by edges no longer than its value. Claims that
   /// already hold are left out.
   FlagEdges claims;
 
-  /// Takes in another forest. @param context for the memory needed meanwhile.
+  /// Joins another forest into this one. @param context counts the memory needed meanwhile.
   /// @throws Error (resource) if together they have 2^32 - 1 points or more.
   void join(NumberedForest other, const RunContext& context);
   /// Keeps the edges that Kruskal's algorithm takes, and the claims that are still open.

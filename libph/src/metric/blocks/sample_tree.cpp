@@ -62,7 +62,7 @@ SampleTree::SampleTree(PointsView points, std::size_t sample, std::uint32_t bloc
 }
 
 // Draws one point from each of `sample` ranges of equal length, because consecutive points in a
-// file are usually close. The first of several copies stays.
+// file are usually close. Of several equal points, the first is kept.
 void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& context) {
   const auto n = static_cast<std::uint64_t>(points.rows());
   const Index axes = points.cols();
@@ -100,7 +100,8 @@ void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& c
   }
 }
 
-/// @param order of all points that were drawn; the points of the cells are put in order.
+/// Splits a node. @param order the points that were drawn, by number; the entries for the node's
+/// cells are rearranged.
 void SampleTree::split(Range cells, Range blocks, std::span<std::uint32_t> order) {
   const auto node = static_cast<Node>(splits_.size());
   splits_.push_back({0, 0, 0, 0});
@@ -151,9 +152,9 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
                           NearSample known) {
   struct Entry {
     SampleTree::Node node;
-    double gap;  // a lower bound for the squared distance to it
+    double gap;  // a lower bound for the squared distance to the node
   };
-  std::array<Entry, 64> stack;  // one per level; a set of points can be halved only this often
+  std::array<Entry, 64> stack;  // one entry per level; a set of points cannot be halved more often
   std::size_t height = 0;
   stack[height++] = {tree.node_of_block(block), 0};
   while (height > 0) {
@@ -191,7 +192,7 @@ Bottlenecks::Bottlenecks(const SampleTree& tree, double largest, const RunContex
     return v;
   };
   edges_.reserve(forest.size());
-  // Links by size: paths to roots are short without path compression.
+  // Links sets by size, which keeps paths to roots short without path compression.
   for (const FlagEdge& e : forest) {
     edges_.push_back({e.value, e.u, e.v});
     for (const SampleTree::Cell cell : {e.u, e.v}) first_[cell] = std::min(first_[cell], e.value);

@@ -10,11 +10,11 @@
 
 namespace ph {
 
-/// Divides space into blocks with about equally many points of a cloud, and blocks into cells: a
-/// k-d tree (Bentley 1975) over a sample of the cloud, whose leaves, the cells, each contain one
-/// point of the sample. Only comparisons decide, which gives the same division to every process
-/// that knows the cloud. A point lies in one cell together with its copies, and a point of the
-/// sample lies in its own cell.
+/// Divides space into blocks that hold about equally many points of a cloud, and each block into
+/// cells. It is a k-d tree (Bentley 1975) over a sample of the cloud, and its leaves, the cells,
+/// contain one point of the sample each. The division depends only on comparisons and is therefore
+/// the same in every process that knows the cloud. Equal points lie in the same cell, and each
+/// point of the sample lies in its own cell.
 ///
 /// Cells are numbered from one side to the other, and so are blocks: a block consists of
 /// consecutive cells.
@@ -28,17 +28,17 @@ class SampleTree {
     std::uint32_t size() const { return end - begin; }
   };
 
-  /// @param points one per row. @param sample how many points to draw: at most all of them, fewer
-  /// than 2^31. @param blocks at least one; if there are more blocks than distinct points, some are
-  /// empty.
-  /// @throws Error (bad_data) on a coordinate that is not finite, if it meets one.
+  /// @param points one per row. @param sample the number of points to draw: at most all points, and
+  /// fewer than 2^31. @param blocks at least one; if there are more blocks than distinct points,
+  /// some are empty.
+  /// @throws Error (bad_data) on a coordinate that is not finite, if it reads one.
   SampleTree(PointsView points, std::size_t sample, std::uint32_t blocks,
              const RunContext& context);
 
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(numbers_.size()); }
-  /// By cell: its point of the sample; these points are distinct.
+  /// The sample point of each cell. These points are distinct.
   PointsView points() const { return points_; }
-  /// By cell: the number of that point in the cloud.
+  /// The number of the cell's sample point in the cloud.
   Index number(Cell cell) const { return numbers_[cell]; }
 
   /// Children come after their parent, the left one directly after it; all nodes below a node are
@@ -54,10 +54,10 @@ class SampleTree {
   /// The cells of a node. A leaf has one cell, or none if it is empty.
   Range cells(Node node) const { return cells_[node]; }
   Range blocks(Node node) const { return blocks_[node]; }
-  /// The node that has exactly this block.
+  /// The node that consists of exactly this block.
   Node node_of_block(std::uint32_t block) const { return block_nodes_[block]; }
-  /// The split of a node: coordinates on the left are not larger, those on the right not smaller.
-  /// -infinity: everything is on the right.
+  /// The split of a node: coordinates on the left are at most this value, coordinates on the right
+  /// at least. If the value is -infinity, all points are on the right.
   std::uint32_t axis(Node node) const { return splits_[node].axis; }
   double value(Node node) const { return splits_[node].value; }
 
@@ -89,24 +89,25 @@ class SampleTree {
   std::vector<Node> block_nodes_;
 };
 
-/// A point of the sample with its squared distance.
+/// A point of the sample, given by its cell, and its squared distance from another point.
 struct NearSample {
   SampleTree::Cell cell;
   double square;
 };
-/// The point of the sample in a block that is nearest to x. @param known a point of the block.
+/// Of the sample points in a block, the one that is nearest to x. @param known any sample point of
+/// the block, from which the search starts.
 NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
                           NearSample known);
 
-/// The distances between points of a sample by way of other points. The bottleneck of two points is
-/// the least number r such that hops of length at most r within the sample lead from one to the
-/// other: the longest edge between them in a minimum spanning tree.
+/// The bottleneck distances between points of a sample. The bottleneck of two points is the least
+/// number r such that hops of length at most r within the sample lead from one to the other: the
+/// longest edge between them in a minimum spanning tree.
 class Bottlenecks {
  public:
-  /// @param largest for the cloud, as for PointMetric.
+  /// @param largest the largest coordinate of the cloud, as for PointMetric.
   Bottlenecks(const SampleTree& tree, double largest, const RunContext& context);
 
-  /// O(log cells).
+  /// The bottleneck of two cells, in O(log cells).
   double between(SampleTree::Cell a, SampleTree::Cell b) const {
     double longest = 0;
     while (a != b) {
@@ -116,8 +117,9 @@ class Bottlenecks {
     }
     return longest;
   }
-  /// The square of twice the least bottleneck between a cell and another cell: points that are no
-  /// farther from the sample than its root have no longer edges because of that distance.
+  /// The square of twice the least bottleneck between a cell and another cell: points of the cell
+  /// at a distance of at most its root from the sample can have no longer edges because of that
+  /// distance.
   double square_around(SampleTree::Cell cell) const {
     const double twice = 2 * first_[cell];
     return twice * twice;
@@ -135,7 +137,7 @@ class Bottlenecks {
  private:
   std::pmr::vector<std::uint32_t> parent_;
   std::pmr::vector<double> length_;  // length of the edge by which a set joined its parent's set
-  std::pmr::vector<double> first_;   // the shortest edge of a cell
+  std::pmr::vector<double> first_;   // length of the shortest edge of each cell
   std::pmr::vector<double> within_;
   std::pmr::vector<Edge> edges_;
 };
