@@ -27,8 +27,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
 /// includes the edges.
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
 
-/// The same for an engine that takes only points: it computes two samples of them.
-/// @param points enough points for the engine. @param options with engine.
+/// The same for an engine that takes only points: the engine computes two samples of them.
+/// @param points must be enough points for the engine. @param options must name an engine.
 MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
                                const Options& options, const RunContext& context);
 

@@ -10,9 +10,9 @@
 namespace ph {
 namespace {
 
-// A norm that is never larger than the distance searched for, and that is cheap to compute from the
-// gaps between two boxes, axis by axis. Both are rounded: `beyond` leaves room for the errors of
-// sums of `axes` terms, which keeps everything within reach.
+// A Gaps type is a norm that is never larger than the distance searched for, and cheap to compute
+// from the gaps between two boxes on each axis. Norm and distance are rounded; `reach` leaves room
+// for the errors of sums, so that no point within the distance is missed.
 // mutant: search-slack
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
@@ -20,7 +20,7 @@ struct EuclideanGaps {
   // Smaller sums of squares may have lost digits to underflow.
   static constexpr double kSmallestPlainSquare = 1e-280;
   static double add(double sum, double gap) { return sum + gap * gap; }
-  /// The sum that no distance <= d exceeds.
+  /// An upper bound for the sums of all distances <= d. @param slack the allowance for rounding.
   static double reach(double d, double slack) {
     return std::max(d * d * slack, kSmallestPlainSquare);
   }
@@ -34,13 +34,13 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
-/// For Euclidean distances whose squares underflow: closer points have distance 0, as in the
-/// metric.
+/// For Euclidean distances whose squares underflow. Points closer than that have distance 0, as in
+/// PointMetric.
 struct TinyGaps : ChebyshevGaps {
   static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
 };
 
-/// @tparam Axes number of coordinates; 0 for any.
+/// @tparam Axes the number of coordinates; 0 for any number.
 template <class Gaps, int Axes>
 class Search final : public NeighbourSearch {
  public:
@@ -111,8 +111,8 @@ class Search final : public NeighbourSearch {
     const VisitPair& visit;
     Ticker& ticker;
   };
-  /// Visits pairs of a point of `a` and a point of `b`, which must be at the level of `a` and not
-  /// before it.
+  /// Visits the pairs of a point of `a` and a point of `b`. The nodes must be on the same level,
+  /// and `b` must not come before `a`.
   void visit_pairs(Node a, Node b, const Pairs& pairs) const {
     if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
     if (tree_.is_leaf(a)) {
@@ -165,7 +165,8 @@ class Search final : public NeighbourSearch {
       sum = Gaps::add(sum, std::max({a[2 * k] - b[2 * k + 1], b[2 * k] - a[2 * k + 1], 0.0}));
     return sum;
   }
-  /// @param sum gap_to_point(p, q): if no digits are lost, this is the metric's own sum.
+  /// @param sum the result of gap_to_point(p, q). Unless digits were lost, it equals the sum that
+  /// the metric computes.
   double distance(Position p, Position q, double sum) const {
     if constexpr (std::same_as<Gaps, EuclideanGaps>)
       if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
@@ -182,7 +183,7 @@ class Search final : public NeighbourSearch {
     // mutant: search-tie
     return b.position == kNone || tree_.rows()[a.position] < tree_.rows()[b.position];
   }
-  /// Inserts it at its place and drops the last.
+  /// Inserts a neighbour into the sorted list and drops the last one.
   void insert(const Neighbour& neighbour, std::span<Neighbour> list) const {
     if (!is_nearer(neighbour, list.back())) return;
     std::size_t i = list.size() - 1;
@@ -192,7 +193,7 @@ class Search final : public NeighbourSearch {
 
   /// Visits the leaves, nearer child first. @param gap_to the gap between a node and the starting
   /// point.
-  /// @param is_hopeless true if a node with that gap can be skipped.
+  /// @param is_hopeless returns true if a node with that gap can be skipped.
   template <class GapTo, class IsHopeless, class VisitLeaf>
   void traverse(GapTo&& gap_to, IsHopeless&& is_hopeless, VisitLeaf&& visit_leaf) const {
     struct Entry {
@@ -256,8 +257,8 @@ std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetr
 std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
                                                        PointDistance distance, double p) {
-  // p-norms decrease as p grows: the Euclidean norm is a lower bound for p below 2; the largest
-  // coordinate is a lower bound for all, and needs no squares.
+  // p-norms decrease as p grows. For p below 2, the Euclidean norm is therefore a lower bound. The
+  // largest coordinate is a lower bound for every p, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;

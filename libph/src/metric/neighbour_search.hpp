@@ -11,9 +11,9 @@
 
 namespace ph {
 
-/// Exact searches in a k-d tree, for nearest points and for all pairs within a distance. Distances
-/// equal those of PointMetric to the last bit; among points at the same distance, the one with the
-/// smaller row is nearer.
+/// Exact searches in a k-d tree for nearest points and for all pairs within a given distance.
+/// Distances equal those of PointMetric to the last bit; among points at the same distance, the one
+/// with the smaller row is nearer.
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -27,19 +27,19 @@ class NeighbourSearch {
   /// A partition of the points.
   struct Parts {
     static constexpr std::uint32_t kMixed = UINT32_MAX;
-    std::span<const std::uint32_t> of_point;  ///< by position
-    /// By node: the part that contains all its points, or kMixed.
+    std::span<const std::uint32_t> of_point;  ///< part of each position
+    /// For each node: the part that contains all its points, or kMixed.
     std::span<const std::uint32_t> of_node;
   };
 
   virtual ~NeighbourSearch() = default;
 
-  /// The points to find among points at the same distance: those with the smallest rows, or any.
-  /// `any` is much faster if many points are equal and at distance 0.
+  /// Which of several points at the same distance are found: the points with the smallest rows, or
+  /// any. `any` is much faster if many points are equal and at distance 0.
   enum class Ties { by_row, any };
 
   /// For each point of a leaf, its k nearest other points at distance <= limit, nearest first.
-  /// @param found k entries per point, point by point; missing ones stay kNone.
+  /// @param found k entries per point, point by point; entries without a neighbour stay kNone.
   virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                        std::span<Neighbour> found) const = 0;
   /// The nearest point of another part at distance <= limit, or kNone.
@@ -56,7 +56,8 @@ class NeighbourSearch {
     return distance == PointDistance::euclidean || distance == PointDistance::manhattan ||
            distance == PointDistance::chebyshev || distance == PointDistance::minkowski;
   }
-  /// @param tree must outlive the search, as must `metric`, the metric of tree.points().
+  /// @param tree must outlive the search. @param metric must be the metric of tree.points(), and
+  /// must outlive the search.
   /// @param distance a distance that can be searched. @param p exponent of `minkowski`.
   static std::unique_ptr<NeighbourSearch> make(const KdTree& tree, const PointMetric& metric,
                                                PointDistance distance, double p);

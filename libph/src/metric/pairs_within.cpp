@@ -33,7 +33,8 @@ struct SearchSpace {
 void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
-  // Most candidates are too far by more than rounding: no root is needed to see this.
+  // Most candidates are too far apart by more than rounding errors, which their squares show
+  // without a root.
   const double far =
       std::max(space.radius * space.radius, PointMetric::kLeastPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
@@ -101,8 +102,8 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  // Measured: all pairs of this few points take little time, because many are computed at once. For
-  // some inputs a tree takes longer.
+  // Measured: computing all pairs of this few points takes little time, because many are computed
+  // at once. For some inputs a tree takes longer.
   constexpr Index few = 1 << 14;
   // The squares of smaller distances underflow, and one cube would hold all such points.
   constexpr double tiny = 1e-139;

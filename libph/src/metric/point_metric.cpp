@@ -23,7 +23,8 @@ namespace {
 
 static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
 
-/// The sum of terms 0 … count - 1 in four partial sums: each of them waits only for itself.
+/// Adds the terms 0 … count - 1 in four partial sums, because additions to different sums need not
+/// wait for each other.
 template <class Term>
 double sum_in_lanes(Index count, const Term& term) {
   std::array<double, 4> lanes{};
@@ -42,7 +43,7 @@ double sum_in_lanes(Index count, const Term& term) {
   return sum;
 }
 
-/// 0 if there are no terms.
+/// The largest of the terms 0 … count - 1, or 0 if there are none or all are negative.
 template <class Term>
 double largest_of(Index count, const Term& term) {
   double largest = 0;
@@ -50,7 +51,7 @@ double largest_of(Index count, const Term& term) {
   return largest;
 }
 
-/// A vector of length 1 with the direction of another vector of any size other than 0.
+/// The vector of length 1 in the direction of a given vector, which may have any length except 0.
 class Direction {
  public:
   Direction(const double* x, Index d) : x_(x) {
@@ -105,7 +106,7 @@ double PointMetric::euclidean(Index i, Index j) const {
   if (!may_need_scaling_) {
     double sum = 0;
     for (Index k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
-    // A tiny sum may have lost digits to underflow and is computed the careful way.
+    // A tiny sum may have lost digits to underflow; the distance is then computed with scaling.
     if (sum >= kLeastPlainSquare || sum == 0) return std::sqrt(sum);
   }
   // Halves coordinates only if their differences overflow, because half of the smallest denormal is

@@ -12,12 +12,11 @@
 namespace ph {
 namespace {
 
-// Points per block: sums stay in registers. A block holds its points axis by axis; missing points
-// in the last block are zero.
+// The number of points per block, small enough for sums to stay in registers. A block stores its
+// points axis by axis; unused places in the last block are zero.
 constexpr Index kBlock = 16;
 
-// The distances (square roots) from point i to all points before it; an entire block is written.
-// @return the least of the squares that are not zero.
+// Computes the distances from point i to all points before it. The last block is written entirely. @return the least squared distance that is not zero.
 PH_FOR_EACH_TARGET
 double distances_of_row(const double* blocks, Index dims, Index i, double* out) {
   const double* point = blocks + i / kBlock * kBlock * dims + i % kBlock;

@@ -12,11 +12,12 @@
 namespace ph {
 namespace {
 
-// Borůvka's algorithm: in each round every component takes its first edge to another one. Rounds
-// are cheap because the distance to the nearest point of another component never decreases. Each
-// point therefore stores a few nearest neighbours, found once; the first of them that is foreign is
-// its nearest foreign point. After that, the last known neighbour gives a lower bound; the tree is
-// searched only if the bound does not exceed the best edge that the component already has.
+// Borůvka's algorithm: in each round, every component takes its first edge to another component.
+// Call a point of another component foreign. Rounds are cheap because the distance from a point to
+// its nearest foreign point never decreases. Each point stores a few nearest neighbours, found
+// once; the first foreign point among them is its nearest foreign point. If none of them is
+// foreign, the last of them gives a lower bound. The tree is searched only if this bound does not
+// exceed the best edge that the component already has.
 class Boruvka {
  public:
   Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,
@@ -38,7 +39,7 @@ class Boruvka {
     std::iota(component_.begin(), component_.end(), 0U);
   }
 
-  /// Appends the edges, given by rows.
+  /// Appends the edges of the forest, whose ends are rows of the points.
   void run(FlagEdges& forest) {
     find_neighbours();
     do {
@@ -104,7 +105,7 @@ class Boruvka {
     std::fill(best_.begin(), best_.end(), kNone);
     for (Position p = 0; p < points_.size(); ++p) offer(p);
   }
-  /// Moves to the first known neighbour that is foreign.
+  /// Makes `first` of point p the first known neighbour that is foreign.
   void advance(Position p) {
     Point& point = points_[p];
     const std::uint32_t own = component_[p];
@@ -113,7 +114,7 @@ class Boruvka {
     if (point.place < kKnown) ++point.place;
     for (; point.place < kKnown; ++point.place) {
       const Position q = known_[p * kKnown + point.place];
-      if (q == kNone) {  // there are no more within the limit
+      if (q == kNone) {  // no further point is within the limit
         point.first = {limit_, kNone};
         point.knows = Knows::lower_bound;
         return;
@@ -135,7 +136,7 @@ class Boruvka {
     for (Position c = 0; c < points_.size(); ++c)
       if (component_[c] == c)
         reach_[c] = best_[c] == kNone ? limit_ : points_[best_[c]].first.distance;
-    // Neighbours in the order of the tree are near each other: they give a first bound.
+    // Points that follow each other in the tree are near each other, which gives a first bound.
     for (Position p = 1; p < points_.size(); ++p) {
       const std::uint32_t a = component_[p - 1], b = component_[p];
       if (a == b || (best_[a] != kNone && best_[b] != kNone)) continue;
@@ -173,7 +174,8 @@ class Boruvka {
     return best == kNone || precedes(p, best);  // mutant: forest-bound-tie
   }
 
-  /// Takes the best edge of each component. @return true if components are left that may join.
+  /// Adds the best edge of each component to the forest. @return true if components are left that
+  /// may join.
   bool join(FlagEdges& forest) {
     const std::size_t before = components_;
     for (Position c = 0; c < best_.size(); ++c) {
@@ -209,13 +211,13 @@ class Boruvka {
   const double limit_;
   const RunContext& context_;
   std::size_t components_;
-  std::pmr::vector<Position> known_;  // kKnown per point, nearest first
+  std::pmr::vector<Position> known_;  // kKnown neighbours of each point, nearest first
   std::pmr::vector<Point> points_;
-  std::pmr::vector<std::uint32_t> component_;       // by position: a root of sets_
-  std::pmr::vector<std::uint32_t> node_component_;  // by node of the tree
+  std::pmr::vector<std::uint32_t> component_;       // component of each position: a root of sets_
+  std::pmr::vector<std::uint32_t> node_component_;  // component of each node of the tree
   DisjointSets sets_;
-  std::pmr::vector<Position> best_;  // by component: the point that has its best edge
-  // By component: an upper bound for the length of its best edge.
+  std::pmr::vector<Position> best_;  // for each component: the point with its best edge
+  // For each component: an upper bound for the length of its best edge.
   std::pmr::vector<std::atomic<double>> reach_;
   std::pmr::vector<Position> asking_;
 };
@@ -230,11 +232,11 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context, double largest) {
   const PointMetric checked(points, distance, p);
-  points = checked.points();  // now with contiguous rows
+  points = checked.points();  // now the rows are contiguous
   FlagEdges forest(&context.memory);
   const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
-  // Each copy is joined to the first of its kind; no other edge of a copy precedes that of the
-  // first.
+  // Each copy is joined to the first point that equals it. No other edge of a copy precedes the
+  // corresponding edge of that first point.
   for (std::uint32_t i = 0; i < first_equal.size(); ++i)
     if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});  // mutant: forest-copies
   const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);

@@ -20,12 +20,12 @@ constexpr std::size_t kFew = 32;  // edges up to this number are sorted by inser
 
 // Edges divided by the value of a digit.
 struct Split {
-  std::pmr::vector<std::size_t> ends;  // ends of the edges with each value
+  std::pmr::vector<std::size_t> ends;  // end of the range of edges with each digit
   int shift;                           // position of the digit
 };
 
-// Divides edges whose values share the bits from `shift` on into parts by the next bits, into about
-// as many parts as edges.
+// Divides edges whose values agree in the bits from `shift` on by their next lower bits, into about
+// as many parts as there are edges.
 Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   constexpr int most_bits = 12;  // keeps the counts in the cache
   const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});
@@ -43,7 +43,7 @@ Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   return result;
 }
 
-// For edges that are only a few places away from their final place.
+// Sorts edges, each of which is only a few places away from its final place.
 void sort_by_insertion(std::span<FlagEdge> edges) {
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const FlagEdge e = edges[i];
@@ -58,7 +58,8 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
     sort_by_insertion(edges);
     return true;
   }
-  // Ties from a matrix arrive in order: edges with integer values are already sorted.
+  // Edges of equal value from a matrix arrive in order, so edges with integer values are already
+  // sorted.
   if (std::is_sorted(edges.begin(), edges.end(), kInOrder)) return true;
   if (shift > 0) return false;
   std::sort(edges.begin(), edges.end(), kInOrder);
@@ -67,7 +68,8 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
 
 void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer);
 
-// Sorts edges that were divided, from one of the parts on.
+// Sorts edges that were divided into parts. @param begin start of the first part. @param ends ends
+// of the parts.
 void sort_parts(std::span<FlagEdge> edges, std::size_t begin, std::span<const std::size_t> ends,
                 int shift, FlagEdges& buffer) {
   const std::size_t first = begin;
@@ -84,7 +86,7 @@ void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   sort_parts(edges, 0, parts.ends, parts.shift, buffer);
 }
 
-// @param ends ends of bins, ascending. @return the ends of the bins that are not empty.
+// Returns the ends of the bins that are not empty. @param ends the ends of all bins, ascending.
 std::pmr::vector<std::size_t> without_empty(std::span<const std::size_t> ends,
                                             const RunContext& context) {
   std::pmr::vector<std::size_t> result(&context.memory);
@@ -135,7 +137,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   FlagEdges buffer(&context_->memory);
   const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer are sorted before a thread would start
+  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer edges are sorted before a thread would have started
   const std::size_t pieces = edges.size() / edges_a_piece + 1;
   for_each_piece("sort edges", parts.ends.size(), (parts.ends.size() + pieces - 1) / pieces,
                  *context_, [&](std::size_t first, std::size_t last) {
@@ -146,7 +148,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
 }
 
 void BinnedEdges::sort_ahead(std::size_t bin) const {
-  constexpr std::size_t few = 1 << 14;  // a thread would cost more
+  constexpr std::size_t few = 1 << 14;  // fewer edges are not worth a thread
   if (bin >= bin_count() || bin_begin(bin + 1) - bin_begin(bin) < few) return;
   if (thread_count(*context_) < 2) return;
   const std::lock_guard lock(lazy_->mutex);
@@ -159,7 +161,7 @@ void BinnedEdges::sort_ahead(std::size_t bin) const {
       FlagEdges buffer(&context->memory);
       sort_edges(edges, shift, buffer);
     } catch (...) {
-      return;  // still unsorted: the caller that needs the bin sorts it, and meets the error
+      return;  // the bin stays unsorted; the caller that needs it sorts it and gets the error
     }
     lazy->is_next_sorted = true;
   };
@@ -190,7 +192,8 @@ void EdgeBinner::allocate(double limit) {
 BinnedEdges EdgeBinner::finish() {
   const std::size_t last = bin_of_(limit_);
   const auto ends = std::span(counts_).subspan(begin_of(workers_ - 1), last + 1);
-  // Not all edges of the last bin were within the limit: the workers' parts are moved together.
+  // The last bin has gaps, because not all of its edges were within the limit. The parts of the
+  // workers are moved together.
   auto to = edges_.begin() + static_cast<std::ptrdiff_t>(last == 0 ? 0 : ends[last - 1]);
   for (std::size_t w = 0; w < workers_; ++w)
     // mutant: last-bin

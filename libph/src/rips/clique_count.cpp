@@ -15,13 +15,13 @@ namespace {
 using Vertex = std::uint32_t;
 using Set = std::pmr::vector<Vertex>;  // ascending
 
-constexpr double kFewCells = 1 << 20;   // up to this number, cells are counted one by one
+constexpr double kFewCells = 1 << 20;   // cells up to this number are counted one by one
 constexpr std::size_t kSamples = 4000;  // sampled edges
-// Steps of the sample: fewer edges are sampled if degrees are high.
+// Limit for the steps of the sampling. If degrees are high, fewer edges are sampled.
 constexpr double kSteps = 1 << 27;
 constexpr std::size_t kFewestSamples = 200;
 
-/// The neighbours of each vertex, as a list.
+/// The list of neighbours of each vertex.
 class Neighbours {
  public:
   Neighbours(const RipsGraph& graph, const RunContext& context)
@@ -78,9 +78,9 @@ class CliqueCounter {
 
  private:
   // The method of Knuth (1975): a random edge is extended vertex by vertex, each chosen at random
-  // among the vertices joined to all before. The product of the numbers of choices is the expected
-  // number of ways to build a clique; each clique can be built from C(d+1,2) first edges and in
-  // (d-1)! orders of the rest.
+  // among the vertices that are joined to all vertices so far. The product of the numbers of
+  // choices is the expected number of ways to build a clique; each clique can be built from
+  // C(d+1,2) first edges and in (d-1)! orders of the rest.
   std::vector<double> estimate() {
     std::vector<double> sums(top_ + 1, 0);
     const std::size_t edges = graph_.edge_count();
@@ -93,8 +93,8 @@ class CliqueCounter {
     Set set(&context_.memory), next(&context_.memory);
     Ticker ticker(context_, "cells", samples);
     for (std::size_t i = 0; i < samples; ++i) {
-      // Takes one edge from each of equal pieces of the order, which gives long and short edges
-      // their share.
+      // Takes one edge from each of equal pieces of the order, which samples short and long edges
+      // in proportion.
       const std::size_t begin = i * edges / samples, end = (i + 1) * edges / samples;
       const FlagEdge& e = graph_.edges()[begin + (end > begin ? below(end - begin) : 0)];
       intersect(neighbours_.of(e.u), neighbours_.of(e.v), set);
@@ -120,7 +120,7 @@ class CliqueCounter {
     return sums;
   }
 
-  /// Counts dimensions 2 … `last`, each clique from its smallest vertex up.
+  /// Counts the cliques of dimensions 2 … `last`. Each clique is built from its smallest vertex up.
   void count(std::vector<double>& counts, std::size_t last) {
     std::fill(counts.begin() + 2, counts.begin() + static_cast<std::ptrdiff_t>(last) + 1, 0.0);
     std::vector<Set> sets(last + 1, Set(&context_.memory));

@@ -41,8 +41,9 @@ class EdgeLinkSweep {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param births of the vertices; if empty, all enter first. @param edges must outlive the sweep;
-  /// edges that cannot change anything are never sorted.
+  /// @param births the births of the vertices; if empty, all vertices enter before all edges.
+  /// @param edges must outlive the sweep; bins of edges that cannot change anything are never
+  /// sorted.
   EdgeLinkSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
                 const K& field, SweepRequest wanted, Observer& observer, const RunContext& context)
       : edges_(edges),
@@ -68,12 +69,13 @@ class EdgeLinkSweep {
   void run();
 
  private:
-  /// True if an edge matters only if its link is empty.
+  /// True if, at present, only edges with an empty link matter.
   bool can_skip_bins() const {
     // mutant: bins-skipped
     return !surfaces_ && !wanted_.zero_length && loops_.living_count() == 0;
   }
-  /// True if nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
+  /// True if nothing happens at the edges of a bin. Such edges are not added at once; see
+  /// first_unadded_bin_.
   bool can_skip_bin(std::size_t bin);
   /// Adds the edges of skipped bins.
   void add_bins_until(std::size_t bin);
@@ -86,11 +88,11 @@ class EdgeLinkSweep {
   const RunContext& context_;
   const LinkLayout layout_;
   ActiveEdges active_;         // edges with a non-zero annotation
-  LinkGraph graph_;            // edges so far, without the skipped bins from first_unadded_bin_ on
+  LinkGraph graph_;            // the edges so far, except for skipped bins from first_unadded_bin_ on
   LinkComponents components_;  // components of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
-  std::pmr::vector<std::uint32_t> age_;  // by vertex
+  std::pmr::vector<std::uint32_t> age_;  // of each vertex
   DisjointSets sets_;                    // each root is the oldest vertex of its component
   LinkLoops<K> loops_;
   std::optional<LinkSurfaces<K>> surfaces_;
@@ -122,7 +124,7 @@ void EdgeLinkSweep<K>::run() {
 
 template <Field K>
 bool EdgeLinkSweep<K>::can_skip_bin(std::size_t bin) {
-  // A link that is not empty stays so, and its edge joins no components.
+  // A link that is not empty remains so, and an edge with such a link joins no components.
   if (!can_skip_bins()) return false;
   const auto have_links = [&](std::span<const FlagEdge> edges) {
     return graph_.have_links(edges, context_);

@@ -36,7 +36,7 @@ struct EdgeLinkEngine {
   }
   static constexpr int listed_dim(int) { return 1; }
   static constexpr bool goes_by_edges = true;
-  /// It stops once nothing more can happen; lists are not full by then.
+  /// The sweep stops once nothing more can happen, usually before its lists are full.
   static constexpr bool stops_early = true;
   static double rips_bytes(std::size_t vertices, std::size_t edges) {
     return LinkGraph::bytes(vertices, edges);

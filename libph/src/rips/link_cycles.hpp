@@ -13,13 +13,13 @@
 
 namespace ph {
 
-/// Cycles for the classes of H1 in a sweep of edge links: each generator of H^1 has the edge that
-/// gave birth to it, closed by a path of as few older edges as possible.
+/// Cycles for the classes of H1 in a sweep of edge links: the cycle of a generator of H^1 consists
+/// of the edge that gave birth to it and of a path of as few older edges as possible.
 ///
 /// On this cycle z_g, the generator g is one, younger generators are zero, and older ones have any
 /// value. A class of homology, given by its values under the generators, is therefore a combination
-/// of the z_g, which is found from the youngest down and enters with its youngest. See
-/// docs/explanation/engines/edge-links.md.
+/// of cycles z_g. Its coefficients are found from the youngest generator down, and it is born with
+/// its youngest generator. See docs/explanation/engines/edge-links.md.
 template <Field K>
 class LinkCycles {
  public:
@@ -40,14 +40,14 @@ class LinkCycles {
         values_(memory),
         terms_(memory) {}
 
-  /// Generators must come in the order of their numbers. @param u, v the ends of the edge, which is
-  /// not in the graph yet; the generator is one from u to v. They must be connected.
+  /// Adds the next generator, in the order of their numbers. @param u, v the ends of its edge,
+  /// which must be connected in the graph without that edge. The generator is one from u to v.
   void add(Vertex u, Vertex v) { paths_.push_back(shortest_path(v, u)); }
   /// The cycle of a dead generator is no longer needed.
   void erase(Generator g) { paths_[g] = Path(paths_.get_allocator()); }
 
-  /// A cycle on which each generator has its non-zero value in `values`: calls `visit(larger end,
-  /// smaller end, coefficient)` once per edge.
+  /// Finds a cycle on which each generator has the value that it has in `values`, and calls
+  /// `visit(larger end, smaller end, coefficient)` once per edge.
   template <class Visit>
   void for_each_term(typename Annotations<K>::Class values, Visit&& visit);
   /// The cycle of one generator.
@@ -94,9 +94,9 @@ class LinkCycles {
   const LinkGraph& graph_;
   Annotations<K>& annotations_;
   const K& field_;
-  std::pmr::vector<Path> paths_;  // by generator, from the end of its edge to the start
+  std::pmr::vector<Path> paths_;  // of each generator, from the end of its edge to the start
   std::pmr::vector<LinkGraph::Word> unvisited_;
-  std::pmr::vector<Vertex> before_;  // by vertex: the vertex visited before it
+  std::pmr::vector<Vertex> before_;  // for each vertex: the vertex visited before it
   std::pmr::vector<Vertex> queue_;
   Sums<Generator> values_;
   Sums<std::pair<Vertex, Vertex>> terms_;

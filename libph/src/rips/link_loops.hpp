@@ -23,7 +23,8 @@
 namespace ph {
 
 /// H1 of a Vietoris-Rips filtration, edge by edge: the annotations of edges, and the births, deaths
-/// and representatives of classes. A RelationSolver takes over while thousands of classes live.
+/// and representatives of classes. As long as thousands of classes are alive, a RelationSolver does
+/// the work instead.
 template <Field K>
 class LinkLoops {
  public:
@@ -51,16 +52,16 @@ class LinkLoops {
   std::size_t living_count() const {
     return solver_ ? solver_->living_count() : annotations_->living_count();
   }
-  /// True if edges must be annotated although no active edge touches their links.
+  /// True if edges must be annotated even if no active edge touches their links.
   bool wants_all_links() const { return solver_.has_value(); }
 
-  /// A class is born with an edge that closes a loop and has an empty link.
+  /// Adds a class that is born with an edge, which must close a loop and have an empty link.
   void give_birth(Position position, const FlagEdge& e);
-  /// The pair of an edge and the first triangle over it.
+  /// Reports the pair of an edge and the first triangle over it.
   void report_zero_length(Position position, const FlagEdge& e);
-  /// Annotates an edge (the edge of the graph's link, which must not be empty), and kills the
-  /// classes that further components of the link kill. @param idle receives the components that
-  /// kill nothing, unless all links are wanted.
+  /// Annotates the edge whose link the graph holds, which must not be empty, and kills the classes
+  /// that further components of the link kill. @param idle receives the components that kill
+  /// nothing, unless all links are wanted.
   void annotate(Position position, const FlagEdge& e, std::pmr::vector<std::size_t>& idle);
   /// Reports the classes that never die.
   void finish();
@@ -72,7 +73,7 @@ class LinkLoops {
   void begin_annotations() {
     annotations_.emplace(field_, active_, wanted_.cocycles, &context_.memory);
   }
-  /// True if many classes live, and only the values of their deaths are wanted.
+  /// True if many classes are alive, and only their pairs are wanted.
   bool wants_solver() const {
     return living_count() >= living_for_solver_ && active_.has_rows() && !wanted_.surfaces &&
            !wanted_.cycles && !wanted_.cocycles &&
@@ -81,9 +82,9 @@ class LinkLoops {
   void annotate_by_solver(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
-  /// Sets representative_: the values of a generator on the edges before this one, if cocycles are
-  /// wanted, or the cycle with these values of the generators, or the values of a class, if cycles
-  /// are wanted.
+  /// Sets representative_. If cocycles are wanted, it becomes the values of generator g on the
+  /// edges before this one. If cycles are wanted, it becomes a cycle: the cycle of the generator or
+  /// the cycle with the given class, whichever `of_cycle` is.
   template <class Values>
   void find_representative(typename Annotations<K>::Generator g, Values of_cycle);
 
@@ -95,7 +96,7 @@ class LinkLoops {
   Observer& observer_;
   const RunContext& context_;
   std::optional<Annotations<K>> annotations_;
-  std::optional<RelationSolver> solver_;  // replaces annotations while many classes live
+  std::optional<RelationSolver> solver_;  // replaces annotations while many classes are alive
   std::size_t living_for_solver_;
   std::optional<LinkCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;

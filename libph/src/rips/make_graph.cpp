@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// A copy of some rows, counted as long as it is held.
+/// Copies some rows. The memory of the copy is counted as long as it is held.
 HeldPoints rows_of(PointsView points, std::span<const std::uint32_t> rows,
                    const RunContext& context) {
   struct Copy {
@@ -85,7 +85,7 @@ RipsGraph graph_of_all_points(const HeldPoints& points, const RipsOptions& optio
 RipsGraph graph_of_distinct_points(const HeldPoints& points, const RipsOptions& options,
                                    RipsForm form, const VertexWeights& weights,
                                    const RunContext& context) {
-  // Merging copies that have births is not worth the code.
+  // Equal points with births are not merged, because that is not worth the code.
   if (merges_equal_points(options, form) && weights.births().empty()) {
     const WholeRows whole(points.view);
     const std::pmr::vector<std::uint32_t> firsts =
@@ -118,7 +118,7 @@ RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, RipsForm 
   return graph;
 }
 
-/// Makes a form from each kind of data.
+/// Makes a form of the filtration, for each kind of data.
 struct Maker {
   const RipsOptions& options;
   RipsForm form;

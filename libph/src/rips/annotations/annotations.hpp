@@ -20,14 +20,14 @@
 
 namespace ph {
 
-/// The classes of edges under the living generators of H^1. Each generator is a cocycle, and the
-/// annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a homology
-/// basis) is the vector of the generators' values on it. Edges of the same class share one vector;
-/// an edge that was never annotated has the zero vector. a(u,v) = -a(v,u).
+/// The classes of edges with respect to the living generators of H^1. Each generator is a cocycle,
+/// and the annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a
+/// homology basis) is the vector of the generators' values on it. Edges of the same class share one
+/// vector; an edge that was never annotated has the zero vector. Annotations are alternating:
+/// a(u,v) = -a(v,u).
 ///
-/// Dead generators are substituted in a class when it is next asked for. Until then, two classes
-/// that became equal may still be separate, and edges of a class that became zero may still be
-/// active.
+/// Dead generators are replaced in a class when it is next asked for. Until then, two classes that
+/// became equal may still be separate, and edges of a class that became zero may still be active.
 template <Field K>
 class Annotations {
  public:
@@ -44,8 +44,8 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  /// @param edges receives the edges of non-zero class, starting with none; it must outlive this
-  /// object. @param keeps_values true if for_each_value will be called.
+  /// @param edges receives the edges of non-zero class, and must be empty at first; it must outlive
+  /// this object. @param keeps_values true if for_each_value will be called.
   Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
               std::pmr::memory_resource* memory)
       : field_(field),
@@ -71,7 +71,7 @@ class Annotations {
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
 
-  /// An edge in the caller's terms.
+  /// An edge, with a number by which the caller identifies it.
   struct Edge {
     std::uint32_t u, v;      ///< u > v
     std::uint32_t position;  ///< any number
@@ -83,8 +83,8 @@ class Annotations {
     scratch_.emplace_back(add_generator(edge.position), field_.from_int(1));
     assign(edge, intern());
   }
-  /// Adds a generator whose value is zero on all edges so far. @param birth the position of its
-  /// edge.
+  /// Adds a generator whose value is zero on all edges so far. @param birth the position of the
+  /// edge that gives birth to it.
   Generator add_generator(std::uint32_t birth) {
     births_.push_back(birth);
     if (keeps_values_) occurrences_.emplace_back();
@@ -99,7 +99,7 @@ class Annotations {
       if (!dead_.contains(g)) visit(g, births_[g]);
   }
 
-  /// The class of a sum of generators.
+  /// Returns the class of a sum of generators.
   Class class_of(std::span<const Term> sum) {
     scratch_.assign(sum.begin(), sum.end());
     dead_.eliminate_from(scratch_);
@@ -109,7 +109,7 @@ class Annotations {
   template <class Visit>
   void for_each_edge(Visit&& visit);
 
-  /// a(u,v).
+  /// The annotation a(u,v).
   Class of(std::uint32_t u, std::uint32_t v) {
     if (edges_.degree(u) > edges_.degree(v)) return -of(v, u);
     ActiveEdges::Label* label = edges_.find(u, v);
@@ -124,15 +124,16 @@ class Annotations {
     edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
   }
 
-  /// Here and below, arguments must be classes returned after the last call of `kill`.
+  /// The sum of two classes. Here and below, arguments must be classes that were returned after the
+  /// last call of `kill`.
   Class sum(Class a, Class b);
-  /// The value of a generator in a class.
+  /// The coefficient of a generator in a class.
   typename K::Element value(Class a, Generator g) const {
     const Term* term = find(vectors_[a.id], g);
     if (term == nullptr) return field_.from_int(0);
     return a.negated ? field_.negate(term->coefficient()) : term->coefficient();
   }
-  /// Calls `visit(generator, value)` for the generators that are not zero in a class.
+  /// Calls `visit(generator, value)` for the generators whose coefficient in a class is not zero.
   template <class Visit>
   void for_each_generator(Class a, Visit&& visit) const {
     for (const Term& t : vectors_[a.id])
@@ -141,11 +142,11 @@ class Annotations {
   // mutant: youngest-generator
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
-  /// Makes a class zero: its youngest generator becomes a combination of the others.
+  /// Makes a class zero: its youngest generator dies and becomes a combination of the others.
   void kill(Class relation);
 
-  /// The edges on which a living generator is not zero, with its values: a cocycle. Calls
-  /// `visit(edge, value)`.
+  /// Calls `visit(edge, value)` for the edges on which a living generator is not zero. Together
+  /// they are a cocycle.
   template <class Visit>
   void for_each_value(Generator g, Visit&& visit);
 
@@ -168,11 +169,11 @@ class Annotations {
 
   static constexpr std::size_t kMostClasses = INT32_MAX;  // labels use one bit for the sign
   static ActiveEdges::Label label_of(Class a) { return a.id << 1 | (a.negated ? 1U : 0U); }
-  /// For two classes that are equal up to sign: true if they differ.
+  /// True if two classes that are equal up to sign have opposite signs.
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
   }
-  /// The present class of a former class.
+  /// The class that a former class is now, with dead generators substituted.
   Class resolve(Class a);
   /// Follows the links of classes that became equal to others. DisjointSets cannot be used, because
   /// a link has a sign.
@@ -183,16 +184,16 @@ class Annotations {
   void erase(std::uint32_t id);
   /// Merges a class that has become equal to another one, up to sign.
   void join(std::uint32_t id, std::uint32_t other);
-  /// Updates occurrences for a class that had these terms.
+  /// Updates occurrences_ after the terms of a class have changed. @param before its former terms.
   void change_occurrences(std::uint32_t id, const Vector& before);
-  /// Finds or makes the class of scratch_.
+  /// Finds the class of the vector in scratch_, or makes it.
   Class intern();
   /// Makes room for one more class.
   void add_class();
-  /// Forgets the sums made since the last call that no edge uses.
+  /// Removes the classes that were made since the last call and that no edge uses.
   void forget_fresh();
-  /// The hash of a vector is the sum of the hashes of its terms, as vectors over Z/2; it is the
-  /// same for +-a.
+  /// The hash of a term. The hash of a vector is the bitwise sum (exclusive or) of the hashes of
+  /// its terms, and is the same for +-a.
   std::size_t hash(const Term& t) const {
     const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
     const std::uint64_t h = (t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
@@ -207,7 +208,7 @@ class Annotations {
   static void release(T& vector) {
     T(vector.get_allocator()).swap(vector);
   }
-  /// The term of a generator, or null if it is zero.
+  /// The term of a generator in v, or null if v has none.
   const Term* find(const Vector& v, Generator g) const {
     const auto it = std::ranges::lower_bound(v, g, {}, &Term::cell);
     return it != v.end() && it->cell == g ? &*it : nullptr;
@@ -216,17 +217,17 @@ class Annotations {
   const K& field_;
   ActiveEdges& edges_;
   const bool keeps_values_;
-  std::pmr::vector<std::uint32_t> births_;            // by generator
-  std::pmr::vector<Vector> vectors_;                  // by class
-  std::pmr::vector<std::size_t> hashes_;              // by class
-  std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
-  // By class: the class that it became; itself while it exists.
+  std::pmr::vector<std::uint32_t> births_;            // of each generator
+  std::pmr::vector<Vector> vectors_;                  // of each class
+  std::pmr::vector<std::size_t> hashes_;              // of each class
+  std::pmr::vector<std::pmr::vector<Edge>> members_;  // edges of each class
+  // For each class: the class that it became, or the class itself as long as it exists.
   std::pmr::vector<Class> links_;
-  std::pmr::vector<std::uint32_t> seen_;    // by class: number of deaths that are substituted in it
+  std::pmr::vector<std::uint32_t> seen_;    // for each class: number of deaths already substituted in it
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
   std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be used again
   DeadGenerators<K> dead_;
-  // By generator: the classes in which it occurs, if values are kept.
+  // For each generator: the classes in which it occurs, if values are kept.
   std::pmr::vector<NumberSet> occurrences_;
   FlatMap<Class> sums_;  // sums of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;

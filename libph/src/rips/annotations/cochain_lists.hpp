@@ -14,9 +14,9 @@
 namespace ph {
 
 /// A cochain of a flag complex, stored as lists of the simplices on which it is not zero: each
-/// simplex is in the lists of its vertices. The list of a vertex a holds the other vertices of each
-/// simplex, with the value of the cochain on (a, the others ascending).
-/// @tparam Others the other vertices of a simplex, as one number.
+/// simplex is in the list of each of its vertices. The list of a vertex a holds, for each such
+/// simplex, its other vertices and the value of the cochain on (a, others in ascending order).
+/// @tparam Others a number that encodes the other vertices of a simplex.
 template <Field K, class Others>
 class CochainLists {
  public:
@@ -37,12 +37,12 @@ class CochainLists {
     const K& field;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged;
-    std::pmr::vector<ListId> own;  // lists to which others will be added
+    std::pmr::vector<ListId> own;  // lists of this cochain to which lists of the other are added
   };
 
   explicit CochainLists(std::pmr::memory_resource* memory) : lists_(memory) {}
 
-  /// By ascending vertex; none is empty.
+  /// The lists by ascending vertex; no list is empty.
   const std::pmr::vector<ListAt>& lists() const { return lists_; }
   /// Number of terms in all lists.
   std::size_t term_count() const { return term_count_; }
@@ -56,11 +56,11 @@ class CochainLists {
   template <class OnEnter, class OnLeave>
   void add(CochainLists& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
-  /// Adds scale * terms, which ascend, to the list of a.
+  /// Adds scale * terms to the list of a. The terms must be in ascending order.
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
                  OnLeave&& on_leave);
-  /// Appends terms to the list of a, in any order. None of the simplices may be there yet or occur
+  /// Appends terms to the list of a, in any order. No simplex may be in the list yet or occur
   /// twice. The lists are unsorted until the next `add`.
   template <class OnEnter>
   void append_terms(Vertex a, Terms terms, Shared& shared, OnEnter&& on_enter) {
@@ -70,7 +70,7 @@ class CochainLists {
     is_sorted_ = false;
     term_count_ += terms.size();
   }
-  /// Makes it zero and returns its lists.
+  /// Makes the cochain zero and returns its lists to the pool.
   void clear(Shared& shared) {
     for (const ListAt& at : lists_) shared.lists.give(at.list);
     std::pmr::vector<ListAt>(lists_.get_allocator()).swap(lists_);
@@ -100,7 +100,7 @@ class CochainLists {
 
   std::pmr::vector<ListAt> lists_;
   std::size_t term_count_ = 0;
-  bool is_sorted_ = true;  // concerns all lists
+  bool is_sorted_ = true;  // true if all lists are sorted
 };
 
 template <Field K, class Others>

@@ -16,9 +16,9 @@
 
 namespace ph {
 
-/// The fate of generators that died: each is a combination of older ones, some of which may have
-/// died later. Dead generators are substituted in a vector when it is read, in one pass for all
-/// deaths since it was last read; most deaths never affect most vectors.
+/// The generators that died. Each of them is a combination of older generators, some of which may
+/// have died later. Dead generators are substituted in a vector when it is read, in one pass for
+/// all deaths since it was last read, because most deaths never affect most vectors.
 template <Field K>
 class DeadGenerators {
  public:
@@ -40,9 +40,10 @@ class DeadGenerators {
   bool occur_in(std::span<const Term> vector) const {
     return std::ranges::any_of(vector, [&](const Term& t) { return contains(t.cell); });
   }
-  /// @param relation becomes zero: its youngest generator dies. The others must be alive.
+  /// Kills the youngest generator of a relation. @param relation a sum that becomes zero; all its
+  /// generators must be alive.
   void add(std::span<const Term> relation);
-  /// Substitutes the dead generators, which may leave nothing.
+  /// Substitutes the dead generators in a vector, which may become empty.
   void eliminate_from(Vector& vector);
 
  private:
@@ -58,9 +59,9 @@ class DeadGenerators {
     Combination(Combination&&) noexcept = default;
     Combination(Combination&& other, allocator_type allocator)
         : terms(std::move(other.terms), allocator), bits(other.bits), seen(other.seen) {}
-    Vector terms;                // empty if it has bits
+    Vector terms;                // empty if the combination is stored as bits
     std::uint32_t bits = kNone;  // index into bits_
-    std::uint32_t seen = 0;      // number of deaths that are substituted in it
+    std::uint32_t seen = 0;      // number of deaths already substituted in it
   };
   /// A vector over Z/2 with many terms, as one bit per generator, which is faster to add.
   struct Bits {
@@ -72,12 +73,12 @@ class DeadGenerators {
     std::pmr::vector<Word> words;
     std::size_t begin = 0;  // number of its first word
   };
-  /// A vector to which others are added in any order.
+  /// A vector to which other vectors are added, in any order of their terms.
   struct Accumulator {
     explicit Accumulator(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
-    std::pmr::vector<Word> met;        // one bit per generator; all zero between uses
-    std::pmr::vector<Element> values;  // by generator, zero if it was not met; empty over Z/2
-    std::size_t begin = 0, end = 0;    // range of the words that were met
+    std::pmr::vector<Word> met;        // generators that have occurred, one bit each; all zero between uses
+    std::pmr::vector<Element> values;  // value of each generator, zero if it has not occurred; empty over Z/2
+    std::size_t begin = 0, end = 0;    // range of the words of `met` that are not zero
 
     /// @param words number of words of the vectors that will be added.
     void reset(std::size_t words) {
@@ -105,7 +106,7 @@ class DeadGenerators {
       // mutant: dead-bits
       bits::add(met.data() + other.begin, other.words.data(), other.words.size());
     }
-    /// The value of a generator that was met; it may be zero.
+    /// Returns the value of a generator that has occurred, which may be zero, and resets it.
     Element take(Generator g) {
       if constexpr (kIsZ2)
         return true;
@@ -131,19 +132,20 @@ class DeadGenerators {
     else
       sum.add(c.terms, scale, field_);
   }
-  /// The combination of a dead generator. Later deaths are substituted in it, which leaves hardly
-  /// any dead ones for the next caller.
+  /// The combination of a dead generator. Later deaths are substituted in it for good, which saves
+  /// work for the next caller.
   const Combination& updated(Generator g);
   /// @param combination_of returns the replacement of a dead generator.
   template <class Find>
   void eliminate(Accumulator& sum, Find&& combination_of);
-  /// Returns the content of a sum and empties it. A combination that has bits keeps them.
+  /// Moves the content of a sum into a vector or a combination, and empties the sum. A combination
+  /// that is stored as bits stays so.
   void take_terms(Accumulator& sum, Vector& terms);
   void take(Accumulator& sum, Combination& c);
 
   const K& field_;
   std::uint32_t count_ = 0;
-  std::pmr::vector<Combination> combinations_;  // by generator; empty for living generators
+  std::pmr::vector<Combination> combinations_;  // of each generator; empty for living generators
   std::pmr::vector<Bits> bits_;
   std::pmr::vector<Word> dead_;  // one bit per generator
   // A combination may be updated during the update of a vector.
@@ -202,7 +204,7 @@ template <Field K>
 template <class Find>
 void DeadGenerators<K>::eliminate(Accumulator& sum, Find&& combination_of) {
   Word* const met = sum.met.data();
-  // Goes from the youngest down, because substituted terms are older.
+  // Goes from the youngest generator down, because substitution adds only older generators.
   for (std::size_t k = std::min(sum.end, dead_.size()); k-- > sum.begin;)
     while (const Word dead = met[k] & dead_[k]) {  // mutant: dead-by-dead
       const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;
@@ -226,7 +228,7 @@ void DeadGenerators<K>::take_terms(Accumulator& sum, Vector& terms) {
 
 template <Field K>
 void DeadGenerators<K>::take(Accumulator& sum, Combination& c) {
-  constexpr std::size_t many = 16;  // fewer are not worth another block of memory
+  constexpr std::size_t many = 16;  // fewer terms are not worth another block of memory
   const auto words = sum.words();
   if (kIsZ2 && c.bits == kNone && sum.count() >= std::max(many, words.size())) {
     c.bits = static_cast<std::uint32_t>(bits_.size());

@@ -10,12 +10,13 @@
 namespace ph {
 
 struct PotentialStep {
-  bool changed = false;     ///< from the potential to another function
-  bool mismatched = false;  ///< an edge asks for a different value
+  bool changed = false;     ///< true if the potential is no longer the same function
+  bool mismatched = false;  ///< true if an edge requires a different value
 };
 
 /// Extends a potential p to the next vertex y of a forest. An edge wy requires p(y) = p(w) +
-/// asked(w). The first edge to each part that y meets fixes a constant for that part.
+/// asked(w). The first edge from y to each part determines a constant by which the potential is
+/// shifted on that part.
 /// @param mismatch receives p(w) + asked(w) - p(y) for the other edges.
 template <Field K>
 PotentialStep extend_potential(typename VertexFunction<K>::Unit* p,

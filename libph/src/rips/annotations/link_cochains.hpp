@@ -29,14 +29,15 @@ class LinkPairs {
   const Unit* row(Vertex x) const {
     return x < ids_.size() && ids_[x] != kNone ? (*rows_)[ids_[x]] : nullptr;
   }
-  /// Adds values on vertices in the first words to f(x,.), and to f(.,x) accordingly.
+  /// Adds values to f(x,.), and subtracts them from f(.,x). @param words the number of words of the
+  /// rows to process.
   void add_row(Vertex x, const Unit* values, std::size_t words) {
     Function::add(made_row(x), values, field_->from_int(1), *field_, words);
     Function::for_each(values, words, [&](std::size_t y, Element a) {
       Function::add_at(made_row(static_cast<Vertex>(y)), x, field_->negate(a), *field_);
     });
   }
-  /// The same for a part of a function whose other values have their own rows.
+  /// Adds scaled values to f(x,.) only. The caller must add the opposite values to f(.,x) as well.
   void add_half(Vertex x, const Unit* values, Element scale, std::size_t words) {
     Function::add(made_row(x), values, scale, *field_, words);
   }
@@ -70,7 +71,7 @@ class LinkPairs {
 
   RowPool<K>* rows_;
   const K* field_;
-  std::pmr::vector<Id> ids_;  // by vertex
+  std::pmr::vector<Id> ids_;  // of the row of each vertex
   std::pmr::vector<Vertex> used_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace ph {
 
-/// Lists, handed out empty and taken back.
+/// A pool that hands out empty lists and takes lists back.
 template <class T>
 class ListPool {
  public:
@@ -30,7 +30,8 @@ class ListPool {
     lists_[id].clear();
     free_.push_back(id);
   }
-  /// Prefetches a list some time before it is used: first its location, then its content.
+  /// Prefetches the location of a list; `prefetch_terms` then prefetches its content. Both should
+  /// be called some time before the list is used.
   void prefetch(Id id) const { __builtin_prefetch(&lists_[id]); }
   void prefetch_terms(Id id) const {
     // Bytes; the hardware prefetches the rest of a long list.

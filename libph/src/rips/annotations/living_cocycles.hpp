@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// Living classes of cohomology, given by their cocycles; for each vertex, the classes with
-/// simplices there.
+/// The living classes of cohomology, given by their cocycles. For each vertex, it knows the classes
+/// whose cocycles are not zero on some simplex at that vertex.
 /// @tparam Cochain a type such as TriangleCochain.
 template <class Cochain>
 class LivingCocycles {
@@ -21,13 +21,14 @@ class LivingCocycles {
   using Vertex = std::uint32_t;
   using Element = typename Cochain::Element;
   using ListId = typename Cochain::ListId;
-  /// A generator that may have simplices at a vertex, with their list unless its cocycle is dense.
+  /// A generator whose cocycle may be non-zero on simplices at a vertex, with the list of these
+  /// simplices unless the cocycle is dense.
   struct At {
     Generator generator;
     ListId list;
   };
 
-  /// @param shared arguments of `Cochain::Shared` except for the memory.
+  /// @param shared the arguments of the constructor of `Cochain::Shared` without the memory.
   template <class... Arguments>
   LivingCocycles(std::size_t vertices, const RunContext& context, const Arguments&... shared)
       : context_(context),
@@ -43,15 +44,15 @@ class LivingCocycles {
   void erase(Generator g);
   /// to += scale * from.
   void add(Generator to, Generator from, Element scale);
-  /// The same as Cochain::add_star.
+  /// Calls Cochain::add_star for the cocycle of g.
   template <class Star>
   void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
   /// Calls `visit(generator, at_u, at_v)`, in ascending order, for each generator that may have
-  /// simplices at u or v; null if it has none there.
+  /// simplices at u or v. An argument is null if the generator has none at that vertex.
   template <class Visit>
   void for_each_at(Vertex u, Vertex v, Visit&& visit) const;
-  /// The content of the list; nothing if the cocycle is dense.
+  /// The terms in the list; none if the cocycle is dense.
   typename Cochain::Terms terms(const At& at) const {
     using Terms = typename Cochain::Terms;
     return cochains_[at.generator].is_dense() ? Terms() : Terms(shared_.lists[at.list]);

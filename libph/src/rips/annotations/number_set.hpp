@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// A set of small numbers that are assigned in ascending order: a list in no particular order while
-/// it is short, later a row of bits, which it remains.
+/// A set of small numbers that are assigned in ascending order. It is an unsorted list as long as
+/// it is short, then a row of bits, and never becomes a list again.
 class NumberSet {
  public:
   using Id = std::uint32_t;
@@ -40,7 +40,7 @@ class NumberSet {
       bits_[id / 64] &= ~(Word{1} << (id % 64));
     }
   }
-  /// Inserts the numbers of another set that are absent and erases those that are present.
+  /// Replaces the set by its symmetric difference with another set.
   void add(const NumberSet& other) {
     // mutant: number-set-grows
     if (bits_.size() < other.bits_.size() && !bits_.empty()) bits_.resize(other.bits_.size());
@@ -64,7 +64,8 @@ class NumberSet {
 
  private:
   using Word = bits::Word;
-  // A list is searched from its beginning. Bits take at most 16 times the memory of the list.
+  // Lists are kept short because they are searched from the beginning. The bits take at most 16
+  // times the memory of the list.
   static constexpr std::size_t kMostListed = 64, kLeastShare = 512;
 
   void set(Id id) {
@@ -77,7 +78,7 @@ class NumberSet {
   }
 
   std::pmr::vector<Id> list_;
-  std::pmr::vector<Word> bits_;  // empty if there is a list
+  std::pmr::vector<Word> bits_;  // empty as long as the set is a list
 };
 
 }  // namespace ph

@@ -11,8 +11,9 @@
 
 namespace ph {
 
-/// Functions from vertices to a field, as arrays of fixed length with 64 vertices per block. The
-/// caller owns the units; masks are rows of bits. Functions take the number of blocks to process.
+/// Operations on functions from vertices to a field. A function is an array of units that the
+/// caller owns, in blocks of 64 vertices; masks are rows of bits. Each operation takes the number
+/// of blocks to process.
 template <Field K>
 struct VertexFunction {
   using Unit = typename K::Element;
@@ -35,7 +36,8 @@ struct VertexFunction {
   static void shift(Unit* row, const Word* mask, Element by, const K& field, std::size_t blocks) {
     bits::for_each(mask, 0, blocks, [&](std::size_t v) { row[v] = field.add(row[v], by); });
   }
-  /// out = a + b - constant on the mask, unchanged elsewhere. @return true if that is not zero.
+  /// Sets out = a + b - constant on the mask and leaves it unchanged elsewhere. @return true if any
+  /// of these values is not zero.
   static bool difference(Unit* out, const Unit* a, const Unit* b, Element constant,
                          const Word* mask, const K& field, std::size_t blocks) {
     bool any = false;
@@ -54,13 +56,13 @@ struct VertexFunction {
                    [&](std::size_t v) { is_sum = is_sum && field.add(a[v], b[v]) == constant; });
     return is_sum;
   }
-  /// out = constant - a on the mask, unchanged elsewhere.
+  /// Sets out = constant - a on the mask and leaves it unchanged elsewhere.
   static void assign(Unit* out, const Unit* a, Element constant, const Word* mask, const K& field,
                      std::size_t blocks) {
     bits::for_each(mask, 0, blocks,
                    [&](std::size_t v) { out[v] = field.add(constant, field.negate(a[v])); });
   }
-  /// Makes the row zero outside the mask. @return true if anything is left.
+  /// Makes the row zero outside the mask. @return true if any value is not zero.
   static bool restrict(Unit* row, const Word* mask, std::size_t blocks) {
     bool any = false;
     for (std::size_t v = 0; v < 64 * blocks; ++v) {
@@ -72,7 +74,7 @@ struct VertexFunction {
   static bool is_zero(const Unit* row, std::size_t blocks) {
     return std::all_of(row, row + 64 * blocks, [](Unit a) { return a == 0; });
   }
-  /// Calls `visit(vertex, value)`, ascending.
+  /// Calls `visit(vertex, value)` for the non-zero values, by ascending vertex.
   template <class Visit>
   static void for_each(const Unit* row, std::size_t blocks, Visit&& visit) {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
@@ -84,8 +86,8 @@ struct VertexFunction {
       if (row[v] != 0) return v;
     return bits::kNone;
   }
-  /// The value on more than half of the mask's vertices (Boyer-Moore); if there is none, the value
-  /// on the first.
+  /// The value on more than half of the mask's vertices (Boyer-Moore). If there is no such value,
+  /// the value on the first vertex.
   static Element majority(const Unit* row, const Word* mask, const K& field, std::size_t blocks) {
     Element candidate = field.from_int(0);
     std::size_t votes = 0, count = 0, size = 0;
@@ -167,7 +169,7 @@ struct VertexFunction<Z2> {
   }
 };
 
-/// Zeroed rows, borrowed and returned.
+/// A pool that hands out rows of zeros and takes rows back.
 template <Field K>
 class RowPool {
  public:
@@ -189,7 +191,7 @@ class RowPool {
     return id;
   }
   void give(Id id) { free_.push_back(id); }
-  /// True if the next row may move the table of rows.
+  /// True if taking the next row may move the table of rows in memory.
   Unit* operator[](Id id) {
     return chunks_[id / kRowsPerChunk].data() + id % kRowsPerChunk * units_;
   }

@@ -8,9 +8,9 @@ namespace ph {
 namespace {
 
 // Measured, see docs/explanation/engines/beta-skeleton.md: with fewer points, listing all edges is
-// faster. In R^4 the memory of the edges decides.
-constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // by number of coordinates
-// With fewer edges per point, listing them takes less time.
+// faster. In R^4, the limit is set by the memory that the edges take.
+constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // for each number of coordinates
+// If there are fewer edges per point, listing the edges is faster.
 constexpr double kFewEdges = 1'000;
 
 /// The approximate number of edges per point, from a sample of pairs.

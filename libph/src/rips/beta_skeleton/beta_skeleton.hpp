@@ -12,12 +12,12 @@
 
 namespace ph {
 
-/// H0 and H1 of the Vietoris-Rips filtration of points with few coordinates, from the points alone:
-/// no edges are listed, see pair_points.hpp.
+/// H0 and H1 of the Vietoris-Rips filtration of points with few coordinates, from the points alone,
+/// without a list of edges; see pair_points.hpp.
 struct BetaSkeletonEngine {
   static constexpr Engine id = Engine::beta_skeleton;
   static constexpr std::array rips_forms{RipsForm::points};
-  /// The condition that the points or the task do not meet; empty if they meet all.
+  /// A condition that the points or the task do not meet; empty if they meet all conditions.
   static std::string_view obstacle(const RipsInput& input, const Task& task);
   static Suitability suitability(const RipsInput& input, const Task& task);
   template <Filtration F>

@@ -12,9 +12,10 @@
 
 namespace ph::beta_skeleton {
 
-/// Relations between formal generators over any field, one after the other, and the generator that
-/// each of them kills: the youngest one left after relations with the same youngest generator have
-/// been subtracted. See docs/explanation/engines/formal-annotations.md.
+/// Receives relations between formal generators over any field, one after another, and finds the
+/// generator that each relation kills: the youngest generator that is left after earlier relations
+/// have been subtracted as long as one has the same youngest generator. See
+/// docs/explanation/engines/formal-annotations.md.
 template <Field K>
 class FormalRelations {
  public:
@@ -25,7 +26,7 @@ class FormalRelations {
   FormalRelations(std::size_t generators, const K& field, std::pmr::memory_resource* memory)
       : field_(field), of_(generators, memory), merged_(memory) {}
 
-  /// Turns a sum of terms in any order into a sum of ascending generators without zeros.
+  /// Sorts the terms of a sum by generator, adds up terms of the same generator and removes zeros.
   void collect(Sum& sum) const {
     std::sort(sum.begin(), sum.end(), [](const Term& a, const Term& b) { return a.cell < b.cell; });
     auto out = sum.begin();
@@ -38,7 +39,8 @@ class FormalRelations {
     }
     sum.erase(out, sum.end());
   }
-  /// @param relation becomes zero; must be ascending. @return the generator that dies, if any.
+  /// Adds a relation. @param relation the sum that becomes zero, with generators in ascending
+  /// order. @return the generator that dies, if any.
   std::optional<Generator> add(Sum& relation) {
     while (!relation.empty()) {
       const Term youngest = relation.back();
@@ -53,7 +55,7 @@ class FormalRelations {
   }
 
  private:
-  /// Stores a relation, scaled to coefficient one for its youngest generator.
+  /// Stores a relation, scaled to give its youngest generator the coefficient one.
   void store(const Sum& relation) {
     Sum& mine = of_[relation.back().cell];
     mine.reserve(relation.size());
@@ -63,7 +65,7 @@ class FormalRelations {
   }
 
   const K& field_;
-  std::pmr::vector<Sum> of_;  // by generator: the relation that killed it
+  std::pmr::vector<Sum> of_;  // for each generator: the relation that killed it
   Sum merged_;                // scratch
 };
 

@@ -18,8 +18,8 @@ struct Edge {
   std::uint32_t larger = 0, smaller = 0;  ///< its vertices
   Position u = kNone, v = kNone;
 
-  /// Squares below `certainly_before` have a smaller root, squares above `certainly_after` a larger
-  /// one; in between, the roots decide, then the vertices.
+  /// A squared distance below `certainly_before` belongs to an earlier edge, one above
+  /// `certainly_after` to a later edge. In between, roots must be compared, and then vertices.
   double certainly_before = 0, certainly_after = 0;
 
   friend bool operator<(const Edge& a, const Edge& b) {
@@ -35,12 +35,12 @@ struct LensComponents {
     std::uint32_t smallest = UINT32_MAX;  ///< its smallest vertex, as far as it is known
   };
   std::vector<Component> others;  ///< all components except the one of `first`
-  /// A point of the lens near the middle, or kNone if the lens is empty.
+  /// A point of the lens near the middle of the edge, or kNone if the lens is empty.
   Position first = kNone;
   std::vector<Position> of_others;  ///< all points of `others`
 };
 
-/// The lens of an edge e = (u, v) consists of the points w with (u,w) and (v,w) before e.
+/// The lens of an edge e = (u,v) consists of the points w for which (u,w) and (v,w) come before e.
 template <int D>
 class Lenses {
  public:
@@ -84,8 +84,9 @@ class Lenses {
                                 std::sqrt(reach(e.certainly_after)) * (1 + 1e-9));
   }
 
-  /// The point other than u and v nearest to the middle of the edge, or the first one found with a
-  /// square below `near_enough`; kNone means that the lens is empty.
+  /// The point other than u and v nearest to the middle of the edge, or the first point found whose
+  /// squared distance from the middle is below `near_enough`. If the result is kNone, the lens is
+  /// empty.
   Position nearest_to_middle(const Edge& e, Node holder, double near_enough) const {
     const Point m = PointTree<D>::midpoint(tree_.point(e.u), tree_.point(e.v));
     return tree_.nearest(holder, m, reach(e.certainly_after), near_enough,
@@ -105,7 +106,7 @@ class Lenses {
     return any;
   }
 
-  /// @param near a point of the lens near the middle; if kNone, one is searched.
+  /// @param near a point of the lens near the middle; if it is kNone, one is searched for.
   /// @param holder a node that contains the entire lens.
   void find_components(const Edge& e, Position near, Node holder, LensComponents& found) {
     found.others.clear();
@@ -155,8 +156,8 @@ class Lenses {
           return false;
         });
   }
-  /// Takes a component out of far_; it is one of the others unless a point of the lens joins it to
-  /// the component of `first`.
+  /// Takes a component out of far_; adds it to the other components unless a point of the lens
+  /// joins it to the component of `first`.
   void take_component(const Edge& e, Node holder, LensComponents& found) {
     part_.assign(1, far_.back());
     far_.pop_back();
@@ -174,7 +175,7 @@ class Lenses {
     found.others.push_back({part_.front(), smallest});
     found.of_others.insert(found.of_others.end(), part_.begin(), part_.end());
   }
-  /// True if a point of the lens sees both w and x.
+  /// True if a point of the lens sees both w and x, that is, is joined to them by edges before e.
   bool has_bridge(const Edge& e, Position w, Position x, Node holder) const {
     const double *u = tree_.point(e.u), *v = tree_.point(e.v), *a = tree_.point(w),
                  *b = tree_.point(x);

@@ -14,13 +14,13 @@ struct NodePair {
   Node a = 0, b = 0;
 };
 
-/// Pairs of nodes by ascending distance, in bins: a calendar queue (Brown 1988). A bin that becomes
-/// too full is divided into narrower bins.
+/// A queue of pairs of nodes by ascending distance, in bins: a calendar queue (Brown 1988). A bin
+/// that becomes too full is divided into narrower bins.
 class NodePairQueue {
  public:
   using Pairs = std::pmr::vector<NodePair>;
 
-  /// @param first distances up to this one may come in any order.
+  /// @param first pairs at a distance up to this may come in any order.
   NodePairQueue(double first, std::pmr::memory_resource* memory) : levels_(memory) {
     levels_.push_back({key_of(first) >> kWidestShift, kWidestShift, Bins(memory)});
   }
@@ -50,7 +50,8 @@ class NodePairQueue {
       if (levels_.size() == 1) return false;
     }
   }
-  /// Takes the latest pairs of the open bin. @return true if there were any.
+  /// Takes the pairs of the open bin that were added last, at most `most` of them. @return true if
+  /// there were any.
   bool take(std::size_t most, Pairs& taken) {
     Pairs& open = open_bin();
     const std::size_t count = std::min(most, open.size());
@@ -58,14 +59,14 @@ class NodePairQueue {
     open.resize(open.size() - count);
     return count > 0;
   }
-  /// Once the open bin is empty: all pairs at a smaller distance have been taken.
+  /// Once the open bin is empty, all pairs at a distance below this bound have been taken.
   double bound() const {
     const Level& level = levels_.back();
     // mutant: beta-swept-to
     return std::bit_cast<double>((level.first + level.next) << level.shift);
   }
   bool can_narrow() const { return levels_.back().shift >= kPartBits && !open_bin().empty(); }
-  /// Divides the rest of the open bin into narrower bins. The first of them is opened next.
+  /// Divides the pairs left in the open bin among narrower bins, the first of which is opened next.
   template <class DistanceOf>
   void narrow(DistanceOf&& distance_of) {
     Level& wide = levels_.back();
@@ -77,24 +78,24 @@ class NodePairQueue {
   }
 
  private:
-  static constexpr int kWidestShift = 45;  // of 52 digits: 128 bins per power of two
+  static constexpr int kWidestShift = 45;  // of 52 binary digits: 128 bins per power of two
   static constexpr int kPartBits = 5;
   static constexpr std::size_t kParts = 1 << kPartBits;
   using Bins = std::pmr::vector<Pairs>;
   /// Bins of equal width, each of which holds the distances that share their first digits.
   struct Level {
-    std::uint64_t first;  // digits of bin 0
+    std::uint64_t first;  // leading digits of the distances in bin 0
     int shift;
     Bins bins;
     std::size_t next = 0;  // the open bin is the one before it
   };
 
-  /// A key with the same order as the bits of distances.
+  /// The bits of a distance, which as integers have the same order as distances.
   static std::uint64_t key_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
   Pairs& open_bin() { return levels_.back().bins[levels_.back().next - 1]; }
   const Pairs& open_bin() const { return levels_.back().bins[levels_.back().next - 1]; }
 
-  // Each level except the first divides the open bin of the level before.
+  // Each level except the first divides the open bin of the level before it.
   std::pmr::vector<Level> levels_;
 };
 

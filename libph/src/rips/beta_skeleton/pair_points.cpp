@@ -17,7 +17,8 @@ namespace {
 
 using namespace beta_skeleton;
 
-/// The two passes over distinct points.
+/// Computes the pairs of distinct points in two passes, the first for H0 and births of H1, the
+/// second for deaths of H1.
 template <int D, Field K>
 class Pairing {
  public:
@@ -58,8 +59,8 @@ class Pairing {
   using Term = typename Relations::Term;
   using Sum = typename Relations::Sum;
 
-  /// The distance from a point near the middle to the farthest point. That point sees the lens of
-  /// every longer edge; such edges therefore change nothing.
+  /// The distance from a point near the middle to the farthest point. For every longer edge, that
+  /// point is in the lens and joined to all its other points. Such edges therefore change nothing.
   double cone_radius() const {
     const Position middle =
         tree_.nearest(1, tree_.centre(1), std::numeric_limits<double>::infinity());
@@ -69,7 +70,8 @@ class Pairing {
     return std::sqrt(largest);  // mutant: beta-cone
   }
 
-  /// Computes H0 by the elder rule, and the births of H1.
+  /// Computes H0 by the elder rule, and the births of H1. @param graph the edges with an empty
+  /// lens, in their order.
   /// @param generators receives the generators of the edges of the graph.
   void join(std::span<const FoundEdge> graph, std::size_t vertices,
             std::pmr::vector<std::uint32_t>& generators) {
@@ -99,7 +101,8 @@ class Pairing {
     bear_before(e);
     if (classes_.living == 0) return;
     lenses_.find_components(e, kNone, holder, components_);
-    // If there are several, their order decides which triangle kills which class.
+    // If there are several other components, their order determines which triangle kills which
+    // class.
     auto& others = components_.others;
     Position base = components_.first;
     std::uint32_t smallest = UINT32_MAX;
@@ -134,7 +137,7 @@ class Pairing {
       if (classes_.living == 0) return;
     }
   }
-  /// sum += scale * (annotation of u -> w, then of w -> v).
+  /// sum += scale * (annotation of u -> w + annotation of w -> v).
   void append(const beta_skeleton::Edge& e, Position w, typename K::Element scale, Sum& sum) {
     const auto minus = field_.negate(scale);
     const auto visit = [&](std::uint32_t generator, bool is_positive) {
@@ -160,7 +163,7 @@ class Pairing {
   PointPairObserver& observer_;
   const RunContext& context_;
   const double cone_;
-  std::pmr::vector<double> births_;                       // by generator
+  std::pmr::vector<double> births_;                       // of each generator
   std::pmr::vector<PointPairObserver::Edge> generators_;  // the edges that give birth to them
   std::vector<bool> is_dead_;
   Classes classes_;
@@ -177,14 +180,15 @@ void pair_points(PointsView points, const K& field, const PointPairRequest& want
                  PointPairObserver& observer, const RunContext& context) {
   if (points.rows() == 0) return;
   const WholeRows whole(points);
-  // The first of equal points stands for all of them: the others cause only pairs of length zero.
+  // The first of several equal points represents all of them, because the others cause only pairs
+  // of length zero.
   const std::pmr::vector<std::uint32_t> rows =
       distinct_points(first_equal_points(whole.view(), context), context);
   const auto vertices = static_cast<std::size_t>(points.rows());
   const auto run = [&]<int D>(PointsView view) {
     Pairing<D, K>(view, rows, field, wanted, observer, context).run(vertices);
   };
-  if (points.cols() == 1) {  // as points on a line in the plane
+  if (points.cols() == 1) {  // handles them as points on a line in the plane
     Points plane(points.rows(), 2);
     const MemoryClaim claim(context.memory, vertices * 2 * sizeof(double));
     for (Index i = 0; i < points.rows(); ++i) plane(i, 0) = points(i, 0);

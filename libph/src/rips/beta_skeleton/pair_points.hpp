@@ -9,7 +9,7 @@
 
 namespace ph {
 
-/// Receives the pairs of points; vertices are rows of the points.
+/// Receives the pairs of birth and death that `pair_points` finds. Vertices are rows of the points.
 class PointPairObserver {
  public:
   using Vertex = std::uint32_t;
@@ -25,14 +25,14 @@ class PointPairObserver {
   virtual void on_join(Vertex younger, const Edge& edge) = 0;
   /// A component that is never joined to an older one.
   virtual void on_component(Vertex oldest) = 0;
-  /// @param apex the apex of the triangle over the edge `death` that kills the class; 0 if apexes
-  /// are not wanted.
+  /// @param apex the third vertex of the triangle over the edge `death` that kills the class; 0 if
+  /// apexes are not wanted.
   virtual void on_death(const Edge& birth, const Edge& death, Vertex apex) = 0;
   virtual void on_essential(const Edge& birth) = 0;
 };
 
 struct PointPairRequest {
-  double threshold;   ///< largest edge, inclusive
+  double threshold;   ///< length of the longest edge, inclusive
   bool loops = true;  ///< H1 in addition to H0
   bool apexes = true;
 };
@@ -40,7 +40,7 @@ struct PointPairRequest {
 /// The pairs of positive length in H0 and H1 of the Rips filtration of points in the plane or in
 /// space, equal to the pairs of the standard algorithm, cell by cell. Memory is proportional to the
 /// number of points. See docs/explanation/engines/beta-skeleton.md.
-/// @param points with 1 to 4 plain coordinates, see has_plain_coordinates.
+/// @param points must have 1 to 4 coordinates for which has_plain_coordinates is true.
 template <Field K>
 void pair_points(PointsView points, const K& field, const PointPairRequest& wanted,
                  PointPairObserver& observer, const RunContext& context);
@@ -50,7 +50,8 @@ extern template void pair_points<Z2>(PointsView, const Z2&, const PointPairReque
 extern template void pair_points<Zp>(PointsView, const Zp&, const PointPairRequest&,
                                      PointPairObserver&, const RunContext&);
 
-/// The largest number of coordinates per point. With more, hardly any spindle contains a point.
+/// The largest number of coordinates per point. With more coordinates, hardly any spindle contains
+/// a point.
 inline constexpr Index kMostPointCoordinates = 4;
 
 /// True if all coordinates are zero or between 1e-120 and 1e150 in size. Two different coordinates

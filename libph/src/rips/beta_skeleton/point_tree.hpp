@@ -20,8 +20,8 @@ using Node = KdTree::Node;
 inline constexpr Position kNone = UINT32_MAX;
 
 /// Squares of distances, rounded as in PointMetric: the sum of the squared differences, axis by
-/// axis. Rounding is monotone, and everything is rounded in the same order: statements about boxes
-/// therefore hold for the rounded squares of the points in them, without any slack.
+/// axis. Rounding is monotone, and all sums are rounded in the same order. Bounds for boxes
+/// therefore hold exactly for the rounded squares of the points in them.
 template <int D>
 struct Squares {
   [[gnu::always_inline]] static double between(const double* a, const double* b) {
@@ -29,8 +29,8 @@ struct Squares {
     for (int k = 0; k < D; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
     return sum;
   }
-  /// The least square from a point to the points in a box, given by smallest and largest
-  /// coordinate, axis by axis.
+  /// The least squared distance from a point to the points in a box, which is given by its smallest
+  /// and largest coordinate on each axis.
   [[gnu::always_inline]] static double least(const double* x, const double* box) {
     double sum = 0;
     for (int k = 0; k < D; ++k) {
@@ -72,19 +72,19 @@ struct Squares {
   }
 };
 
-/// If a square exceeds another one by this fraction, its root is certainly larger.
+/// If a square exceeds another square by this fraction, its rounded root is certainly larger.
 inline constexpr double kBeyondTies = 1e-12;
 
-/// Points of R^D in a k-d tree. Searches start at the smallest node whose cell contains the ball
-/// that is searched: a cell is a part of space that contains no point of another node.
+/// Points of R^D in a k-d tree. Searches start at the smallest node whose cell contains the ball to
+/// be searched. The cell of a node is a part of space without points outside the node.
 template <int D>
 class PointTree {
  public:
   using S = Squares<D>;
   using Point = std::array<double, D>;
 
-  /// @param points plain points, see can_search; D columns.
-  /// @param rows the rows to use; no two of these points may be equal.
+  /// @param points points with D coordinates for which has_plain_coordinates is true.
+  /// @param rows the rows of the points to use, no two of which may be equal.
   PointTree(PointsView points, std::span<const std::uint32_t> rows, const RunContext& context)
       : tree_(points, rows, context),
         coordinates_(tree_.points().row(0)),
@@ -163,9 +163,9 @@ class PointTree {
     }
   }
 
-  /// The point nearest to x below `start` among the points with a square below `limit` that
-  /// `is_allowed`; the first one found with a square below `near_enough` is accepted. kNone if
-  /// there is none.
+  /// Of the points below `start` that satisfy `is_allowed` and whose squared distance from x is
+  /// below `limit`, the one nearest to x, or the first one found whose squared distance is below
+  /// `near_enough`. kNone if there is none.
   template <class IsAllowed>
   Position nearest(Node start, const Point& x, double limit, double near_enough,
                    IsAllowed&& is_allowed) const {
@@ -216,7 +216,7 @@ class PointTree {
       std::copy_n(cell, 2 * D, left);
       std::copy_n(cell, 2 * D, right);
       const double *below = box(2 * node), *above = box(2 * node + 1);
-      // The cell extends to the first point of the other side.
+      // The cell of a child extends to the first point of the other child.
       for (int k = 0; k < D; ++k) {
         if (below[2 * k + 1] > above[2 * k]) continue;
         left[2 * k + 1] = above[2 * k];  // mutant: beta-cell-end
@@ -228,7 +228,7 @@ class PointTree {
 
   KdTree tree_;
   const double* coordinates_;
-  std::pmr::vector<double> cells_;  // by node, like the boxes
+  std::pmr::vector<double> cells_;  // of each node, in the form of boxes
   double midpoint_error_ = 0;
 };
 

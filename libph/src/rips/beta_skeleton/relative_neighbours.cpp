@@ -9,7 +9,7 @@
 namespace ph::beta_skeleton {
 namespace {
 
-/// Examines the pairs of points of pairs of nodes.
+/// Finds the edges of the graph among the pairs of points of a pair of nodes.
 template <int D>
 class Finder {
  public:
@@ -40,7 +40,8 @@ class Finder {
  private:
   double extent(Node node) const { return S::extent(tree_.box(node)); }
 
-  /// True if one point is in the lenses of all pairs, or all pairs are too long.
+  /// True if one point is in the lenses of all pairs of points of two nodes, or if all these pairs
+  /// are too long.
   bool is_hopeless(Node a, Node b) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b));
     if (std::sqrt(least) > limit_) return true;
@@ -52,7 +53,7 @@ class Finder {
     return w != kNone && S::largest(tree_.point(w), tree_.box(a)) < most &&
            S::largest(tree_.point(w), tree_.box(b)) < most;
   }
-  /// The same for the pairs of one point with a box.
+  /// The same for the pairs of the point x with the points of a node.
   bool is_hopeless(Position x, Node b, Node holder, Witnesses& witnesses) const {
     const double least = S::least(tree_.point(x), tree_.box(b)) * (1 - kBeyondTies);
     if (least == 0) return false;
@@ -110,12 +111,12 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t few = 1 << 12;  // too few for a thread
+  constexpr std::size_t few = 1 << 12;  // too few to be worth a thread
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
-  // Starts at the root and splits until there are enough pairs to share; then threads take a pair
-  // with everything below it.
+  // Starts with the pair of the root and itself, and splits pairs until there are enough for all
+  // threads. Then each thread takes a pair with everything below it.
   std::pmr::vector<NodePair> pairs({{1, 1}}, memory), next(memory);
   Finder<D> finder(tree, limit, context);
   while (!pairs.empty() && pairs.size() < pieces) {

@@ -8,7 +8,7 @@
 
 namespace ph::beta_skeleton {
 
-/// The last points that decided about a pair: nearby pairs share them.
+/// The last points that ruled out a pair. They often rule out nearby pairs as well.
 class Witnesses {
  public:
   void add(Position p) { last_[next_++ % kCount] = p; }
@@ -28,14 +28,14 @@ class Witnesses {
   std::size_t next_ = 0;
 };
 
-/// An edge found; small, because there are many.
+/// An edge of the graph, kept small because there are many.
 struct FoundEdge {
   double value;
   Position u, v;
 };
 
-/// The relative neighbourhood graph (Toussaint 1980): the edges with an empty lens, up to a limit,
-/// in their order.
+/// Computes the relative neighbourhood graph (Toussaint 1980): the edges of length up to `limit`
+/// with an empty lens, sorted.
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context);

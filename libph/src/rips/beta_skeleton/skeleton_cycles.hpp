@@ -14,14 +14,14 @@
 namespace ph::beta_skeleton {
 
 /// The generators of H1, one for each edge of the relative neighbourhood graph that does not join
-/// components, and formal annotations of any edge: signed sums of generators.
+/// components, and the formal annotation of any edge: a signed sum of generators.
 template <int D>
 class SkeletonCycles {
  public:
   static constexpr std::uint32_t kNoGenerator = UINT32_MAX;
 
-  /// @param edges of the relative neighbourhood graph. @param generators the generator of each
-  /// edge, or kNoGenerator.
+  /// @param edges the edges of the relative neighbourhood graph. @param generators the generator of
+  /// each edge, or kNoGenerator.
   SkeletonCycles(const Lenses<D>& lenses, std::span<const FoundEdge> edges,
                  std::span<const std::uint32_t> generators, std::pmr::memory_resource* memory)
       : lenses_(lenses),
@@ -44,8 +44,9 @@ class SkeletonCycles {
   }
 
   /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y: zero or
-  /// a generator if the lens of the edge is empty, otherwise the sum over two edges to a point of
-  /// the lens. Any point of the lens is allowed, and both edges come before x -> y; see the proof.
+  /// one generator if the lens of the edge is empty, otherwise the sum of the annotations of the
+  /// two edges by way of a point of the lens. Any point of the lens will do, because both edges
+  /// come before x -> y.
   template <class Visit>
   void annotate(Position x, Position y, Visit&& visit) {
     stack_.assign(1, {x, y});
@@ -79,7 +80,7 @@ class SkeletonCycles {
   }
 
   const Lenses<D>& lenses_;
-  std::pmr::vector<std::uint32_t> begin_;  // by position: its first entry in the list of ends
+  std::pmr::vector<std::uint32_t> begin_;  // for each position: its first entry in the list of ends
   std::pmr::vector<End> ends_;
   std::pmr::vector<std::pair<Position, Position>> stack_;  // scratch
 };

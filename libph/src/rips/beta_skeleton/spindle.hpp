@@ -9,15 +9,15 @@
 namespace ph::beta_skeleton {
 
 // The spindle of an edge (u, v) consists of the points p that see u and v under an angle of more
-// than 150 degrees. If there is such a point p, it lies in the lens of the edge and is nearer than
-// |uv| to the entire lens: the edge changes nothing. For the proof, also of the following, see
-// docs/explanation/engines/beta-skeleton.md.
+// than 150 degrees. Such a point p lies in the lens of the edge, and its distance to every point of
+// the lens is less than |uv|. The edge then changes nothing. For the proof of this and of the
+// following, see docs/explanation/engines/beta-skeleton.md.
 //
 // Rounding. The lens is defined by the rounded distances. With rounded squares of a relative error
 // below 1e-15 each, (u,q) not after (u,v) means |uq| <= (1 + e) |uv|, and |pq| < (1 - e) |uv| means
 // that (p,q) comes before (u,v), whatever the ties, for e = 2e-15. Write c for -(u - p).(v - p).
 // The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2; the margin below, 1e-12
-// |uv|^2, leaves a hundred times that for the errors of the few operations of the test.
+// |uv|^2, leaves more than a hundred times that for the rounding errors of the test itself.
 
 /// The margin, as a multiple of |uv|^2, by which a point must be inside the spindle.
 inline constexpr double kSpindleMargin = 1e-12;

@@ -9,8 +9,8 @@
 
 namespace ph::beta_skeleton {
 
-/// Examines pairs of nodes and of points. The result depends on distances alone, which allows any
-/// order; the set of living classes must not change meanwhile.
+/// Examines pairs of nodes and of points. The result depends only on distances, so pairs may be
+/// examined in any order as long as the set of living classes does not change.
 template <int D>
 class SplitLenses<D>::Opener {
  public:
@@ -44,14 +44,14 @@ class SplitLenses<D>::Opener {
   using Point = typename PointTree<D>::Point;
 
   double extent(Node node) const { return S::extent(tree_.box(node)); }
-  /// A node that contains all lenses of the pairs of two nodes.
+  /// A node that contains the lenses of all pairs of points of two nodes.
   Node holder_of_lenses(Node a, Node b, const Point& middle, double largest) const {
     const double away = 0.5 * (tree_.radius(a) + tree_.radius(b));
     return tree_.holder_of_ball(
         a, middle, std::sqrt(lenses_.reach(largest * (1 + kBeyondTies))) * (1 + 1e-9) + away);
   }
 
-  /// True if no pair of points of two nodes must be examined.
+  /// True if no pair of points of two nodes has to be examined.
   /// @param witness receives a point near the middle.
   bool is_hopeless(Node a, Node b, Position& witness) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b)),
@@ -70,7 +70,8 @@ class SplitLenses<D>::Opener {
     if (is_in_spindles<D>(w, u.data(), ru, v.data(), rv, distance)) return true;
     return sees_all_lenses(w, a, b, holder_of_lenses(a, b, middle, largest));
   }
-  /// True if w is in the lenses of all pairs, and sees every point in any of them.
+  /// True if w is in the lens of each pair of points of two nodes, and is joined to every other
+  /// point of the lens by an earlier edge.
   bool sees_all_lenses(const double* w, Node a, Node b, Node holder) const {
     const double *u = tree_.box(a), *v = tree_.box(b);
     const double least = S::least_of_boxes(u, v) * (1 - kBeyondTies),
@@ -189,7 +190,7 @@ void SplitLenses<D>::sweep_below(double bound, const OnSplit& on_split) {
     on_split(e, lenses_.holder_of(e));
     context_.poll();
   }
-  // Classes born by then live from now on.
+  // Counts the classes that are born before `bound` as living.
   while (classes_.born < classes_.births.size() && classes_.births[classes_.born] < bound) {
     ++classes_.born;
     ++classes_.living;

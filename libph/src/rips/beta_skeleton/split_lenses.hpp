@@ -11,28 +11,29 @@
 
 namespace ph::beta_skeleton {
 
-/// The classes of H1, as far as they decide which pairs must be examined.
+/// The data about classes of H1 that decide which pairs of points must be examined.
 struct Classes {
   std::span<const double> births;  ///< births of all classes that there will be, ascending
   std::size_t born = 0, living = 0;
 
-  /// True if no class lives from now on up to a value.
+  /// True if no class is alive between now and the given value.
   bool are_none_up_to(double value) const {
     return living == 0 && (born == births.size() || births[born] > value);  // mutant: beta-pairs-go
   }
   bool are_over() const { return living == 0 && born == births.size(); }  // mutant: beta-over
 };
 
-/// Finds the edges whose lens has several components, in their order, as long as there are classes.
+/// Finds the edges whose lens has several components, in their order, until there are no more
+/// classes.
 template <int D>
 class SplitLenses {
  public:
   using S = Squares<D>;
-  /// Receives each of these edges, and updates the classes.
+  /// A function that receives each such edge and updates the classes.
   using OnSplit = std::function<void(const Edge&, Node holder)>;
 
-  /// @param classes the sets of born and living classes change while edges come. @param limit of
-  /// the edges.
+  /// @param classes its counts of born and living classes change while edges are found. @param
+  /// limit the length of the longest edge.
   SplitLenses(const PointTree<D>& tree, double limit, Classes& classes, const RunContext& context)
       : tree_(tree),
         lenses_(tree),

@@ -9,19 +9,19 @@
 /// classes implement it, RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template
 /// over them.
 ///
-/// Keys represent values: each edge enters with the last edge of its value, at the key of that
-/// edge. A vertex or an edge is present if it has entered by key `now`, which is never less than
+/// Keys represent values: an edge is taken to enter at the key of the last edge that has the same
+/// value. A vertex or an edge is present if it has entered by key `now`, which is never less than
 /// the key of the current edge.
 ///
 ///   Set                           a set of vertices, made by make_set()
 ///   enter_until(key)              edges up to that key enter; called before everything else
 ///   find_link(e, now, link)       the common neighbours of the ends of e, the current edge, by now
-///   find_arrivals(e, now, out)    those that come later, each with its key
+/// find_arrivals(e, now, out) the common neighbours that appear later, each with its key
 ///   are_joined(a, b, now)         true if two vertices are joined by `now`
 ///   first_apart(link, c, now)     a vertex of the link other than c not joined to c, or kNone
 ///   keep_neighbours(set, w, now)  removes vertices from a set that are not joined to w
 ///   move(e, key)                  e enters at a later key, or never
-///   leave(e, now)                 all edges of its value are done: from now on e enters later
+/// leave(e, now) all edges with e's value are done: from now on, e counts as later
 namespace ph::collapse {
 
 using Key = RipsGraph::Key;

@@ -9,8 +9,8 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse if few pairs are near: for each vertex its neighbours, sorted,
-/// each with the key at which the edge enters.
+/// The graph of an edge collapse, for graphs with few edges: the sorted list of each vertex's
+/// neighbours, each with the key at which its edge enters.
 class ListGraph {
  public:
   using Set = std::pmr::vector<Vertex>;  // ascending
@@ -39,7 +39,7 @@ class ListGraph {
     for (Vertex v = 0; v < sizes_.size(); ++v) std::ranges::sort(list(v), {}, &Neighbour::vertex);
   }
 
-  /// Bytes that it takes.
+  /// The number of bytes that a ListGraph takes.
   static double bytes(const RipsGraph& graph) {
     return 16 * static_cast<double>(graph.edge_count()) + 12 * static_cast<double>(graph.size());
   }
@@ -132,7 +132,7 @@ class ListGraph {
   }
 
   std::pmr::vector<std::size_t> begins_;   // by vertex
-  std::pmr::vector<std::uint32_t> sizes_;  // by vertex: number of neighbours left
+  std::pmr::vector<std::uint32_t> sizes_;  // for each vertex: number of neighbours left
   std::pmr::vector<Neighbour> neighbours_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse if most pairs are near: edges that entered before the current edge
-/// are rows of bits; later edges that were kept are sorted lists.
+/// The graph of an edge collapse, for graphs with most of the possible edges. Edges that entered
+/// before the current edge are stored as rows of bits, later edges that were kept as sorted lists.
 class RowGraph {
  public:
   using Set = std::pmr::vector<BitMatrix::Word>;
@@ -23,7 +23,7 @@ class RowGraph {
         later_(static_cast<std::size_t>(graph.size()), memory),
         also_(memory) {}
 
-  /// Bytes that it takes, without the later edges.
+  /// The number of bytes that a RowGraph takes, without the later edges.
   static double bytes(const RipsGraph& graph) {
     const auto n = static_cast<double>(graph.size());
     return n * n / 8 + 32 * n;
@@ -31,7 +31,7 @@ class RowGraph {
 
   Set make_set() const { return Set(present_.words(), 0, later_.get_allocator().resource()); }
 
-  /// The edges up to key `last` enter.
+  /// Enters the edges up to key `last`.
   void enter_until(Key last) {
     for (; entered_ < last; ++entered_) {
       present_.set(edges_[entered_].u, edges_[entered_].v);
@@ -112,7 +112,7 @@ class RowGraph {
     insert_later(e.u, {e.v, to});
     insert_later(e.v, {e.u, to});
   }
-  /// Moves the present to just before the edge: from now on the edge enters later.
+  /// From now on the edge counts as later, because the collapse goes on just before it.
   void leave(const FlagEdge& e, Key now) { move(e, now); }
 
  private:
@@ -123,9 +123,9 @@ class RowGraph {
 
   std::span<const FlagEdge> edges_;
   Key entered_ = 0;
-  Key present_key_ = 0;  // key of the current edge: edges in lists come after it
+  Key present_key_ = 0;  // key of the current edge; the edges in later_ come after it
   BitMatrix present_;
-  std::pmr::vector<std::pmr::vector<Neighbour>> later_;  // by vertex, each sorted by vertex
+  std::pmr::vector<std::pmr::vector<Neighbour>> later_;  // one list per vertex, sorted by neighbour
   std::pmr::vector<Vertex> also_;
 };
 

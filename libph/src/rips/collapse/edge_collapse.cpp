@@ -80,7 +80,7 @@ class EdgeCollapse {
     graph_.find_link(e, now, link_);
     Vertex dominator = find_dominator(e, now, ticker);
     if (dominator == kNone) return now;
-    // A dominator remains one until a vertex enters the link that is not joined to it.
+    // A dominator remains a dominator until a vertex that is not joined to it enters the link.
     graph_.find_arrivals(e, now, arrivals_);
     std::ranges::make_heap(arrivals_, std::greater{});
     while (!arrivals_.empty()) {
@@ -101,7 +101,7 @@ class EdgeCollapse {
     return kNever;
   }
 
-  /// A vertex of the link that is joined to all others by `now`, or kNone.
+  /// A vertex of the link that is joined to all other vertices of the link by `now`, or kNone.
   Vertex find_dominator(const FlagEdge& e, Key now, Ticker& ticker) {
     Vertex& last = last_dominator_[e.u];
     Vertex c = graph_.contains(link_, last) ? last : graph_.first(link_);
@@ -120,7 +120,7 @@ class EdgeCollapse {
 
   RipsGraph collapsed(std::pmr::vector<Move>&& kept) const {
     // mutant: collapse-equal-edges
-    std::ranges::sort(kept);  // among edges of equal value, edges that were moved there come first
+    std::ranges::sort(kept);  // of edges with equal values, edges that were moved come first
     FlagEdges edges(&context_.memory);
     edges.reserve(kept.size());
     for (const auto& [to, key] : kept) {
@@ -134,18 +134,18 @@ class EdgeCollapse {
   const RunContext& context_;
   Graph graph_;
   typename Graph::Set link_, candidates_;
-  std::pmr::vector<Arrival> arrivals_;  // a heap with the next one on top
-  // By vertex: the dominator of its last edge, a good guess.
+  std::pmr::vector<Arrival> arrivals_;  // a heap with the next arrival on top
+  // For each vertex: the dominator of its last edge, which is a good guess for the next.
   std::pmr::vector<Vertex> last_dominator_;
 };
 
 constexpr double kAlwaysAffordable = 1 << 25;  // in bytes
 constexpr std::size_t kSample = 500;           // in edges
-// Another pass follows if a pass dropped at least one in this many edges. Measured: if fewer are
-// dropped, the next pass takes longer than the reduction saves.
+// Another pass follows if a pass dropped at least one of every 8 edges. Measured: if it dropped
+// fewer, the next pass takes longer than it saves in the reduction.
 constexpr std::size_t kWorthAnotherPass = 8;
 
-// Measured: rows are 2 to 15 times as fast, wherever they are affordable.
+// Measured: rows are 2 to 15 times as fast as lists wherever their memory is affordable.
 bool are_rows_affordable(const RipsGraph& graph) {
   return RowGraph::bytes(graph) <= std::max(kAlwaysAffordable, ListGraph::bytes(graph));
 }
@@ -163,8 +163,9 @@ auto with_collapse(const RipsGraph& graph, const RunContext& context, CollapseLa
 }  // namespace collapse
 
 RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context, CollapseLayout layout) {
-  // The decision about an edge depends on the edges present at that time; shorter edges are moved
-  // later, and the edge may become dominated. The next pass therefore finds more.
+  // The decision about an edge depends on the edges present at that time. If shorter edges are
+  // moved to later values afterwards, the edge may become dominated. Another pass may therefore
+  // drop more edges.
   const auto pass = [&](const RipsGraph& input) {
     return collapse::with_collapse(input, context, layout, [](auto&& c) { return c.run(); });
   };
