@@ -137,7 +137,7 @@ Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunConte
       count_cliques(complex, detail::listed_rips_dim(settled.engine, max_dim), context);
   e.cells = cliques.counts;
   e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
-  if (collapsed)  // there are no cells if the homology was not planned
+  if (collapsed)  // there is no homology in dimensions without cells
     max_dim = std::min(max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
   e.options.max_dim = max_dim;
   const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);

@@ -66,7 +66,8 @@ bool is_forest_alone(const Rips& rips) {
 }
 
 /// The highest dimension to compute. @throws Error (usage) as check does; on a lowest dimension
-/// above the highest; on a highest dimension above 0 if a forest was given.
+/// above the highest one if that was not given; on a highest dimension above 0 if a forest was
+/// given.
 int max_dim_of(const Rips& rips, const Options& options) {
   const bool is_forest = is_forest_alone(rips);
   check(options);
@@ -194,7 +195,7 @@ struct Settled {
     choice = choose_form(rips, options, max_dim, most_vertices(rips));
     if (!choice.engine && options.engine == Engine::automatic &&
         !choose_form(rips, options, max_dim, 1).engine)
-      refuse(options.engine, task_of(options, max_dim));  // refuses tasks that are impossible whatever the edges are
+      refuse(options.engine, task_of(options, max_dim));  // impossible for any edges
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)

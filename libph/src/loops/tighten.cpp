@@ -287,7 +287,8 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // A bar that needs no cocycles may have none whose death is known.
+      // A bar that needs no cocycles is not compared, because deaths are known only as far as
+      // cocycles were computed.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);

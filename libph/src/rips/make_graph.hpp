@@ -9,13 +9,13 @@
 
 namespace ph {
 
-/// Points with their owner; if it is null, the caller of Rips::borrowed owns them.
+/// Points and their owner. If `owner` is null, the caller of Rips::borrowed owns the points.
 struct HeldPoints {
   PointsView view;
   std::shared_ptr<const Points> owner;
 };
 
-/// A metric of the user, with the object that it reads.
+/// A metric that the user has defined, and the object that it reads.
 struct HeldMetric {
   AnyMetric metric;
   std::shared_ptr<const void> owner;
@@ -26,10 +26,10 @@ using RipsData = std::variant<HeldPoints, DistanceMatrix, SparseDistances, HeldM
 
 Index size_of(const RipsData& data);
 
-/// The points that are vertices and their births, once the options are settled.
+/// The points that become vertices, and the births of points, as the options determine them.
 struct ChosenVertices {
-  std::span<const std::uint32_t> vertices;  ///< ascending; if empty, all points
-  std::span<const double> births;           ///< by point of the input; if empty, all are 0
+  std::span<const std::uint32_t> vertices;  ///< ascending; if empty, all points are vertices
+  std::span<const double> births;           ///< birth of each point of the input; if empty, all births are 0
 };
 
 /// @throws Error (usage) on options that do not fit the data, Error (bad_data) on coordinates that
@@ -41,7 +41,7 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
 RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm form,
                      const ChosenVertices& chosen, const RunContext& context);
 
-/// The same as Rips::sample.
+/// Does the work of Rips::sample.
 RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);
 
 }  // namespace ph

@@ -17,7 +17,7 @@
 namespace ph {
 namespace {
 
-/// Bytes of the numbers that nobody else holds.
+/// The number of bytes of the coordinates, unless the caller owns them.
 std::size_t bytes_of(const RipsData& data) {
   const auto* points = std::get_if<HeldPoints>(&data);
   return points && points->owner ? static_cast<std::size_t>(points->view.size()) * sizeof(double)
@@ -47,15 +47,16 @@ struct HeldInput {
   MemoryClaim claim;
 };
 
-/// A value that is made once, by the first thread that asks; the others wait. If the work was
-/// stopped or ran out of memory, nothing is kept. (std::call_once is not used: when memory has run
-/// out, an exception that passes through it ends the process, because glibc then loads the library
-/// that it needs for unwinding.)
+/// A value that is made once, by the first thread that asks for it, while other threads wait. If
+/// making it is stopped or runs out of memory, nothing is kept. (std::call_once is not used: when
+/// memory has run out, an exception that passes through it ends the process, because glibc then
+/// loads the library that it needs for unwinding.)
 template <class T>
 class Once {
  public:
   const T* made() const { return made_.load(std::memory_order_acquire); }
-  /// @param make returns a std::unique_ptr<const T>. @param context of the waiting thread.
+  /// @param make returns a std::unique_ptr<const T>. @param context the context of the calling
+  /// thread.
   template <class Make>
   const T& get(const RunContext& context, Make&& make) {
     if (const T* there = made()) return *there;
@@ -77,31 +78,31 @@ class Once {
   std::atomic<const T*> made_{nullptr};
 };
 
-/// The decisions of a subsample or of a distance to a measure.
+/// The vertices and births that a subsample or a distance to a measure determines.
 struct VertexChoice {
   std::vector<std::uint32_t> vertices;
   std::vector<double> births;
   std::optional<double> covering_radius;
 };
 
-/// A form and the context that it was made with, because the context of the call may end before the
-/// form does.
+/// A form and a context of its own, because the context of the call may end before the form does.
 struct MadeForm {
-  /// @param counts must outlive the form.
+  /// @param counts the context that counts the memory of the form, which it must outlive. @param
+  /// call the context of the call that makes the form.
   MadeForm(const RunContext& counts, const RunContext& call) : context(counts.memory) {
     if (&counts != &call) context.memory.set_limit(call.memory.left());
     context.stop = call.stop;
     context.on_progress = call.on_progress;
     context.threads = call.threads;
   }
-  /// From now on only the counting context limits the form, and nothing can stop it.
+  /// From now on, only the context that counts the memory limits it, and nothing can stop the form.
   void settle() {
     context.memory.set_limit(MemoryBudget::kUnlimited);
     context.stop = {};
     context.on_progress = nullptr;
   }
   RunContext context;
-  std::shared_ptr<const HeldInput> input;  // the graph may refer to its points
+  std::shared_ptr<const HeldInput> input;  // kept because the graph may refer to its points
   std::optional<RipsGraph> graph;
 };
 

@@ -72,7 +72,7 @@ Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   }
   std::uint32_t degeneracy = 0;
   const auto lower_degree = [&](std::uint32_t w, std::uint32_t floor) {
-    // Already removed, or cannot fall below the current least degree.
+    // The vertex was removed already, or its degree cannot fall below the current least degree.
     if (degree[w] <= floor) return;
     const std::uint32_t first = bin[degree[w]], other = order[first];
     std::swap(order[place[w]], order[first]);

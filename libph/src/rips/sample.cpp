@@ -14,7 +14,7 @@ double pairs_of(Index points) {
   return static_cast<double>(points) * static_cast<double>(points - 1) / 2;
 }
 
-/// Random points in 0 … size - 1, the same on every platform.
+/// Random numbers of points, 0 … size - 1, in the same sequence on every platform.
 class RandomPoints {
  public:
   explicit RandomPoints(Index size) : size_(static_cast<std::uint64_t>(size)) {}
@@ -38,7 +38,8 @@ std::vector<double> distances_of(const M& metric) {
   return distances;
 }
 
-/// An upper bound for the enclosing radius, from the best of some points.
+/// An upper bound for the enclosing radius: the least distance to the farthest point, among some
+/// sampled points.
 template <Metric M>
 double radius_of(const M& metric, const RunContext& context) {
   double least = std::numeric_limits<double>::infinity();

@@ -51,7 +51,7 @@ ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size
 
   std::pmr::vector<double> residuals(functions.begin(), functions.end(), &context.memory);
   for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] -= band.mean[i % length];
-  // For each repetition, the largest deviation of its mean.
+  // The largest absolute deviation of the mean in each repetition.
   std::pmr::vector<double> deviations(options.repetitions, &context.memory);
   for_each_piece("bootstrap", options.repetitions, 1, context,
                  [&](std::size_t begin, std::size_t end) {

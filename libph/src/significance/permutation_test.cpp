@@ -14,7 +14,7 @@
 namespace ph {
 namespace {
 
-/// Groups numbered 0, 1, …, with the size of each.
+/// The group of each diagram, numbered 0, 1, …, and the size of each group.
 struct Groups {
   std::vector<std::uint32_t> of;
   std::vector<std::size_t> sizes;
@@ -57,7 +57,8 @@ void check(const DistanceMatrix& distances, std::size_t labels, const Permutatio
                             labels, distances.size()));
 }
 
-/// A unit in which powers of the largest distance neither overflow nor underflow: 1 if possible.
+/// A unit in which the power of the largest distance neither overflows nor underflows; 1 if
+/// possible.
 double unit_of(const DistanceMatrix& distances, double power) {
   double largest = 0;
   for (Index i = 0; i < distances.size(); ++i)
@@ -68,7 +69,7 @@ double unit_of(const DistanceMatrix& distances, double power) {
   return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;
 }
 
-/// The strict lower triangle, row by row, raised to the power.
+/// The distances below the diagonal, row by row, raised to the power.
 std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power, double unit,
                                    const RunContext& context) {
   const Index n = distances.size();
@@ -87,8 +88,8 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
   return powers;
 }
 
-/// Σ over groups of half the mean over pairs within: 1 / (2 n (n - 1)) times the sum over ordered
-/// pairs.
+/// The sum, over all groups, of half the mean power of the pairs in the group: 1 / (2 n (n - 1))
+/// times the sum over ordered pairs.
 double loss_of(std::span<const double> powers, std::span<const std::uint32_t> groups,
                std::span<const std::size_t> sizes, std::vector<double>& sums) {
   sums.assign(sizes.size(), 0.0);
@@ -116,8 +117,8 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
   const double loss = loss_of(powers, observed.of, observed.sizes, sums);
   result.loss =
       unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
-  // Sums in a different order differ by rounding: groups that only have other labels count as a
-  // tie.
+  // An allowance for rounding, because sums in a different order differ slightly. Shuffles that
+  // only exchange the labels of groups then count as ties.
   const double as_low = loss * (1 + 1e-12);
   std::atomic<std::size_t> as_low_count = 0;
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {

@@ -11,12 +11,13 @@
 
 namespace ph::significance {
 
-/// @throws Error (usage) unless it is above 0 and below 1. @param function its name, for messages.
+/// @throws Error (usage) unless alpha is above 0 and below 1. @param function the name of the
+/// calling function, for messages.
 inline void check_alpha(double alpha, std::string_view function) {
   if (!(alpha > 0 && alpha < 1))
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
+        fmt::format("{}: alpha: found {}, expected a number above 0 and below 1", function, alpha));
 }
 
 /// Sorts the numbers and returns the least one that at most a share alpha of them exceeds.

@@ -24,7 +24,8 @@ void check(const Bar& bar) {
                             bar.birth));
 }
 
-/// log log (death / birth); for small x, the inner logarithm is taken of 1 + x.
+/// log log (death / birth). The inner logarithm is computed as log(1 + x), which is accurate for
+/// small x as well.
 double loglog(const Bar& bar) {
   const double growth = (bar.death - bar.birth) / bar.birth;
   return std::log(std::isinf(growth) ? std::log(bar.death) - std::log(bar.birth)

@@ -22,13 +22,13 @@ double square_between(const Place& a, const Place& b) {
 }
 double between(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// A place in the plane, and the number of bars there.
+/// A point (birth, death) of the plane, and the number of bars there.
 struct Heap {
   Place place;
   double count = 0;
 };
 
-/// The bars of all diagrams as sorted places, each once.
+/// The bars of all diagrams as a sorted list of places, without repetitions.
 std::vector<Heap> heaps_of(std::span<const std::span<const Bar>> diagrams) {
   std::vector<Place> places;
   for (const auto& bars : diagrams)
@@ -72,15 +72,15 @@ class KMeans {
         high[k] = std::max(high[k], other.high[k]);
       }
     }
-    /// The mean of a single place is exactly this place, regardless of rounding.
+    /// The mean. Clamping makes the mean of equal places exactly that place, despite rounding.
     Place mean() const {
       // mutant: atol-clamp
       return {std::clamp(x / count, low[0], high[0]), std::clamp(y / count, low[1], high[1])};
     }
   };
 
-  /// k-means++: the next centre is a random place, with a probability proportional to its squared
-  /// distance from earlier centres.
+  /// Chooses the first centres by k-means++: the next centre is a random place, with a probability
+  /// proportional to its squared distance from the nearest earlier centre.
   void seed_centres(std::size_t count, std::uint64_t seed) {
     Random random(seed);
     std::ranges::fill(squares_, 1);
@@ -94,7 +94,7 @@ class KMeans {
         chosen = i;
         if ((rest -= heaps_[i].count * squares_[i]) < 0) break;
       }
-      if (chosen == heaps_.size()) chosen = first_free();  // the squares are too small for a double
+      if (chosen == heaps_.size()) chosen = first_free();  // because the squares underflowed
       const bool is_first = centres_.empty();
       centres_.push_back(heaps_[chosen].place);
       for (std::size_t i = 0; i < heaps_.size(); ++i) {
@@ -110,8 +110,8 @@ class KMeans {
     return 0;
   }
 
-  /// Finds the nearest centre of each place, the first among equals, and sums up the places of each
-  /// centre.
+  /// Assigns each place to its nearest centre, or to the first of several equally near ones, and
+  /// sums up the places of each centre.
   /// @return true if any assignment has changed.
   bool assign() {
     const std::size_t pieces = (heaps_.size() - 1) / kPiece + 1, count = centres_.size();
@@ -130,7 +130,7 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count, {});  // in the order of pieces: rounding does not depend on threads
+    sums_.assign(count, {});  // added in the order of pieces, so rounding does not depend on threads
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }
@@ -147,8 +147,8 @@ class KMeans {
     squares_[i] = least;
     return nearest;
   }
-  /// Moves centres to the mean; a centre without places moves to the place farthest from its
-  /// centre.
+  /// Moves each centre to the mean of its places. A centre without places moves to the place that
+  /// is farthest from its nearest centre.
   void move() {
     for (std::size_t k = 0; k < centres_.size(); ++k) {
       if (sums_[k].count > 0) {
@@ -165,12 +165,13 @@ class KMeans {
   const RunContext& context_;
   std::vector<Place> centres_;
   std::vector<std::uint32_t> nearest_;
-  std::vector<double> squares_;  // distance to the nearest centre
+  std::vector<double> squares_;  // squared distance of each place to its nearest centre
   std::vector<Sum> sums_;
   bool is_new_ = true;
 };
 
-/// Half the distance to the nearest other centre; for a single centre, the mean distance.
+/// The width of each centre: half its distance to the nearest other centre. For a single centre,
+/// the mean distance of the bars from it.
 std::vector<double> widths_of(const std::vector<Place>& centres, const std::vector<Heap>& heaps) {
   std::vector<double> widths;
   for (std::size_t k = 0; k < centres.size(); ++k) {

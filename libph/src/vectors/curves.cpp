@@ -10,20 +10,21 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// Sums over the bars alive at the values of a grid: changes are stored by place and added up in a
-/// single pass.
+/// Sums over the bars that are alive at each value of a grid. Changes are stored at the places
+/// where they happen and added up in a single pass.
 class LivingBars {
  public:
   explicit LivingBars(const GridCells& cells) : changes_(cells.size() + 1) {}
 
-  /// Adds x to the sum from one place up to another.
+  /// Adds x to the sums from place `from` up to, but not including, place `to`.
   void add(std::size_t from, std::size_t to, double x) {
     ++changes_[from].bars;
     --changes_[to].bars;
     changes_[from].sum.add(x);
     changes_[to].sum.add(-x);
   }
-  /// Calls use(place, bars, sum); without bars the sum is 0.
+  /// Calls use(place, bars, sum) for each place, with the number of bars alive there. If no bar is
+  /// alive, the sum is exactly 0.
   template <class Use>
   void walk(Use&& use) const {
     Change now;
@@ -82,8 +83,9 @@ void silhouette(std::span<const Bar> given, const Grid& grid, double power, std:
   if (bars.empty()) return;
   double longest = 0;
   for (const Bar& bar : bars) longest = std::max(longest, bar.persistence());
-  // Growing tents are w t - w b, falling tents w d - w t: slopes and constants are summed. Numbers
-  // are measured from the middle of the grid, because smaller numbers have smaller rounding errors.
+  // A tent of weight w is w t - w b where it grows and w d - w t where it falls. The coefficients
+  // of t and the constants are summed separately. All numbers are relative to the middle of the
+  // grid, because smaller numbers have smaller rounding errors.
   const double middle = grid.lo / 2 + grid.hi / 2;
   vectors::LivingBars slopes(cells), constants(cells);
   vectors::LongSum weights;

@@ -20,11 +20,12 @@ struct Range {
   }
 };
 
-/// The range; for a single number, `width` around it; if there is none, [0, width].
+/// Returns a range that is longer than 0: the given range; if it is a single number, an interval of
+/// length `width` around it; if it is empty, [0, width].
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;
-  // Large enough not to be rounded away.
+  // At least so large that adding it to the number is not lost to rounding.
   const double half = std::max(width / 2, std::ldexp(std::abs(range.lo), -40));
   return {range.lo - half, range.hi + half};
 }

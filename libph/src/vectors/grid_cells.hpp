@@ -12,7 +12,7 @@ namespace ph::vectors {
 /// @throws Error (usage) on an invalid grid.
 void check(const Grid& grid, std::string_view function);
 
-/// The values of a grid, with a search for the place of a number.
+/// The values of a grid, and a fast search for the place of a number among them.
 class GridCells {
  public:
   /// @throws Error (usage) on an invalid grid.
@@ -33,12 +33,13 @@ class GridCells {
   }
 
  private:
-  /// The first place where `is_behind` holds (it holds from there on), searched near x.
+  /// The first place where `is_behind` holds, searched near x. From there on, it must hold
+  /// everywhere.
   template <class IsBehind>
   std::size_t first(double x, const IsBehind& is_behind) const {
     const double steps = per_step_ > 0 ? (x - values_.front()) * per_step_ : 0;
     auto guess = static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(size())));
-    // Correct, or one too low, apart from rounding.
+    // Apart from rounding, the guess is correct or one too low.
     for (int i = 0; i < 2 && guess < size() && !is_behind(values_[guess]); ++i) ++guess;
     const bool is_end = guess == size() || is_behind(values_[guess]);
     // mutant: grid-place

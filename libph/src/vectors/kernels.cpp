@@ -48,7 +48,8 @@ double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double
   const std::vector<Bar> first = vectors::checked_bars(a, Ends::finite, "scale_space_kernel");
   std::vector<Bar> second = vectors::checked_bars(b, Ends::finite, "scale_space_kernel");
   const double width = std::sqrt(8 * sigma);
-  // |p - q'|² is |p - q|² + 2 length(p) length(q): no difference of numbers that are nearly equal.
+  // |p - q'|² is |p - q|² + 2 length(p) length(q): this form needs no difference of nearly equal
+  // numbers.
   const double sum = vectors::sum_over_pairs(
       first, std::move(second), width, context, [width](const Bar& p, const Bar& q) {
         // mutant: kernel-mirror
@@ -80,7 +81,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
     std::uint32_t row, column;
   };
   const std::size_t count = diagrams.size();
-  // The claim counts half of the sorted list once more, for the buffer of the merge.
+  // The claim counts half of the sorted list once more, for the buffer of the stable sort.
   const MemoryClaim claim(context.memory, count * count * sizeof(double) +
                                               3 * (count * (count + 1) / 2) * sizeof(Pair) / 2);
   std::vector<double> matrix(count * count);
@@ -88,7 +89,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
   pairs.reserve(count * (count + 1) / 2);
   for (std::uint32_t i = 0; i < count; ++i)
     for (std::uint32_t j = 0; j <= i; ++j) pairs.push_back({i, j});
-  // The longest tasks come first, which keeps a thread from starting one at the end.
+  // The longest tasks come first, which keeps a thread from starting a long task at the end.
   std::ranges::stable_sort(pairs, std::greater<>(), [&](const Pair& pair) {
     return diagrams[pair.row].size() * diagrams[pair.column].size();
   });

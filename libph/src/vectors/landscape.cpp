@@ -14,7 +14,7 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// The best few among all numbers that were offered, in order.
+/// Keeps the best `most` of all numbers that were offered, in order.
 template <class Better>
 class Best {
  public:
@@ -33,7 +33,8 @@ class Best {
   std::vector<double> numbers_;
 };
 
-/// Bars by the place in the grid where they begin to fall: begin[i] … begin[i + 1] - 1.
+/// Bars sorted by the place in the grid where their tents begin to fall. The bars of place i are
+/// begin[i] … begin[i + 1] - 1.
 struct SortedByTop {
   std::pmr::vector<Bar> bars;
   std::pmr::vector<std::size_t> begin;
@@ -66,8 +67,8 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
   const std::size_t points = grid.points, most = std::min(layers, bars.size());
   const vectors::SortedByTop sorted(bars, cells, context);
   Ticker ticker(context, "landscape", 2 * points);
-  // Among the bars that grow at t, the first born are highest; among the bars that fall, the last
-  // to die are highest.
+  // Of the tents that grow at t, those of the bars born first are highest. Of the tents that fall,
+  // those of the bars that die last are highest.
   vectors::Best<std::less<>> births(most);
   for (std::size_t i = points; i-- > 0;) {
     for (const Bar& bar : sorted.at(i + 1)) births.offer(bar.birth);
@@ -127,7 +128,7 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
   while (!tents.empty() && landscapes.size() < layers) {
     PiecewiseLinear& layer = landscapes.emplace_back();
     const auto add = [&](double t, double value) {
-      // Two points that rounding makes equal.
+      // Skips a point that rounding has made equal to the last one.
       if (!layer.at.empty() && layer.at.back() == t) return;
       layer.at.push_back(t);
       layer.value.push_back(value);
@@ -135,8 +136,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
     const auto add_top = [&](const Bar& bar) {
       add(bar.birth / 2 + bar.death / 2, (bar.death - bar.birth) / 2);
     };
-    // Follows the upper hull. Where one tent emerges from another, the part that both share remains
-    // below.
+    // Follows the upper envelope of the tents. Where one tent emerges from another, the part below
+    // both remains for lower layers.
     below.clear();
     Bar now = tents.front(), shared;
     bool has_shared = false;

@@ -17,7 +17,7 @@ namespace {
 // mutant: image-window
 constexpr double kReach = 8;  // standard deviations
 
-/// The masses of normal distributions in the pixels of an interval.
+/// The masses that a normal distribution has in the pixels of an interval.
 class Masses {
  public:
   Masses(const PixelRange& range, double sigma)
@@ -26,7 +26,8 @@ class Masses {
         width_(sigma * std::numbers::sqrt2),
         masses_(range.pixels) {}
 
-  /// Finds the pixels near a centre, and the mass in each of the distribution around it.
+  /// Finds the pixels near a centre, and the mass that the distribution around this centre has in
+  /// each of them.
   void go_to(double centre) {
     first_ = pixel_at(centre - reach_);
     const std::size_t end = std::min(pixel_at(centre + reach_) + 1, masses_.size());
@@ -44,8 +45,8 @@ class Masses {
   const double* data() const { return masses_.data() + first_; }
 
  private:
-  /// The pixel that contains a number; the first pixel if the number is below all, and their number
-  /// if it is above.
+  /// The pixel that contains x; 0 if x is below all pixels, and the number of pixels if x is above
+  /// all.
   std::size_t pixel_at(double x) const {
     const auto count = static_cast<double>(masses_.size());
     const double part = (x - edges_.front()) / (edges_.back() - edges_.front());

@@ -29,7 +29,7 @@ double deviation_of(const std::vector<double>& numbers, double mean) {
   return largest * std::sqrt(sum.value() / static_cast<double>(numbers.size()));
 }
 
-/// Interpolates between two neighbours, from the nearer one.
+/// Interpolates between two adjacent numbers, starting from the nearer one.
 double percentile_of(const std::vector<double>& sorted, double percent) {
   const double place = percent / 100 * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -53,7 +53,7 @@ void describe(std::vector<double> numbers, std::span<double> out) {
   out[8] = percentile_of(numbers, 90);
 }
 
-/// For lengths > 0.
+/// The entropy of the lengths of bars, which must be above 0.
 double entropy_of(const std::vector<Bar>& bars) {
   LongSum total, sum;
   for (const Bar& bar : bars) total.add(bar.persistence());

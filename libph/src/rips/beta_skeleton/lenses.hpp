@@ -93,7 +93,7 @@ class Lenses {
                          [&](Position p) { return p != e.u && p != e.v; });
   }
   /// A point of the lens, if possible near the middle of the edge, or kNone if the lens is empty.
-  /// @param near_enough as above.
+  /// @param near_enough as for nearest_to_middle.
   Position middle(const Edge& e, Node holder, double near_enough = 0) const {
     const Position w = nearest_to_middle(e, holder, near_enough);
     if (w == kNone || contains(e, w)) return w;

@@ -10,11 +10,11 @@
 
 namespace ph {
 
-/// Relations between generators over Z/2, one after the other, and the generator that each of them
-/// kills: the youngest one left after substitution of the generators that died before. No two
-/// stored relations have the same youngest generator; if two would, the one with fewer terms is
-/// kept (Bauer, Masood, Giunti, Houry, Kerber, Rathod, Keeping it sparse: computing persistent
-/// homology revisited).
+/// Receives relations between generators over Z/2, one after another, and finds the generator that
+/// each relation kills: the youngest generator that is left after substitution of the generators
+/// that died before. No two stored relations have the same youngest generator. When two relations
+/// have it, the one with fewer terms is stored and added to the other (Bauer, Masood, Giunti,
+/// Houry, Kerber, Rathod, Keeping it sparse: computing persistent homology revisited).
 class EchelonRelations {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
@@ -23,21 +23,22 @@ class EchelonRelations {
   explicit EchelonRelations(std::pmr::memory_resource* memory)
       : arena_(memory), of_(memory), row_(memory) {}
 
-  /// Adds generators to the next relation. @param sum ascending.
+  /// Adds a sum to the next relation. @param sum generators in ascending order.
   void add(std::span<const Generator> sum);
-  /// Ends that relation. @return the generator that it kills, or kNone if it follows from earlier
-  /// relations.
+  /// Ends the next relation. @return the generator that it kills, or kNone if it follows from
+  /// earlier relations.
   Generator reduce();
 
   std::size_t dead_count() const { return dead_count_; }
   bool is_dead(Generator g) const { return g < of_.size() && of_[g].count != 0; }
-  /// Substitutes the dead generators. @param vectors one per generator, each of `words` words: on
-  /// entry the vectors of the living ones, and zero for the dead.
+  /// Computes the vectors of dead generators from those of the living ones. @param vectors one
+  /// vector per generator, each of `words` words: on entry, the vectors of living generators, and
+  /// zeros for dead ones.
   void substitute(bits::Word* vectors, std::size_t generators, std::size_t words) const;
 
  private:
   using Word = bits::Word;
-  /// A relation: a list of generators if they are few, otherwise one bit per generator.
+  /// A relation: a list if it has few generators, otherwise one bit per generator.
   struct Relation {
     union {
       Generator* list;
@@ -52,11 +53,11 @@ class EchelonRelations {
   /// living one.
   /// @return that generator, or kNone if nothing is left.
   static Generator eliminate(Word* row, std::size_t words, Relation* of);
-  /// Stores the content of row_.
+  /// Stores the content of row_ as a relation.
   Relation store(Generator youngest);
 
   std::pmr::monotonic_buffer_resource arena_;  // memory of relations
-  std::pmr::vector<Relation> of_;              // by generator: the relation that killed it
+  std::pmr::vector<Relation> of_;              // for each generator: the relation that killed it
   std::pmr::vector<Word> row_;                 // the next relation; zero between uses
   std::size_t end_ = 0;                        // end of the words in use
   std::size_t dead_count_ = 0;

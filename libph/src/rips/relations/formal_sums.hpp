@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// Sums of generators over Z/2 as lists, as if no generator had died, together with the relations
-/// by which generators died. 0 is the empty sum.
+/// Sums of generators over Z/2 as lists, in which dead generators are not substituted, and the
+/// relations by which generators died. The sum with number 0 is empty.
 class FormalSums {
  public:
   using Generator = EchelonRelations::Generator;
@@ -24,12 +24,12 @@ class FormalSums {
   std::span<const Generator> operator[](Sum a) const {
     return std::span(terms_).subspan(ends_[a], ends_[a + 1] - ends_[a]);
   }
-  /// @param terms ascending.
+  /// Stores a sum. @param terms generators in ascending order.
   Sum insert(std::span<const Generator> terms);
   Sum add(Sum a, Sum b);
 
-  /// The sum of these becomes zero. @return the generator that this kills, or
-  /// EchelonRelations::kNone.
+  /// Adds the relation that the total of these sums is zero. @return the generator that this kills,
+  /// or EchelonRelations::kNone.
   Generator add_relation(std::span<const Sum> sums) {
     for (const Sum a : sums) relations_.add((*this)[a]);
     return relations_.reduce();
@@ -37,7 +37,7 @@ class FormalSums {
   const EchelonRelations& relations() const { return relations_; }
 
  private:
-  /// Makes a sum of the terms at the end of terms_.
+  /// Ends a sum whose terms were appended to terms_.
   Sum end_sum();
 
   std::pmr::vector<std::size_t> ends_;  // start of each sum, and the end of the last one

@@ -7,7 +7,8 @@
 
 namespace ph {
 
-/// Numbers of pairs of vertices, as a matrix: 16 bits each as long as they are enough.
+/// A matrix with a number for each pair of vertices. It takes 16 bits per number until a larger
+/// number is stored.
 class PairLabels {
  public:
   using Vertex = std::uint32_t;
@@ -15,7 +16,7 @@ class PairLabels {
 
   PairLabels(std::size_t vertices, std::pmr::memory_resource* memory)
       : vertices_(vertices), short_(vertices * vertices, 0, memory), long_(memory) {}
-  /// 0 if it was never set.
+  /// The number of a pair, or 0 if none was stored.
   Label operator()(Vertex u, Vertex v) const {
     const std::size_t i = u * vertices_ + v;
     return long_.empty() ? short_[i] : long_[i];

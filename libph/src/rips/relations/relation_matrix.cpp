@@ -17,9 +17,10 @@ struct Reduced {
   std::size_t added;
 };
 
-// Adds rows of a matrix to `row` until its first column belongs to no row.
-// @param words of a row, in complete cache lines. @param row_of by column. @param added receives
-// the rows that were added.
+// Adds rows of a matrix to `row` until the first column of `row` is not the first column of any of
+// them.
+// @param words the number of words per row, in complete cache lines. @param row_of for each column:
+// the row of which it is the first column. @param added receives the rows that were added.
 PH_FOR_EACH_TARGET
 Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* row_of,
                    Row* added) {
@@ -107,7 +108,8 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
 }
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
-  // A living row is zero as a sum of rows; its vector is passed on to each of these rows.
+  // The reduced row of a living generator is zero, as the sum of its original row and other rows.
+  // Its vector is added to the vectors of these other rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
       // mutant: relation-dead

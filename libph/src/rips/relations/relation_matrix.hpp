@@ -10,15 +10,16 @@
 
 namespace ph {
 
-/// Relations between generators over Z/2, one after the other, and the generator that each of them
-/// killed: the youngest one left after substitution of the generators that died before.
+/// Receives relations between generators over Z/2, one after another, and finds the generator that
+/// each relation kills: the youngest generator that is left after substitution of the generators
+/// that died before.
 ///
 /// There is a row for each generator, from the oldest to the youngest, and a column for each
 /// relation. Rows are reduced from the youngest up: younger rows are added to a row until its first
-/// column is the first column of no younger row; that relation killed the generator. These are the
-/// same pairs as with a reduction of columns (de Silva, Morozov, Vejdemo-Johansson, Dualities in
-/// persistent (co)homology), but a relation that follows from earlier ones costs nothing: here,
-/// most do.
+/// column is not the first column of any younger row. The relation of that column killed the
+/// generator of the row. These are the same pairs as with a reduction of columns (de Silva,
+/// Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology), but relations that follow
+/// from earlier ones, as most do here, cost nothing.
 ///
 /// Relations come in blocks. All additions are stored for later blocks, and for `substitute`.
 class RelationMatrix {
@@ -36,10 +37,10 @@ class RelationMatrix {
         added_(memory),
         more_(memory) {}
 
-  /// Solves a block of relations. @param rows at least as many as before: new rows belong to
-  /// younger generators. @param relations the columns, each of `words` words with one bit per
-  /// generator. @return by column, the generator that it killed, or kNone; valid until the next
-  /// call.
+  /// Solves a block of relations. @param rows the number of generators, at least as many as before;
+  /// new ones are younger. @param relations the columns, each of `words` words with one bit per
+  /// generator. @return for each column the generator that it killed, or kNone; valid until the
+  /// next call.
   std::span<const Row> reduce(std::size_t rows, std::size_t columns, const Word* relations,
                               std::size_t words);
 
@@ -48,15 +49,17 @@ class RelationMatrix {
   std::size_t living_count() const { return living_; }
   /// Number of additions that are stored.
   std::size_t additions() const { return added_.size(); }
-  /// Substitutes the dead generators. @param vectors one per generator, each of `words` words: on
-  /// entry the vectors of the living ones, and zero for the dead.
+  /// Computes the vectors of dead generators from those of the living ones. @param vectors one
+  /// vector per generator, each of `words` words: on entry, the vectors of living generators, and
+  /// zeros for dead ones.
   void substitute(Word* vectors, std::size_t words) const;
 
  private:
   struct alignas(64) Line {
     std::array<Word, 8> words{};
   };
-  /// Rows were added to `to`: the rows from `begin` on, up to the next step, in this order.
+  /// The additions to the row `to`: the entries of added_ from `begin` up to the start of the next
+  /// step, in this order.
   struct Step {
     Row to;
     std::size_t begin;
@@ -70,7 +73,7 @@ class RelationMatrix {
 
   std::size_t lines_ = 0;  // cache lines per row
   std::pmr::vector<Line> cells_;
-  std::pmr::vector<Row> row_of_;  // by column
+  std::pmr::vector<Row> row_of_;  // row that each column is the first of
   std::pmr::vector<std::uint8_t> is_dead_;
   std::size_t living_;
   std::pmr::vector<Step> steps_;

@@ -8,7 +8,7 @@
 namespace ph {
 namespace {
 
-// The approximate memory that it takes.
+// The approximate number of bytes that a solver takes.
 double bytes(std::size_t vertices) {
   constexpr double a_pair = 28;  // measured with random distances
   const auto n = static_cast<double>(vertices);
@@ -20,7 +20,8 @@ double most_bytes(const MemoryBudget& memory) {
   return std::min(most, share * static_cast<double>(memory.left()));
 }
 
-// For more vertices, outgrown blocks must be given back.
+// True if memory is allocated in one block. For more vertices, memory that is no longer needed must
+// be given back earlier.
 bool is_few(std::size_t vertices) { return vertices <= 700; }
 std::size_t part_bytes(std::size_t vertices) {
   constexpr std::size_t line = 64;
@@ -118,7 +119,8 @@ bool RelationSolver::solve_if_due() {
     if (deaths_.size() < enough) return true;
     if (!solve()) return false;
   } else {
-    // Measured: earlier, rows are longer; later, more relations are checked in vain.
+    // Measured: if lists become rows earlier, rows are longer; if later, more relations are checked
+    // in vain.
     if (5 * lists_->relations().dead_count() <= 4 * births_.size()) return true;
     const auto vectors = static_cast<double>(births_.size() + 2 * sum_count());
     if (vectors * static_cast<double>(living_) / 8 > most_bytes(memory_)) return true;
@@ -133,7 +135,7 @@ bool RelationSolver::solve() {
   for (std::size_t i = 0; i < killed.size(); ++i)
     if (killed[i] != RelationMatrix::kNone) report_death(killed[i], deaths_[i]);
   deaths_.clear();
-  constexpr std::size_t many = 4;  // additions per row: beyond this, the dead should be substituted
+  constexpr std::size_t many = 4;  // additions per row, beyond which dead generators should be substituted
   if (rows_->matrix().additions() > many * births_.size()) make_rows();
   return living_ != before;
 }
@@ -142,7 +144,7 @@ void RelationSolver::make_rows() {
   const std::size_t sums = sum_count(), generators = births_.size();
   const std::size_t words = SumRows::words_for(living_);
   std::pmr::vector<SumRows::Word> rows(kept_);
-  rows.reserve(2 * sums * words);  // about as many are still to come
+  rows.reserve(2 * sums * words);  // leaves room for about as many sums to come
   rows.resize(sums * words, 0);
   {
     std::pmr::vector<SumRows::Word> meanings(generators * words, 0, lent_);

@@ -17,10 +17,10 @@
 
 namespace ph {
 
-/// Replaces Annotations over Z/2 while thousands of classes of H^1 live, as with random distances.
-/// Annotations are formal: sums of generators as if none had died. Only the relations between
-/// generators record the deaths. At first, a formal annotation is a list of a few generators, later
-/// a row of bits over the living generators.
+/// Replaces Annotations over Z/2 while thousands of classes of H^1 are alive, as happens with
+/// random distances. Its annotations are formal: sums of generators in which dead generators are
+/// not substituted. Deaths are recorded only by relations between generators. At first, a formal
+/// annotation is a list of a few generators, later a row of bits over the living generators.
 ///
 /// docs/explanation/engines/formal-annotations.md explains the reasons and the order of calls.
 class RelationSolver {
@@ -28,24 +28,25 @@ class RelationSolver {
   using Vertex = SweepObserver<Z2>::Vertex;
   using Edge = Annotations<Z2>::Edge;
 
-  /// @param annotations are taken over and no longer needed. @param observer, memory must outlive
-  /// this object.
+  /// @param annotations the present annotations, which the solver takes over; they are no longer
+  /// needed afterwards. @param observer, memory must outlive this object.
   RelationSolver(std::size_t vertices, Annotations<Z2>& annotations, SweepObserver<Z2>& observer,
                  const SweepTuning& tuning, MemoryBudget& memory);
-  /// True if the memory is approximately enough.
+  /// True if the memory is likely to be enough.
   static bool fits(std::size_t vertices, const MemoryBudget& memory);
 
   /// Adds a generator that is one on a new edge and zero on all others.
   void give_birth(const Edge& edge);
-  /// Prefetches data for the edge from u to v. @param link one bit per vertex.
+  /// Prefetches the data that annotating the edge from u to v will need. @param link one bit per
+  /// vertex.
   void prefetch(Vertex u, Vertex v, std::span<const bits::Word> link) const;
-  /// @param roots a vertex of each component of the edge's link. @return false if the solver must
-  /// stop.
+  /// Annotates an edge and collects the relations of its link. @param roots one vertex of each
+  /// component of the edge's link. @return false if the solver must stop.
   [[nodiscard]] bool annotate(const Edge& edge, std::span<const Vertex> roots);
-  /// Ends the solver: passes its state to new annotations. Precondition: `annotate` has just
+  /// Ends the solver and passes its state to new annotations. Precondition: `annotate` has just
   /// returned false.
   void hand_over(Annotations<Z2>& annotations);
-  /// Ends the solver: reports the classes that never die.
+  /// Ends the solver and reports the classes that never die.
   void finish();
 
   /// Number of classes whose death has not been reported yet.
@@ -64,10 +65,11 @@ class RelationSolver {
   }
   void assign(const Edge& edge, Sum a);
   void report_death(Generator g, Triangle death);
-  /// If it is time, turns lists into rows or solves the relations collected since. @return false if
-  /// the solver must stop.
+  /// Turns lists into rows, or solves the collected relations, if it is time to do so. @return
+  /// false if the solver must stop.
   bool solve_if_due();
-  /// @return true if a generator died. Precondition: there are rows.
+  /// Solves the collected relations and reports deaths. @return true if a generator died.
+  /// Precondition: annotations are rows.
   bool solve();
   /// Substitutes the dead generators in all annotations. Precondition: no relations are waiting.
   void make_rows();
@@ -81,11 +83,11 @@ class RelationSolver {
   MemoryBudget& memory_;
   PairLabels sums_;                    // annotation of an edge by its ends
   std::pmr::vector<Edge> edges_;       // edges with a non-empty annotation
-  std::pmr::vector<Position> births_;  // by generator
+  std::pmr::vector<Position> births_;  // of each generator
   std::size_t living_ = 0;
   std::unique_ptr<FormalSums> lists_;  // annotations as lists,
   std::unique_ptr<SumRows> rows_;      // or as rows
-  std::pmr::vector<Triangle> deaths_;  // by collected relation
+  std::pmr::vector<Triangle> deaths_;  // triangle of each collected relation
 };
 
 }  // namespace ph

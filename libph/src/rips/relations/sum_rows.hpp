@@ -12,20 +12,20 @@
 
 namespace ph {
 
-/// Sums of generators over Z/2 as rows of bits, and relations between generators that are stored in
-/// order to be solved together. 0 is the empty sum.
+/// Sums of generators over Z/2 as rows of bits, and relations between generators, which are
+/// collected and then solved together. The sum with number 0 is empty.
 class SumRows {
  public:
   using Generator = RelationMatrix::Row;
   using Sum = std::uint32_t;
   using Word = bits::Word;
 
-  /// Words of a row for that many generators and some more to come.
+  /// The number of words per row for that many generators and some more to come.
   static std::size_t words_for(std::size_t generators) {
     return (generators + generators / 8) / 64 + 1;
   }
-  /// @param rows sums of that many generators, each of words_for(generators) words. @param memory
-  /// for everything else.
+  /// @param rows the first sums, as rows of words_for(generators) words each. @param memory used
+  /// for everything except `rows`.
   SumRows(std::size_t generators, std::pmr::vector<Word>&& rows, std::pmr::memory_resource* memory)
       : words_(words_for(generators)),
         generators_(generators),
@@ -36,14 +36,14 @@ class SumRows {
   std::size_t count() const { return rows_.size() / words_; }
   std::size_t words() const { return words_; }  ///< words per row
   const Word* operator[](Sum a) const { return rows_.data() + a * words_; }
-  /// Adds the next generator as a sum.
+  /// Adds a new generator, and the sum that consists of it alone.
   Sum append_generator();
   Sum add(Sum a, Sum b);
 
-  /// Stores that the sum of these becomes zero. @return false if it is empty.
+  /// Stores the relation that the total of these sums is zero. @return false if the total is empty.
   bool add_relation(std::span<const Sum, 4> sums);
   std::size_t relation_count() const { return values_.size() / words_; }
-  /// Solves the stored relations. @return for each, the generator that it kills, or
+  /// Solves the stored relations. @return for each relation the generator that it kills, or
   /// RelationMatrix::kNone; valid until the next call.
   std::span<const Generator> solve();
   const RelationMatrix& matrix() const { return matrix_; }

@@ -36,15 +36,15 @@ class LinkExtensions {
   struct Extension {
     Generator generator;
     const Cochain* cocycle;  ///< null for a loop
-    /// A cocycle on the link that replaces gamma and belongs to no class.
+    /// For a loop: a cocycle on the link that takes the place of gamma and belongs to no class.
     LinkPairs<K>* loop = nullptr;
     /// The lists of u and v, unless the cocycle is dense.
     typename Cochain::Terms at_u = {}, at_v = {};
     typename RowPool<K>::Id potential = 0;
-    /// p(x) + gamma(x,y) - p(y), where y is the last vertex added; zero between vertices. Only for
-    /// obstructed classes.
+    /// p(x) + gamma(x,y) - p(y), where y is the last vertex added; zero before the next vertex is
+    /// added. Used only for obstructed classes.
     typename RowPool<K>::Id mismatch = 0;
-    std::size_t first = 0, last = 0;  ///< its range in terms_
+    std::size_t first = 0, last = 0;  ///< range of its terms in terms_
     bool is_obstructed = false;       ///< no potential fits
     bool is_flat = true;              ///< the potential is zero so far
     bool is_mismatched = false;
@@ -60,19 +60,19 @@ class LinkExtensions {
         gamma_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
-  /// Loops first, then classes by ascending generator.
+  /// The extensions: first loops, then classes by ascending generator.
   std::pmr::vector<Extension>& all() { return all_; }
-  /// Adds cocycles of the link that have no potential. They outlive the edge.
+  /// Adds cocycles of the link that have no potential. They must outlive the work on the edge.
   void add_loops(std::span<LinkPairs<K>* const> loops);
   void clear();
   void remove(Extension* x);
 
-  /// Finds the classes whose gamma is not zero on the link, with potentials. Calls `prepare` for a
-  /// cover of the link before the first such class. @return true if some have no potential; their
-  /// potentials and mismatches are zero.
+  /// Finds the classes whose gamma is not zero on the link, and their potentials. Before the first
+  /// such class, calls `prepare` to get a cover of the link. @return true if some classes have no
+  /// potential; their potentials and mismatches are zero.
   template <class Prepare>
   bool find(const FlagEdge& e, Prepare&& prepare);
-  /// After a change of cocycles: computes gamma again for obstructed classes.
+  /// Computes gamma again for obstructed classes after cocycles have changed.
   void refresh(const FlagEdge& e);
 
   Unit* potential(const Extension& x) { return rows_[x.potential]; }
@@ -86,15 +86,16 @@ class LinkExtensions {
  private:
   using Term = typename Cochain::Term;
 
-  /// to += scale * the row of a cocycle on the link, in the first words.
+  /// to += scale * the values on the link of a cocycle's row, in the first `words` words.
   void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
-  /// Finds the potential on a link with an apex.
+  /// Finds the potential on a link that has an apex.
   void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);
   /// Finds the potential in the order of a cover. @return false if there is none.
   bool extend_over(Extension& x, const FlagEdge& e, const LinkCover& cover);
-  /// Copies the terms of gamma on the link from lists into terms_, from both ends of each pair.
+  /// Copies the terms of gamma on the link from lists into terms_, each pair in both orders.
   void collect_terms(Extension& x);
-  /// gamma_ = gamma(., y) on a set, in the first words. @return true if that is not zero.
+  /// Sets gamma_ = gamma(., y) on a set, in the first `words` words. @return true if any value is
+  /// not zero.
   bool find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
                   std::size_t words);
 

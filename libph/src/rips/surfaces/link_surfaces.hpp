@@ -23,10 +23,10 @@ namespace ph {
 ///
 /// An edge e = (u,v) enters with its star, which is glued to the present complex along the
 /// suspension of e's link, a flag complex. A class of H2 is therefore born with each component of
-/// the link except one (if that component kills no class of H1), and dies with a loop of the link.
-/// Each living class h is represented by a cocycle phi_h. It extends to the new triangles by a
-/// potential, p(w) = phi_h(u,v,w): p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each
-/// edge xy of the link. Where no potential exists, a class dies. See
+/// the link except the first, unless the component kills a class of H1. A class of H2 dies with a
+/// loop of the link. Each living class h is represented by a cocycle phi_h. It extends to the new
+/// triangles by a potential, p(w) = phi_h(u,v,w): p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) -
+/// phi_h(v,x,y) for each edge xy of the link. If no potential exists, a class dies. See
 /// docs/explanation/engines/edge-links-h2.md.
 template <Field K>
 class LinkSurfaces {
@@ -57,21 +57,22 @@ class LinkSurfaces {
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// A cocycle of a link that kills no class of H2, and the first tetrahedron where it stops being
-  /// a cocycle: a class of H3 is born.
+  /// The birth of a class of H3: a cocycle of a link that kills no class of H2, and the first
+  /// tetrahedron where it stops being a coboundary.
   struct BirthAbove {
     typename Observer::Tetrahedron birth;
     LinkPairs<K>* loop;
   };
 
-  /// Extends the living classes to the star of an edge (the edge of the graph's link) and kills
+  /// Extends the living classes to the star of the edge whose link the graph holds, and kills
   /// classes that cannot be extended.
-  /// @param loops a basis of H^1 of the link, if births of H3 are wanted; others are added to it.
+  /// @param loops a basis of H^1 of the link, if births of H3 are wanted; the call may add other
+  /// cocycles to its members.
   void extend(Position position, const FlagEdge& e, LinkComponents& components,
               std::span<LinkPairs<K>* const> loops = {});
-  /// The births of the last edge.
+  /// The births of H3 with the last edge.
   std::span<const BirthAbove> births_above() const { return births_above_; }
-  /// A class is born with a component of an edge's link.
+  /// Adds a class that is born with a component of an edge's link.
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports the classes that never die.
   void finish();
@@ -85,24 +86,26 @@ class LinkSurfaces {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Goes through a link in the order of its tetrahedra: obstructed classes die or are changed into
-  /// unobstructed ones.
+  /// Goes through a link in the order of its tetrahedra and kills obstructed classes or changes
+  /// them into unobstructed ones.
   /// @param is_extended true if only pairs of length zero are left to find.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
-  /// The value that an extension requires at w, minus the value that it has for the last vertex.
+  /// The difference between the value for the last vertex that the edge to w requires of an
+  /// extension and the value that the extension has there.
   Element mismatch_of(const Extension& x, Vertex w);
-  /// Adds younger classes to the classes mismatched at w, after which only the youngest of them,
-  /// the dying one, is mismatched. @param words of rows in use.
+  /// Adds younger classes to the classes that are mismatched at w. After that, only the youngest of
+  /// these, the dying class, is mismatched. @param words the number of words in use per row.
   void correct_others(std::size_t dying, const FlagEdge& e, Vertex w, std::size_t words);
-  /// @param tetrahedron joins two parts of the link, one of which has these vertices.
+  /// Reports the pairs of length zero that a tetrahedron causes. @param root, part the root and the
+  /// vertices of one of the two parts of the link that it joins.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
   void store(const Extension& x, const FlagEdge& e, const LinkComponents& components);
-  /// phi(u,v,.) += a star, given on the link.
+  /// phi_h(u,v,.) += star, a function on the link.
   void add_star(Generator h, const FlagEdge& e, const Unit* star);
   void find_cocycle(Generator h);
-  /// @param star phi(u,v,.), in the first words.
+  /// Adds phi(u,v,.) to cocycle_. @param star its values, in the first `words` words.
   void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t words);
 
   LinkGraph& graph_;
@@ -110,13 +113,13 @@ class LinkSurfaces {
   SweepRequest wanted_;
   Observer& observer_;
   Cocycles cocycles_;
-  std::pmr::vector<Triangle> births_;  // by generator; edge = kDead after its death
+  std::pmr::vector<Triangle> births_;  // birth of each generator; edge = kDead after its death
   // Used while an edge is added:
   LinkCover cover_;
   LinkForest forest_;
   LinkExtensions<K> extensions_;
   std::pmr::vector<BirthAbove> births_above_;
-  std::pmr::vector<std::size_t> partners_;  // by extension: the one to be added to it
+  std::pmr::vector<std::size_t> partners_;  // for each extension: the extension to be added to it
   std::pmr::vector<Unit> star_;             // on the link
   std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
@@ -233,8 +236,8 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
-  // Each of the others takes the smallest of the younger ones, in their present state. Loops come
-  // before all classes.
+  // To each other class, the smallest class among the younger ones is added, as it was before this
+  // step. Loops come before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;
@@ -274,7 +277,8 @@ void LinkSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
 template <Field K>
 void LinkSurfaces<K>::store(const Extension& x, const FlagEdge& e,
                             const LinkComponents& components) {
-  // A constant on a component changes the class only by younger ones: few values are stored.
+  // Subtracting a constant on a component changes the class only by younger classes. The constants
+  // are chosen to leave few values to store.
   Unit* p = extensions_.potential(x);
   const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
@@ -299,7 +303,7 @@ template <Field K>
 void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Function::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
-    // phi(u,v,w): true if it takes an odd number of swaps from (v,u,w)
+    // phi(u,v,w): true if sorting (v,u,w) takes an odd number of swaps
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
     std::ranges::sort(vertices);
     cocycle_.push_back({vertices, is_odd ? field_.negate(a) : a});

@@ -15,8 +15,9 @@
 namespace ph {
 
 /// A 2-cochain phi of a flag complex, an alternating function of three vertices, stored where it is
-/// not zero. A few triangles are stored as sorted lists, each triangle in the lists of its three
-/// corners; many are stored as rows, one per edge (a,b), a < b, with the values phi(a,b,.).
+/// not zero. If it has few triangles, they are stored as sorted lists, each triangle in the lists
+/// of its three corners. If it has many, it is dense: the values phi(a,b,.) are stored as rows, one
+/// per edge (a,b), a < b.
 template <Field K>
 class TriangleCochain {
  public:
@@ -35,7 +36,7 @@ class TriangleCochain {
   static std::uint32_t pair(Vertex larger, Vertex smaller) { return larger << 16 | smaller; }
   static Vertex larger(const Term& t) { return t.cell >> 16; }
   static Vertex smaller(const Term& t) { return t.cell & 0xFFFF; }
-  /// 16 bits per vertex.
+  /// The largest number of vertices, because a vertex takes 16 bits.
   static constexpr std::size_t kMostVertices = 1 << 16;
 
   /// Data shared by all cochains of a complex.
@@ -48,7 +49,7 @@ class TriangleCochain {
           rows(blocks, memory),
           star(memory) {}
     std::size_t blocks;
-    // In lists; beyond that they become rows, later if rows take more than bits.
+    // The largest number of terms in lists. With more terms, a cochain becomes dense.
     std::size_t most_terms;
     std::size_t living = 0;  // cochains in use
     RowPool<K> rows;
@@ -58,28 +59,27 @@ class TriangleCochain {
   explicit TriangleCochain(std::pmr::memory_resource* memory) : lists_(memory), at_(memory) {}
 
   bool is_dense() const { return !at_.empty(); }
-  /// The list of a vertex, unless it is dense.
+  /// The list of a vertex, unless the cochain is dense.
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
-  /// True if a triangle at a, with its other two vertices in a link, may have a value; it is never
-  /// false wrongly.
-  /// @param terms the terms of a.
+  /// False only if no triangle at a whose other two vertices are in the link has a value.
+  /// @param terms the list of a.
   bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
   /// For a dense cochain: phi(a,b,.) if a < b, otherwise -phi(a,b,.); null if that is zero.
   const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
     return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
   }
-  /// The approximate cost of adding it to another one.
+  /// The approximate cost of adding this cochain to another one.
   std::size_t size() const { return is_dense() ? row_count_ * at_.size() : lists_.term_count(); }
 
-  /// Adds scale * other. Calls `on_enter(a, list)` for new vertices of triangles, and `on_leave(a)`
-  /// for vertices that may have lost their last triangle.
+  /// Adds scale * other. Calls `on_enter(a, list)` for vertices that get their first triangle, and
+  /// `on_leave(a)` for vertices that may have lost their last triangle.
   template <class OnEnter, class OnLeave>
   void add(TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
   /// phi(u,v,w) += star(w) for all w; u > v, and these triangles must have no values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
-  /// Makes it zero and returns its memory. Calls `on_leave(a)` as `add` does.
+  /// Makes the cochain zero and gives its memory back. Calls `on_leave(a)` as `add` does.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave);
 
@@ -88,7 +88,7 @@ class TriangleCochain {
   void for_each_triangle(const Shared& shared, Visit&& visit) const;
 
  private:
-  /// The edges at a vertex that have a row.
+  /// The rows of the edges at a vertex.
   struct RowsAt {
     explicit RowsAt(std::pmr::memory_resource* memory) : present(memory), rows(memory) {}
     std::pmr::vector<Word> present;                  // indexed by the other end
@@ -99,7 +99,7 @@ class TriangleCochain {
     const auto& present = at_[a].present;
     return !present.empty() && (present[b / 64] >> (b % 64) & 1) != 0;
   }
-  /// The row of an edge, made if necessary.
+  /// The row of an edge, which is made if it does not exist.
   Unit* made_row(Vertex a, Vertex b, Shared& shared) {
     if (!has_row(a, b)) make_row(a, b, shared);
     return shared.rows[at_[a].rows[b]];
@@ -115,9 +115,10 @@ class TriangleCochain {
   void add_to_row(Vertex a, Vertex b, Vertex c, Element value, Shared& shared) {
     Function::add_at(made_row(a, b, shared), c, value, shared.field);
   }
-  /// Makes it dense if it is large.
+  /// Makes the cochain dense if it is large.
   void adapt(Shared& shared) {
-    // Rows of many cochains displace each other from the caches.
+    // If there are many cochains, lists are kept longer, because their rows would displace each
+    // other from the caches.
     constexpr std::size_t many = 16;
     const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
     if (!is_dense() && lists_.term_count() > most) make_dense(shared);
@@ -126,15 +127,16 @@ class TriangleCochain {
   template <class OnEnter>
   void add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
   void drop_zero_rows(Shared& shared);
-  /// Calls `visit(a)` for the vertices of its triangles, ascending, and possibly some more.
+  /// Calls `visit(a)` for the vertices of its triangles and possibly for some others, in ascending
+  /// order.
   template <class Visit>
   void for_each_vertex(Visit&& visit) const;
   /// Calls `visit(a, b, row id)` for a < b.
   template <class Visit>
   void for_each_row(Visit&& visit) const;
 
-  Lists lists_;                  // empty if it is dense
-  std::pmr::vector<RowsAt> at_;  // by vertex; empty unless it is dense
+  Lists lists_;                  // empty if the cochain is dense
+  std::pmr::vector<RowsAt> at_;  // rows at each vertex; empty unless the cochain is dense
   std::size_t row_count_ = 0;
 };
 

@@ -8,7 +8,8 @@
 namespace ph {
 namespace {
 
-// Position of a number that occurs at most once; `count` if it is absent.
+// The position of a number in a list where it occurs at most once; `count` if the list does not
+// have it.
 PH_FOR_EACH_TARGET
 std::size_t position_of(std::uint32_t number, const std::uint32_t* numbers, std::size_t count) {
   constexpr std::size_t block = 64;  // scanned without branches

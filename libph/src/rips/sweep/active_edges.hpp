@@ -9,14 +9,15 @@
 
 namespace ph {
 
-/// Some edges of a graph, in no particular order at each of their ends, with a label per end: the
-/// data of the edge as seen from there. A vertex has few: a label is found by scanning all of them.
+/// Some edges of a graph, listed at both of their ends in no particular order, with one label per
+/// end: the data of the edge as seen from there. A label is found by scanning the list of a vertex,
+/// because a vertex has few such edges.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;
   using Label = std::uint32_t;
 
-  /// @param has_rows true to store them also as rows of bits, one bit per pair of vertices.
+  /// @param has_rows true if edges are also stored as rows of bits, one bit per pair of vertices.
   ActiveEdges(std::size_t vertices, bool has_rows, std::pmr::memory_resource* memory)
       : at_(memory),
         degrees_(vertices, 0, memory),
@@ -29,13 +30,13 @@ class ActiveEdges {
   std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
   std::size_t degree(Vertex v) const { return degrees_[v]; }
   bool has_rows() const { return rows_.rows() != 0; }
-  /// The same as bits. Precondition: has_rows().
+  /// The other ends of the edges at a vertex, as bits. Precondition: has_rows().
   const bits::Word* row(Vertex v) const { return rows_.row(v); }
   std::size_t words() const { return rows_.words(); }  ///< words per row
-  /// The label of the edge at u, or null if the edge is absent. The pointer is valid until the next
-  /// change.
+  /// The label at u of the edge from u to v, or null if the edge is absent. The pointer is valid
+  /// until the next change.
   Label* find(Vertex u, Vertex v);
-  /// Adds an edge that was never there. @param at_u, at_v its labels.
+  /// Adds an edge that was never present. @param at_u, at_v its labels at u and at v.
   void insert(Vertex u, Vertex v, Label at_u, Label at_v);
   /// Removes all edges.
   void clear();
@@ -55,10 +56,11 @@ class ActiveEdges {
   };
   void erase_at(Vertex u, Vertex v);
 
-  // By vertex. With rows, some of the ends may belong to removed edges: searching for each of them
-  // would take longer than dropping half of a list now and then.
+  // The list of each vertex. With rows, lists may still contain removed edges, because searching
+  // for each of these would take longer than halving a list now and then.
   std::pmr::vector<Ends> at_;
-  // By vertex: most have none, and this is the most frequent question.
+  // The number of edges at each vertex. This is the most frequent query, and mostly the answer is
+  // 0.
   std::pmr::vector<std::uint32_t> degrees_;
   BitMatrix rows_;
 };

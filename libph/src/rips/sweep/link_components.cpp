@@ -29,7 +29,7 @@ void LinkComponents::find(const FlagEdge& e) {
     }
     start = guess;
   }
-  const bool is_guess = start != kNone;  // without an apex
+  const bool is_guess = start != kNone;  // there was no apex
   if (!is_guess) start = graph_.first();
   rest_.assign(graph_.link(), graph_.link() + words);
   if (!take_component(start)) {
@@ -81,8 +81,8 @@ bool LinkComponents::take_component(Vertex first) {
   clear(rest_.data(), first);
   bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
-  // The rest are usually few vertices, joined to one another: one that sees the component brings
-  // along its neighbours.
+  // Usually only few vertices are left, and they are joined to one another. If one of them is
+  // joined to the component, it brings along its neighbours.
   for (bool grew = true; is_left && grew;) {
     grew = is_left = false;
     for (std::size_t k = 0; k < words; ++k) {
@@ -105,7 +105,7 @@ bool LinkComponents::take_component(Vertex first) {
 }
 
 void LinkComponents::sort_components() {
-  // All roots except the one that a guess began with ascend.
+  // All roots are in ascending order, except the root of the component that began with a guess.
   const std::size_t words = graph_.words();
   for (std::size_t i = 1; i < count() && roots_[i] < roots_[i - 1]; ++i) {
     std::swap(roots_[i], roots_[i - 1]);
@@ -116,7 +116,8 @@ void LinkComponents::sort_components() {
 }
 
 bool LinkComponents::find_apex(const FlagEdge& e) {
-  // An apex sees every vertex, including a vertex that a candidate does not see.
+  // An apex is joined to every other vertex. It is therefore a neighbour of any vertex that a
+  // candidate is not joined to.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };
   rest_.assign(graph_.link(), graph_.link() + words);

@@ -11,8 +11,8 @@
 namespace ph {
 
 /// The connected components of a link, with vertices numbered within the link. Most links are
-/// cones: one vertex, the apex, is joined to all others. It often also serves the next edge at the
-/// same vertex.
+/// cones: one vertex, the apex, is joined to all others. An apex is often an apex for the next edge
+/// at the same vertex as well.
 class LinkComponents {
  public:
   using Vertex = std::uint32_t;
@@ -27,11 +27,13 @@ class LinkComponents {
         sets_(memory),
         rest_(memory) {}
 
-  /// For the graph's link, which must be the non-empty link of e.
+  /// Finds the components of the link that the graph holds, which must be the link of e and not
+  /// empty.
   void find(const FlagEdge& e);
-  /// Finds only the roots, of any link; quick if the link has few vertices.
+  /// Finds only the roots of the components, of any link. This is quick if the link has few
+  /// vertices.
   void find_roots(const FlagEdge& e);
-  /// Looks for an apex if `find` has met none. @return true if there is one.
+  /// Looks for an apex if `find` has not found one. @return true if there is one.
   bool find_apex(const FlagEdge& e);
 
   /// Number of components; roots ascend.
@@ -57,7 +59,7 @@ class LinkComponents {
   void sort_components();
 
   LinkGraph& graph_;
-  std::pmr::vector<Vertex> last_apex_;  // by end of an edge, with its global number
+  std::pmr::vector<Vertex> last_apex_;  // last apex for each vertex as an end of edges
   std::pmr::vector<Vertex> roots_;
   std::pmr::vector<Word> sets_;  // one row per component
   std::pmr::vector<Word> rest_;

@@ -42,7 +42,8 @@ void LinkForest::unite(std::size_t from, std::size_t to) {
     set_of(to)[k] |= set_of(from)[k];
     set_of(from)[k] = 0;
   }
-  // A vertex is usually the last part that began: removing it leaves no empty part behind.
+  // The part to be removed is usually the single vertex that was added last. Removing that part
+  // entirely leaves no empty part.
   if (from + 1 == roots_.size()) {
     roots_.pop_back();
     parts_.resize(roots_.size() * graph_.words());

@@ -10,14 +10,15 @@
 namespace ph {
 
 /// The components of a growing graph: vertices come one by one, ascending, each with its edges to
-/// earlier vertices. In the order of the filtration, these edges are the tetrahedra over an edge
-/// whose link is the graph.
+/// earlier vertices. If the graph is the link of an edge of the filtration, its edges correspond to
+/// the tetrahedra over that edge, in the same order.
 class LinkForest {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
 
-  /// A part that the next vertex is joined to, and the first vertex where this happens.
+  /// A part that the next vertex is joined to, and the first vertex of that part to which it is
+  /// joined.
   struct Meeting {
     std::size_t part;
     Vertex at;
@@ -38,7 +39,7 @@ class LinkForest {
   }
   /// Finds the parts that the next vertex of a set is joined to.
   void meet(Vertex y, const Word* set);
-  /// In the order of the edges from y; valid until the next `meet`.
+  /// The parts found, in the order of the edges from y; valid until the next `meet`.
   const std::pmr::vector<Meeting>& meetings() const { return meetings_; }
   /// The neighbours of y in a part; words up to the word of y are valid.
   const Word* neighbours(std::size_t meeting) const {
@@ -52,11 +53,11 @@ class LinkForest {
   const Word* part(std::size_t i) const { return parts_.data() + i * graph_.words(); }
 
   /// Adds the vertex. Calls `on_join(younger root, its vertices, w)` for each edge wy that joins
-  /// two parts; at first, y alone is one part.
+  /// two parts; at first, y alone is a part of its own.
   template <class OnJoin>
   void join(Vertex y, OnJoin&& on_join);
 
-  /// Number of words that hold the vertices up to y.
+  /// The number of words for the vertices up to y.
   static std::size_t words_to(Vertex y) { return y / 64 + 1; }
 
  private:

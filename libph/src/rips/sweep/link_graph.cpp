@@ -11,10 +11,10 @@
 namespace ph {
 namespace {
 
-// Edges per thread at a time; fewer are not worth a thread.
+// The number of edges that a thread takes at a time; fewer edges are not worth a thread.
 constexpr std::size_t kPiece = 1 << 17;
 
-// The neighbours in a link of at most 64 vertices.
+// The neighbours of a vertex in a link of at most 64 vertices, as bits.
 template <class Neighbour>
 [[gnu::always_inline]] inline bits::Word find_word(std::span<const Neighbour> neighbours,
                                                    const std::uint32_t* local) {
@@ -168,15 +168,15 @@ LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph
 
 LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_graph) {
   for (const Vertex v : vertices_) local_[v] = kNone;
-  // Marks take three passes and no branch; which of two sorted lists comes first cannot be
-  // predicted.
+  // Marks take three passes but no branches. Merging two sorted lists would take branches that
+  // cannot be predicted.
   constexpr std::uint8_t of_one = 1, of_both = 2;
   std::size_t count = 0;
   const bool touches = with_lists([&](const auto& lists) {
     auto few = lists[e.u], many = lists[e.v];
     if (many.size() < few.size()) std::swap(few, many);
-    // A vertex with many neighbours also has many edges: its neighbours are not all read for each
-    // edge.
+    // A vertex with many neighbours also has many edges. Reading all its neighbours for each of its
+    // edges would take too long.
     constexpr std::size_t times = 32;
     const bool is_hub = many.size() / times > few.size();
     vertices_.resize(few.size() + 1);

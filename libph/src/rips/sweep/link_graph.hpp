@@ -18,29 +18,31 @@ namespace ph {
 
 /// The storage of the edges so far in a sweep of edge links.
 enum class LinkLayout {
-  automatic,  ///< the faster one that is affordable
-  rows,       ///< two bits per pair of vertices, one for each order
+  automatic,  ///< the fastest affordable layout
+  rows,       ///< two bits per pair of vertices, one bit for each order
   lists,      ///< the neighbours of each vertex: two or four bytes per end of an edge
 };
 
 /// The edges so far of a flag filtration, and the link of a new edge: the common neighbours of its
-/// ends, with the graph on them as rows of bits. In that graph, vertices have numbers of their own
-/// in the same order: with lists, the link is numbered 0, 1, …, which makes a row one or two words;
-/// with rows, the numbers are those of all vertices and nothing is copied.
+/// ends, with the graph on them as rows of bits. In that graph, vertices have local numbers, in the
+/// same order as their global ones. With lists, the vertices of the link are numbered 0, 1, …, and
+/// a row usually takes one or two words. With rows, local and global numbers are the same, and
+/// nothing is copied.
 class LinkGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active edges that are present; it must outlive this object. With lists, it must have no
-  /// rows. @param edges that may be added. @param layout rows or lists.
+  /// @param active the active edges among the edges so far; must outlive this object and, with
+  /// lists, must have no rows. @param edges all edges that may be added. @param layout rows or
+  /// lists.
   LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
             std::pmr::memory_resource* memory);
 
-  /// The faster layout among the affordable ones.
+  /// The fastest affordable layout.
   static LinkLayout choose_layout(std::size_t vertices, std::size_t edges);
-  /// The approximate memory that it finally holds in that layout.
+  /// The approximate number of bytes that a graph takes once all edges are added.
   static double bytes(std::size_t vertices, std::size_t edges);
 
   std::size_t vertex_count() const { return active_.vertex_count(); }
@@ -69,15 +71,15 @@ class LinkGraph {
     return (layout_ == LinkLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
            has_link_anywhere(u, v);
   }
-  /// True if the ends of each edge have one; uses several threads.
+  /// True if the ends of each of the edges have a common neighbour. Uses several threads.
   bool have_links(std::span<const FlagEdge> edges, const RunContext& context) const;
   struct Link {
     bool is_empty;
     bool touches_active;
   };
   /// Examines the link of an edge that is not present yet: finds out if it is empty, and if an
-  /// active edge joins it to an end of the edge. The members below refer to this link, if active
-  /// edges touch it or `wants_graph` is set.
+  /// active edge joins it to an end of the edge. If active edges touch the link or `wants_graph` is
+  /// set, the members below refer to this link.
   Link find_link(const FlagEdge& e, bool wants_graph);
 
   std::size_t words() const { return words_; }  ///< words per row
@@ -88,16 +90,16 @@ class LinkGraph {
     if (!is_row_made_[v]) make_row(v);
     return local_rows_.data() + v * words_;
   }
-  /// True if vertices have the same numbers in the link.
+  /// True if vertices have the same numbers in the link as in the graph.
   bool keeps_numbers() const { return layout_ == LinkLayout::rows; }
   /// Converts the number of a vertex in the link to its global number.
   Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
-  /// The reverse; kNone if the vertex is not in the link.
+  /// Converts a global number to the number in the link; kNone if the vertex is not in the link.
   Vertex local(Vertex v) const {
     if (!keeps_numbers()) return local_[v];
     return link_[v / 64] >> (v % 64) & 1 ? v : kNone;
   }
-  /// The smallest of the vertices.
+  /// The smallest vertex of the link.
   Vertex first() const { return static_cast<Vertex>(bits::first_common(link(), link(), words_)); }
 
  private:
@@ -124,18 +126,18 @@ class LinkGraph {
   LinkLayout layout_;
   // For rows:
   BitMatrix joined_;
-  // Landmarks are up to 64 spread vertices: most links contain one of them. By vertex: its bit if
-  // it is a landmark, and the bits of its neighbours that are landmarks.
+  // Landmarks are up to 64 spread vertices: most links contain one of them. For each vertex: its
+  // own bit if it is a landmark, and the bits of the landmarks among its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
-  // For lists, with short numbers if these are enough:
+  // For lists, with 16-bit numbers if these are enough:
   NeighbourLists<std::uint16_t> short_lists_;
   NeighbourLists<Vertex> lists_;
-  std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
+  std::pmr::vector<std::uint8_t> marks_;  // mark of each vertex; zero between uses
   // For the link:
   std::size_t words_;
   std::pmr::vector<Word> link_;
-  std::pmr::vector<Vertex> vertices_;  // by number in the link
-  std::pmr::vector<Vertex> local_;     // by global number; kNone outside the link
+  std::pmr::vector<Vertex> vertices_;  // global number of each vertex of the link
+  std::pmr::vector<Vertex> local_;     // number in the link of each vertex; kNone outside the link
   std::pmr::vector<Word> local_rows_;
   std::pmr::vector<std::uint8_t> is_row_made_;
 };

@@ -14,16 +14,16 @@
 
 namespace ph {
 
-/// The neighbours of each vertex of a graph that grows edge by edge, ascending. Its edges are known
-/// in advance, though not in order: each list has exactly the room that it will need.
-/// @tparam Vertex the smallest unsigned integer type that can number them.
+/// The neighbours of each vertex of a graph that grows edge by edge, ascending. The edges are known
+/// in advance, though not their order. Each list therefore has exactly the room that it will need.
+/// @tparam Vertex an unsigned integer type that can number all vertices.
 template <class Vertex>
 class NeighbourLists {
  public:
-  /// Without vertices.
+  /// Makes lists of a graph without vertices.
   explicit NeighbourLists(std::pmr::memory_resource* memory)
       : begins_(memory), sizes_(memory), vertices_(memory) {}
-  /// @param edges that may be added later.
+  /// @param edges the edges that may be added later.
   NeighbourLists(std::size_t vertices, const BinnedEdges& edges, std::pmr::memory_resource* memory)
       : begins_(vertices, 0, memory), sizes_(vertices, 0, memory), vertices_(memory) {
     edges.with_bins(0, edges.bin_count(), [&](std::span<const FlagEdge> all) {
@@ -54,7 +54,7 @@ class NeighbourLists {
     *place = v;
   }
 
-  std::pmr::vector<std::size_t> begins_;  // by vertex: start in vertices_
+  std::pmr::vector<std::size_t> begins_;  // start of each vertex's list in vertices_
   std::pmr::vector<std::uint32_t> sizes_;
   RawVector<Vertex> vertices_;
 };

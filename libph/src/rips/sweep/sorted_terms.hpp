@@ -44,7 +44,7 @@ void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
   const Term *j = terms.data(), *const last = j + terms.size();
   Term* out = merged.data();
   while (i != end && j != last) {
-    if constexpr (std::same_as<K, Z2>) {  // which comes first cannot be predicted: no branches
+    if constexpr (std::same_as<K, Z2>) {  // branchless, because the order of terms is unpredictable
       const Cell a = i->cell, b = j->cell;
       *out = a < b ? *i : *j;
       out += a != b ? 1 : 0;

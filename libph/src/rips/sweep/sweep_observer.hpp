@@ -13,19 +13,20 @@ namespace ph {
 /// Thresholds at which a sweep of edge links changes its method; results do not depend on them.
 struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
-  /// Average number of terms of a cocycle at a vertex: beyond it, rows are used.
+  /// The largest average number of terms of a cocycle per vertex for which lists are used instead
+  /// of rows.
   std::size_t most_terms = 64;
-  /// Upper limit: with more vertices, lists of active edges are used.
+  /// The largest number of vertices for which active edges are stored as rows as well as lists.
   std::size_t vertices_of_active_rows = 1 << 11;
-  /// Least number of living classes of H1 for RelationSolver.
+  /// The least number of living classes of H1 for which RelationSolver is used.
   std::size_t classes_for_formal = 1 << 9;
   std::size_t relations_for_formal = 1 << 10;  ///< least number of relations solved together
 };
 
-/// The output of a sweep of edge links.
+/// The output that is wanted of a sweep of edge links.
 struct SweepRequest {
   bool surfaces = false;  ///< includes H2
-  /// Includes H3; needs surfaces, and gives only bars, without those of length zero.
+  /// Includes H3. Needs `surfaces`, and gives only bars of positive length without representatives.
   bool volumes = false;
   bool cycles = false;  ///< cycles of H1
   bool cocycles = false;
@@ -41,22 +42,24 @@ class SweepObserver {
   using Vertex = std::uint32_t;
   using Position = std::uint32_t;  ///< position of an edge in the order of the filtration
 
-  /// The triangle over an edge with one more vertex; the edge is its last edge.
+  /// A triangle, given by its last edge and its third vertex.
   struct Triangle {
     Position edge;
     Vertex apex;
   };
-  /// The tetrahedron over an edge with two more vertices.
+  /// A tetrahedron, given by its last edge and its two other vertices.
   struct Tetrahedron {
     Position edge;
     Vertex larger, smaller;
   };
-  /// The simplex over an edge with three more vertices, descending.
+  /// A simplex of dimension 4, given by its last edge and its three other vertices in descending
+  /// order.
   struct Pentachoron {
     Position edge;
     std::array<Vertex, 3> others;
   };
-  /// A term of a 1-chain or 1-cochain: its value on an edge, from the larger end to the smaller.
+  /// A term of a 1-chain or 1-cochain: its value on an edge, directed from the larger end to the
+  /// smaller one.
   struct EdgeValue {
     Position edge;
     typename K::Element value;
@@ -68,9 +71,9 @@ class SweepObserver {
   };
 
   virtual ~SweepObserver() = default;
-  /// The position of a present edge in the order; called for the edges of cycles.
+  /// The position of a present edge in the order of the filtration; called for the edges of cycles.
   virtual Position position_of(Vertex u, Vertex v) const = 0;
-  /// Two components are joined, named by their oldest vertices.
+  /// Two components, named by their oldest vertices, are joined.
   virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
   /// A class of H1 dies.
   virtual void on_death(Position birth, Triangle death,

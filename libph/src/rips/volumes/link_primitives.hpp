@@ -17,14 +17,14 @@
 
 namespace ph {
 
-/// Looks for primitives of 2-cocycles gamma on the flag complex M of a link, that is, 1-cochains
-/// psi with coboundary gamma; and for cocycles, the *loops*, that form a basis of H^1(M).
+/// Looks for primitives of 2-cocycles gamma on the flag complex M of a link, which are 1-cochains
+/// psi with coboundary gamma. Also looks for *loops*: 1-cocycles that form a basis of H^1(M).
 ///
-/// M grows vertex by vertex. A further vertex z is joined to its link in the present complex, on
-/// which psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). With each
-/// component of that link except one, a loop begins. If potentials do not fit, multiples of one
-/// loop that does not fit are added to the others, and that loop is dropped. If there is no such
-/// loop, gamma has no primitive. See docs/explanation/engines/edge-links-h3.md.
+/// M grows vertex by vertex. A new vertex z is joined to its link in the part of M so far, on which
+/// psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). With each component
+/// of that link except one, a loop begins. If several searches have no potential there, multiples
+/// of one loop without a potential are added to the others, and that loop is dropped. If there is
+/// no such loop, gamma has no primitive. See docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkPrimitives {
  public:
@@ -35,7 +35,7 @@ class LinkPrimitives {
   using Unit = typename Function::Unit;
   static constexpr std::uint32_t kLoop = UINT32_MAX;
 
-  /// A gamma with its primitive so far, or a loop.
+  /// The search for a primitive of one gamma, or a loop.
   struct Search {
     Search(RowPool<K>& rows, const K& field, std::pmr::memory_resource* memory)
         : gamma(rows, field, memory), psi(rows, field, memory) {}
@@ -44,9 +44,9 @@ class LinkPrimitives {
     std::uint32_t generator = kLoop;  ///< the class of gamma
     LinkTriples<K> gamma;             ///< zero for a loop
     LinkPairs<K> psi;
-    bool is_active = true;       ///< still searched, or for a loop: still valid
-    bool is_obstructed = false;  ///< there is no primitive
-    bool is_found = false;       ///< psi is one
+    bool is_active = true;       ///< the search goes on, or the loop is still valid
+    bool is_obstructed = false;  ///< gamma has no primitive
+    bool is_found = false;       ///< psi is a primitive
     // While a vertex z is added: psi(z,.), and the additional value that an edge requires.
     typename RowPool<K>::Id potential = 0, mismatch = 0;
     bool is_flat = true, is_mismatched = false;
@@ -65,47 +65,50 @@ class LinkPrimitives {
         loop_vertices_(memory),
         asked_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory) {}
 
-  /// The searches so far, first those of classes.
+  /// The searches so far, those for classes before loops.
   std::span<Search* const> all() const { return {used_.data(), used_.size()}; }
   void clear();
   /// Adds a search for a class or for a loop.
   Search& add(std::uint32_t generator);
-  /// Removes the last one.
+  /// Removes the last search.
   void drop_last();
 
   /// Finds all primitives and loops, in the order of a cover of the link.
   void search(const LinkCover& cover);
   /// Looks for primitives of the obstructed classes in the order of the filtration, vertices
-  /// ascending, without the loops so far. At the first triangle, z > y > w, where some do not fit,
-  /// it calls `on_obstruction(search, z, y, w)` for the one with the largest generator, and then
-  /// `on_add(search, obstructed, scale)` for each of the others, which becomes a class that fits.
+  /// ascending, without the loops so far. At the first triangle z > y > w where some searches are
+  /// mismatched, it calls `on_obstruction(search, z, y, w)` for the one with the largest generator.
+  /// Then it calls `on_add(search, obstructed, scale)` for each of the others, which is no longer
+  /// mismatched after that addition.
   template <class OnObstruction, class OnAdd>
   void search_in_order(OnObstruction&& on_obstruction, OnAdd&& on_add);
 
  private:
-  /// asked_ = the required value of psi(z,.) - psi(z,y) on a set of neighbours of y and z, up to a
-  /// constant. @return true if that is not zero.
+  /// Sets asked_ to the values that psi(z,.) - psi(z,y) must have on a set of neighbours of y and
+  /// z. @return true if any of these is not zero.
   bool find_asked(const Search& s, Vertex z, Vertex y, const Word* set, std::size_t words);
   void begin_vertex();
   void end_vertex(Vertex z);
   void add_over(Vertex z, const Word* around);
-  /// Extends psi(z,.) to a vertex y. In the link of z, its earlier neighbours are `around`, which
-  /// are connected, or are in the parts that it meets. @return true if a search is mismatched.
+  /// Extends psi(z,.) to a vertex y. In the link of z, the earlier neighbours of y are `around` if
+  /// these are connected, otherwise those in the parts that y meets. @return true if a search is
+  /// mismatched.
   bool extend_to(Vertex z, Vertex y, const Word* around);
   bool extend_over_parts(Vertex z, Vertex y);
-  /// The last loop that is mismatched at w, the first vertex where searches are mismatched, or
-  /// null.
+  /// The last loop that is mismatched at w, or null. @param w the first vertex where any search is
+  /// mismatched.
   Search* mismatched_loop(Vertex w);
   std::size_t first_mismatch(std::size_t from) const;
   Element mismatch_of(const Search& s, Vertex w) const {
     return s.is_mismatched ? Function::value(rows_[s.mismatch], w) : field_.from_int(0);
   }
-  /// Makes the mismatch of all others at w zero, by adding multiples of one search.
+  /// Makes the mismatch at w zero for all searches except `by`, by adding multiples of `by` to
+  /// them.
   template <class OnAdd>
   void correct_others(Search& by, Vertex w, OnAdd&& on_add);
   void settle_mismatches();
-  /// Begins a loop with each part of the link of z, except one among the parts that belong to the
-  /// same part of M.
+  /// Begins a loop with each part of the link of z. Of the parts that belong to the same part of M,
+  /// one is left out.
   void find_loops_over_parts();
   void begin_loops(Vertex z);
   /// Marks active searches as found.
@@ -118,7 +121,7 @@ class LinkPrimitives {
   std::pmr::deque<Search> searches_;  // kept for reuse
   std::vector<Search*> used_;
   LinkCover cover_;                       // for the link of a vertex
-  LinkForest parts_, parts_of_star_;      // of the link, and of the link of a vertex in it
+  LinkForest parts_, parts_of_star_;      // parts of the link, and parts of the link of a vertex in it
   std::pmr::vector<Word> before_;         // the link of a vertex in the present complex
   std::pmr::vector<Word> loop_vertices_;  // one row per loop that begins
   std::pmr::vector<Unit> asked_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Primitives in the order of the filtration: for the classes that die.
+// The search for primitives in the order of the filtration, for the classes that die.
 #include "libph/src/rips/annotations/extend_potential.hpp"
 #include "libph/src/rips/volumes/link_primitives.hpp"
 

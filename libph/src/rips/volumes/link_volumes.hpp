@@ -19,11 +19,12 @@ namespace ph {
 /// H3 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H2.
 ///
 /// An edge e = (u,v) enters with its star, which is glued to the present complex along the
-/// suspension of its link complex M. A class of H3 is therefore born with each class of H^1(M), a
-/// *loop*, that kills no class of H2, and dies with a class of H_2(M). Each living class h is
-/// represented by a cocycle phi_h. It extends to the new tetrahedra by a 1-cochain of M, psi(x,y) =
-/// phi_h(u,v,x,y), whose coboundary is gamma(x,y,z) := phi_h(u,x,y,z) - phi_h(v,x,y,z). Where there
-/// is no such cochain, a class dies. See docs/explanation/engines/edge-links-h3.md.
+/// suspension of the flag complex M of its link. A class of H3 is therefore born with each class of
+/// H^1(M), a *loop*, that kills no class of H2. A class of H3 dies with a class of H_2(M). Each
+/// living class h is represented by a cocycle phi_h. It extends to the new tetrahedra by a
+/// 1-cochain of M, psi(x,y) = phi_h(u,v,x,y), whose coboundary is gamma(x,y,z) := phi_h(u,x,y,z) -
+/// phi_h(v,x,y,z). If there is no such cochain, a class dies. See
+/// docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkVolumes {
  public:
@@ -45,12 +46,13 @@ class LinkVolumes {
         dead_(&context.memory),
         loops_(&context.memory) {}
 
-  /// Examines an edge, the edge of the graph's link: finds the loops, and the extensions of the
-  /// living classes. @param components of the link.
+  /// Examines the edge whose link the graph holds: finds the loops of the link and the extensions
+  /// of the living classes. @param components the components of the link.
   void look(const FlagEdge& e, LinkComponents& components);
-  /// A basis of H^1(M), valid until the next edge. The caller may add cocycles to them.
+  /// A basis of H^1(M), valid until the next edge. The caller may add cocycles to its members.
   std::span<LinkPairs<K>* const> loops() const { return loops_; }
-  /// A class is born with a tetrahedron over the edge; the loop is one on that tetrahedron.
+  /// Adds a class that is born with a tetrahedron over the edge. The value of the loop on that
+  /// tetrahedron must be one.
   void give_birth(Tetrahedron birth, const FlagEdge& e, const LinkPairs<K>& loop);
   /// Extends the living classes to the star of the edge, and kills classes that cannot be extended.
   void extend(Position position, const FlagEdge& e);
@@ -68,7 +70,7 @@ class LinkVolumes {
 
   /// Begins a search for each class whose gamma is not zero.
   void find_classes(const FlagEdge& e);
-  /// gamma += scale * phi_h(a,.,.,.), on the link.
+  /// gamma += scale * phi_h(a,.,.,.), restricted to the link. @param terms the list of a.
   void add_terms(LinkTriples<K>& gamma, typename Cochain::Terms terms, Element scale);
   /// phi_h(u,v,.,.) += psi.
   void store(Generator h, const FlagEdge& e, const LinkPairs<K>& psi);
@@ -77,7 +79,7 @@ class LinkVolumes {
   const K& field_;
   Observer& observer_;
   Cocycles cocycles_;
-  std::pmr::vector<Tetrahedron> births_;  // by generator; edge = kDead after its death
+  std::pmr::vector<Tetrahedron> births_;  // birth of each generator; edge = kDead after its death
   // Used while an edge is added:
   LinkCover cover_;
   LinkPrimitives<K> primitives_;

@@ -19,7 +19,8 @@ class TetrahedronCochain {
  public:
   using Vertex = std::uint32_t;
   using Element = typename K::Element;
-  /// The other three vertices of a tetrahedron, ascending from the lowest bits.
+  /// The other three vertices of a tetrahedron, 16 bits each, in ascending order from the lowest
+  /// bits.
   using Others = std::uint64_t;
   using Lists = CochainLists<K, Others>;
   using Term = typename Lists::Term;
@@ -30,10 +31,10 @@ class TetrahedronCochain {
     return {static_cast<Vertex>(t.cell & 0xFFFF), static_cast<Vertex>(t.cell >> 16 & 0xFFFF),
             static_cast<Vertex>(t.cell >> 32)};
   }
-  /// 16 bits per vertex.
+  /// The largest number of vertices, because a vertex takes 16 bits.
   static constexpr std::size_t kMostVertices = 1 << 16;
 
-  /// A value on the tetrahedra over an edge, by their further vertices: phi(u,v,x,y).
+  /// The value phi(u,v,x,y) on a tetrahedron over an edge uv, given by its other two vertices.
   struct PairValue {
     Vertex x, y;
     Element value;
@@ -52,19 +53,19 @@ class TetrahedronCochain {
   static constexpr bool is_dense() { return false; }
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
 
-  /// Adds scale * other. Calls `on_enter(a, list)` for new vertices of tetrahedra, and
-  /// `on_leave(a)` for vertices that lost their last one.
+  /// Adds scale * other. Calls `on_enter(a, list)` for vertices that get their first tetrahedron,
+  /// and `on_leave(a)` for vertices that lose their last one.
   template <class OnEnter, class OnLeave>
   void add(TetrahedronCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave) {
     lists_.add(other.lists_, scale, shared, on_enter, on_leave);
   }
-  /// phi(u,v,x,y) += each value. Each pair comes in both orders; the pairs of one x are
-  /// consecutive. These tetrahedra must have no values yet.
+  /// Adds each value of the star to phi(u,v,x,y). Each pair comes in both orders; the pairs of one
+  /// x are consecutive. These tetrahedra must have no values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, std::span<const PairValue> star, Shared& shared,
                 OnEnter&& on_enter);
-  /// Makes it zero and returns its memory. Calls `on_leave(a)` as `add` does.
+  /// Makes the cochain zero and gives its memory back. Calls `on_leave(a)` as `add` does.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave) {
     for (const auto& at : lists_.lists()) on_leave(at.vertex);

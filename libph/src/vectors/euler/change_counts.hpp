@@ -13,11 +13,12 @@
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/euler_curve.hpp"
 
-// The destination of changes of the Euler characteristic at voxels. Each kind has a part per
-// thread, which takes rows of keys and changes and adds them to the whole at its end.
+// Classes that collect the changes of the Euler characteristic at voxels. Each class has one Part
+// per thread. A Part takes rows of keys and changes, and adds them to the whole when it is
+// destroyed.
 namespace ph::vectors {
 
-/// Calls use(i) for voxels that change something, and for some that do not.
+/// Calls use(i) for all voxels with a change that is not zero, and possibly for others.
 template <class Sum, class Use>
 void for_each_change(const Sum* changes, std::size_t count, Use&& use) {
   constexpr std::size_t together = sizeof(std::uint64_t) / sizeof(Sum);
@@ -31,7 +32,7 @@ void for_each_change(const Sum* changes, std::size_t count, Use&& use) {
   for (; i < count; ++i) use(i);
 }
 
-/// Builds a step function of sums by value.
+/// Builds a step function from changes at ascending values.
 class CurveBuilder {
  public:
   explicit CurveBuilder(double limit) : limit_(limit) {}
@@ -52,11 +53,12 @@ class CurveBuilder {
   StepFunction curve_;
 };
 
-/// For integers: one sum per value.
+/// Collects changes at integer keys, with one sum per possible key.
 template <class T>
 class Histogram {
   static constexpr std::size_t kBins = std::size_t{1} << 8 * sizeof(T);
-  // So that consecutive additions need not wait for each other.
+  // Several copies, because consecutive additions to the same sum would have to wait for each
+  // other.
   static constexpr std::size_t kCopies = sizeof(T) == 1 ? 4 : 1;
   static std::size_t bin_of(T key) {
     return static_cast<std::size_t>(key - std::numeric_limits<T>::min());
@@ -184,7 +186,8 @@ class ChangeList {
   std::vector<RawVector<Change>> parts_;
 };
 
-/// Sums by the first value of a grid that is not below the key.
+/// Collects changes at the values of a grid. Each change is added at the first value that is not
+/// below its key.
 template <class T>
 class GridCounts {
  public:

@@ -15,14 +15,14 @@ namespace ph::vectors {
 ///
 /// V-construction: a voxel decides the values of the cells whose last vertex it is. Such a cell
 /// lies in one of 3^d - 1 directions, -1, 0 or 1 along each axis; its other vertices lie in the
-/// directions with some of these set to 0. A cell is therefore decided here if the neighbour in its
-/// own direction precedes the voxel and the facets of the cell at the voxel are decided here. Among
-/// equal vertices, the one in the larger direction is last: each cell is decided once, even if an
-/// axis has one or two voxels and is periodic.
+/// directions that have some of these components set to 0. The voxel therefore decides a cell if
+/// the neighbour in the cell's direction precedes the voxel and if the voxel decides the facets of
+/// the cell that contain it. Of equal vertices, the one in the larger direction counts as last.
+/// Each cell is thus decided once, even if an axis is periodic and has only one or two voxels.
 ///
-/// T-construction: the same for the faces between top cubes. A face in a direction is decided here
-/// if all other cubes around it come later or do not exist; its dimension is d minus the number of
-/// axes along which the direction leads.
+/// T-construction: the same for the faces between top cubes. A voxel decides the face in a
+/// direction if all other cubes around the face come later or do not exist. The dimension of the
+/// face is d minus the number of non-zero components of the direction.
 class DecidedCells {
  public:
   static constexpr std::size_t kBlock = 512;
@@ -43,14 +43,14 @@ class DecidedCells {
       for (std::size_t rest = number; rest > 0; rest /= 3, power *= 3) {
         const std::size_t digit = rest % 3;  // 0: no step, 1: down, 2: up
         if (digit == 0) continue;
-        direction.is_down = digit == 1;  // the first axis along which it leads decides
+        direction.is_down = digit == 1;  // set by the first axis along which it leads
         direction.facets.push_back(number - digit * power);
         ++steps;
       }
       direction.adds = (steps + (has_own_ ? 0 : 1)) % 2 == 0;
     }
     masks_.resize(count * kBlock);
-    std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // no direction means no condition
+    std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // an unused direction imposes no condition
   }
 
   /// @param rows 3^(d-1) rows of keys by direction, first the voxels' own row; null for missing
@@ -94,8 +94,8 @@ class DecidedCells {
 
   std::size_t axes_, length_;
   bool is_circle_;
-  Mask outside_;  // voxels outside precede nothing (V), or come after all (T)
-  bool has_own_;  // true if the cell in no direction counts 1, otherwise it counts -1
+  Mask outside_;  // mask of a neighbour outside the image: it precedes nothing (V), or comes after all (T)
+  bool has_own_;  // true if the cell of the zero direction counts 1, otherwise it counts -1
   std::vector<Direction> directions_;
   RawVector<Mask> masks_;
 };

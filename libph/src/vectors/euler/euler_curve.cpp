@@ -15,7 +15,8 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// For each row of a layer: the rows around it, by direction along all axes except the last.
+/// Finds, for each row of a layer, the rows around it. Each direction along all axes except the
+/// last has one row.
 class RowNeighbours {
  public:
   explicit RowNeighbours(const Layered& image) : image_(image), place_(image.axes() - 2) {
@@ -50,7 +51,8 @@ class RowNeighbours {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  /// Finds the rows in the directions of the axes between the first and the last one.
+  /// Finds the rows in all directions position of the row along the axes between the first and the
+  /// last one.
   void find_steps() {
     std::size_t count = 1;
     steps_[0] = 0;
@@ -66,7 +68,7 @@ class RowNeighbours {
           : is_circle     ? 0
                           : kNone,
       };
-      // Goes downwards, which reads entries before they are overwritten.
+      // Goes down, so that entries are read before they are overwritten.
       for (std::size_t i = 3 * count; i-- > 0;) {
         const std::size_t before = steps_[i / 3], here = by_digit[i % 3];
         steps_[i] = before == kNone || here == kNone ? kNone : before * extent + here;
@@ -80,8 +82,8 @@ class RowNeighbours {
   std::vector<std::size_t> steps_;
 };
 
-/// The number of layers per thread at a time: enough to outweigh the two adjacent layers and the
-/// counts.
+/// The number of layers that a thread takes at a time: enough to outweigh the cost of reading the
+/// two adjacent layers and of adding up the counts.
 std::size_t layers_at_a_time(const Layered& image, const RunContext& context) {
   constexpr std::size_t voxels = 1 << 20, at_least = 16;
   const std::size_t layers = image.layers(), threads = thread_count(context);
@@ -119,7 +121,7 @@ void count_layers(const Layered& image, std::size_t begin, std::size_t end, Coun
 
 template <class T, class Counts>
 void count_all(const Layered& image, Counts& counts, const RunContext& context) {
-  constexpr std::size_t most_axes_in_bytes = 5;  // at most 122 of 3^5 cells have the same sign
+  constexpr std::size_t most_axes_in_bytes = 5;  // at most 122 of the 3^5 cells have the same sign
   for_each_piece("Euler curve", image.layers(), layers_at_a_time(image, context), context,
                  [&](std::size_t begin, std::size_t end) {
                    if (image.axes() <= most_axes_in_bytes)

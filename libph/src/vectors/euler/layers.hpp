@@ -12,7 +12,8 @@
 namespace ph::vectors {
 
 /// An image as layers along its first axis, which consist of rows along its last axis. It has at
-/// least two axes, because an axis of one voxel does not change the Euler characteristic.
+/// least two axes: axes of one voxel, which do not change the Euler characteristic, are added if
+/// necessary.
 struct Layered {
   CubicalImage image;
   std::vector<std::size_t> extents;
@@ -55,12 +56,12 @@ double entry_value(T key, bool superlevel) {
     return static_cast<double>(superlevel ? -std::int64_t{static_cast<T>(~key)} : key);
 }
 
-/// Three adjacent layers, as keys. Rows have one more key at each end: the neighbour there if the
-/// axis is periodic.
+/// Three adjacent layers, as keys. Rows have one extra key at each end, which is the neighbour
+/// there if the axis is periodic.
 template <class T>
 class ThreeLayers {
  public:
-  /// The first `go_up` moves layer `first` into the middle.
+  /// The first call of `go_up` moves layer `first` into the middle.
   ThreeLayers(const Layered& of, std::size_t first, std::pmr::memory_resource* memory)
       : of_(of),
         padded_(of.row_length() + 2),
@@ -76,7 +77,8 @@ class ThreeLayers {
     std::rotate(std::begin(order_), std::begin(order_) + 1, std::end(order_));
     load(wrapped(middle_ + 1), order_[2]);
   }
-  /// @param offset -1, 0, 1. Null if there is no such layer.
+  /// The layer at an offset from the middle layer, or null if there is none. @param offset -1, 0 or
+  /// 1.
   const T* layer(int offset) const {
     const int which = order_[offset + 1];
     return present_[which] ? layers_[which].data() + 1 : nullptr;

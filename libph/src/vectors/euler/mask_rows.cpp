@@ -3,8 +3,8 @@
 
 #include "libph/src/core/for_each_target.hpp"
 
-// A template cannot have targets; each type therefore has its own function, into which a common one
-// is inlined.
+// A template cannot be compiled for several targets. Each type therefore has its own function, into
+// which a common template is inlined.
 namespace ph::vectors {
 namespace {
 

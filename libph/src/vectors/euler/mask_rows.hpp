@@ -5,11 +5,12 @@
 
 namespace ph::vectors {
 
-/// All bits, or none.
+/// A mask has all bits set, or none.
 using Mask = std::uint8_t;
 
-/// Finds the neighbours that precede their voxels: they are smaller or, with `or_equal`, not
-/// larger. `flip` inverts all bits of the masks.
+/// Sets the masks of the voxels whose neighbours precede them, which means that a neighbour is
+/// smaller or, with `or_equal`, not larger. The masks are then combined with `flip` by exclusive
+/// or.
 void find_preceding(const std::uint8_t* neighbours, const std::uint8_t* voxels, std::size_t count,
                     bool or_equal, Mask flip, Mask* out);
 void find_preceding(const std::uint16_t* neighbours, const std::uint16_t* voxels, std::size_t count,
@@ -21,7 +22,7 @@ void find_preceding(const float* neighbours, const float* voxels, std::size_t co
 void find_preceding(const double* neighbours, const double* voxels, std::size_t count,
                     bool or_equal, Mask flip, Mask* out);
 
-/// masks &= a & b & c; where all of them are set, `sum` is increased or decreased by 1.
+/// masks &= a & b & c; where the result is set, `sum` is increased (`adds`) or decreased by 1.
 void count_where_all(Mask* masks, const Mask* a, const Mask* b, const Mask* c, std::size_t count,
                      bool adds, std::int8_t* sum);
 void count_where_all(Mask* masks, const Mask* a, const Mask* b, const Mask* c, std::size_t count,
