@@ -35,9 +35,10 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
     if (!diagram::have_as_many_infinite(first, {diagrams[i], "barycentre"}))
       throw Error(
           ErrorKind::bad_data,
-          fmt::format("barycentre: found different numbers of infinite bars in diagram {} and "
-                      "in diagram 0, expected the same number of each kind; leave out infinite bars",
-                      i));
+          fmt::format(
+              "barycentre: found different numbers of infinite bars in diagram {} and "
+              "in diagram 0, expected the same number of each kind; leave out infinite bars",
+              i));
 }
 
 /// Works even if the squares of the numbers are too large for doubles.

@@ -81,7 +81,8 @@ int max_dim_of(const Rips& rips, const Options& options) {
   }
   if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
-                fmt::format("lowest dimension: found {}, expected at most {}, the highest dimension computed unless another one is given",
+                fmt::format("lowest dimension: found {}, expected at most {}, the highest "
+                            "dimension computed unless another one is given",
                             options.min_dim, max_dim));
   }
   return max_dim;
@@ -201,7 +202,8 @@ struct Settled {
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
       throw Error(ErrorKind::usage,
                   "device gpu: computes components (H0) of points with Euclidean distances, found "
-                  "more than components; set max_dim to 0 and choose neither an approximation nor an engine");
+                  "more than components; set max_dim to 0 and choose neither an approximation nor "
+                  "an engine");
   }
   Options options;             // including the highest dimension
   FormChoice choice;           // without an engine if none can do the task for so many vertices

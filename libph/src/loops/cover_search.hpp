@@ -80,7 +80,7 @@ class CoverSearch {
   const EdgeCocycles& cocycles_;
   std::uint64_t p_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> slot_;  // index of each cocycle in Values; kNone if it does not count
+  std::pmr::vector<std::uint32_t> slot_;  // place of each cocycle in Values, or kNone
   std::vector<std::uint32_t> counted_;
   Values target_;
   // For each vertex: data of the distances to the end that were measured last.

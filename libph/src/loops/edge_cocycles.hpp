@@ -19,9 +19,9 @@ struct Lifetime {
 /// born before it and do not die before it.
 class Elders {
  public:
-  /// @param by_value true if births are compared by value instead of by edge, because the order among
-  ///        edges of equal value may have changed (as after a collapse). Bars that are born at the
-  ///        same value are then elders of each other, and each bar is its own elder.
+  /// @param by_value true if births are compared by value instead of by edge, because the order
+  ///        among edges of equal value may have changed (as after a collapse). Bars that are born
+  ///        at the same value are then elders of each other, and each bar is its own elder.
   explicit Elders(bool by_value) : by_value_(by_value) {}
   bool is_elder(const Lifetime& elder, const Lifetime& of) const {
     if (elder.death < of.death) return false;  // mutant: loops-elder

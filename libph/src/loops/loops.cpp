@@ -18,7 +18,8 @@ std::vector<BarLoops> plain_loops(const Barcode& cycles, const Options& options,
   if (cycles.size() == 0) return {};
   if (cycles.representatives() != Representatives::cycles &&
       cycles.representatives() != Representatives::voxels)
-    throw Error(ErrorKind::usage, "loops: found a barcode without cycles, expected one with cycles");
+    throw Error(ErrorKind::usage,
+                "loops: found a barcode without cycles, expected one with cycles");
   std::size_t bytes = cycles.size() * sizeof(BarLoops);
   MemoryClaim claim(context.memory, bytes);
   std::vector<BarLoops> loops(cycles.size());

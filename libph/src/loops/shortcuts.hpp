@@ -38,7 +38,7 @@ class Shortcuts {
         // by one.
         i = change == Change::removed ? std::max<std::size_t>(i, 2) - 1 : i + 1;
       }
-      if (!keeps_last_step && walk.size() > 3)  // the first vertex was not in the middle of a change yet
+      if (!keeps_last_step && walk.size() > 3)  // the first vertex was never the middle one
         goes_on |= change_around(walk, around, budget);
     }
   }

@@ -219,7 +219,8 @@ class Tightener {
     const InputChain chain = cycles_.representative(c.bar);
     for (std::size_t i = 0; i < chain.size(); ++i)
       if (key_of(chain.cell(i)) > around.limit)
-        throw Error(ErrorKind::usage, "loops: found a cycle with an edge that enters after the birth of its bar");
+        throw Error(ErrorKind::usage,
+                    "loops: found a cycle with an edge that enters after the birth of its bar");
 
     for (bool goes_on = true; goes_on;) {
       EdgeSum sum(options_.field);
@@ -340,7 +341,7 @@ void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Op
     Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
-  } catch (const Error& error) {  // the loops of each bar are still the old ones or already the new ones, and both are correct
+  } catch (const Error& error) {  // the loops of each bar are the old or the new ones
     if (error.kind() != ErrorKind::resource) throw;
   } catch (const std::bad_alloc&) {
   }

@@ -16,7 +16,8 @@ namespace {
 // points axis by axis; unused places in the last block are zero.
 constexpr Index kBlock = 16;
 
-// Computes the distances from point i to all points before it. The last block is written entirely. @return the least squared distance that is not zero.
+// Computes the distances from point i to all points before it. The last block is written entirely.
+// @return the least squared distance that is not zero.
 PH_FOR_EACH_TARGET
 double distances_of_row(const double* blocks, Index dims, Index i, double* out) {
   const double* point = blocks + i / kBlock * kBlock * dims + i % kBlock;

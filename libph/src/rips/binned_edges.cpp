@@ -137,7 +137,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   FlagEdges buffer(&context_->memory);
   const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer edges are sorted before a thread would have started
+  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer edges are not worth a thread
   const std::size_t pieces = edges.size() / edges_a_piece + 1;
   for_each_piece("sort edges", parts.ends.size(), (parts.ends.size() + pieces - 1) / pieces,
                  *context_, [&](std::size_t first, std::size_t last) {

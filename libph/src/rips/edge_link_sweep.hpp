@@ -88,7 +88,7 @@ class EdgeLinkSweep {
   const RunContext& context_;
   const LinkLayout layout_;
   ActiveEdges active_;         // edges with a non-zero annotation
-  LinkGraph graph_;            // the edges so far, except for skipped bins from first_unadded_bin_ on
+  LinkGraph graph_;            // edges so far, without the skipped bins from first_unadded_bin_ on
   LinkComponents components_;  // components of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;

@@ -17,7 +17,7 @@ inline void check_alpha(double alpha, std::string_view function) {
   if (!(alpha > 0 && alpha < 1))
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: alpha: found {}, expected a number above 0 and below 1", function, alpha));
+        fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
 }
 
 /// Sorts the numbers and returns the least one that at most a share alpha of them exceeds.

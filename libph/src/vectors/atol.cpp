@@ -130,7 +130,8 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count, {});  // added in the order of pieces, so rounding does not depend on threads
+    sums_.assign(count,
+                 {});  // added in the order of pieces, so rounding does not depend on threads
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }

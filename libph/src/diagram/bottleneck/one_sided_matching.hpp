@@ -78,9 +78,9 @@ class OneSidedMatching {
   const RunContext& context_;
   Ticker ticker_;
   std::vector<Candidate> candidates_;  // sorted by the positions of their nearest bars
-  std::vector<Position> partner_;  // of each candidate
+  std::vector<Position> partner_;      // of each candidate
   std::optional<PointTree> tree_;      // of to_, unless to_ is empty
-  std::vector<Number> paired_with_;  // candidate paired with each position
+  std::vector<Number> paired_with_;    // candidate paired with each position
   std::optional<PointsLeft> free_, unseen_;
   std::vector<Number> nodes_;         // nodes of the trees that grow_trees has grown
   std::vector<Number> root_of_;       // of each candidate in nodes_

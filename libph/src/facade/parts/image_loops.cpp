@@ -50,7 +50,8 @@ struct ImageLoops::State {
 ImageLoops::ImageLoops(ImagePart& part, std::int64_t field, const RunContext& context) {
   if (!part.state_->own)
     throw Error(ErrorKind::usage,
-                "loops of an image: found a part without loops, or one that was used already, expected a part that was computed with option loops");
+                "loops of an image: found a part without loops, or one that was used already, "
+                "expected a part that was computed with option loops");
   detail::with_field(field, [](const auto&) {});  // throws an invalid field before the part is used
   state_ = std::make_unique<State>(*part.state_, *std::exchange(part.state_->own, std::nullopt),
                                    field, context);

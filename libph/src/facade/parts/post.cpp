@@ -47,8 +47,8 @@ std::vector<std::byte> Post::receive(int from) {
   const auto number = ByteReader(all.first(kNumberSize), "message").get<std::uint64_t>("number");
   const std::uint64_t expected = received_[static_cast<std::size_t>(from)]++;
   if (number != expected)  // mutant: message-order
-    refuse(fmt::format("found number {}, expected {}: a message was lost, repeated or sent early", number,
-                       expected));
+    refuse(fmt::format("found number {}, expected {}: a message was lost, repeated or sent early",
+                       number, expected));
   bytes.resize(bytes.size() - kChecksumSize);
   bytes.erase(bytes.begin(), bytes.begin() + kNumberSize);
   return bytes;

@@ -223,7 +223,7 @@ class Annotations {
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // edges of each class
   // For each class: the class that it became, or the class itself as long as it exists.
   std::pmr::vector<Class> links_;
-  std::pmr::vector<std::uint32_t> seen_;    // for each class: number of deaths already substituted in it
+  std::pmr::vector<std::uint32_t> seen_;    // number of deaths substituted in each class
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
   std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be used again
   DeadGenerators<K> dead_;

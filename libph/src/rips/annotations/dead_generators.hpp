@@ -76,8 +76,8 @@ class DeadGenerators {
   /// A vector to which other vectors are added, in any order of their terms.
   struct Accumulator {
     explicit Accumulator(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
-    std::pmr::vector<Word> met;        // generators that have occurred, one bit each; all zero between uses
-    std::pmr::vector<Element> values;  // value of each generator, zero if it has not occurred; empty over Z/2
+    std::pmr::vector<Word> met;        // one bit per generator, set if it has occurred
+    std::pmr::vector<Element> values;  // value of each generator; empty over Z/2
     std::size_t begin = 0, end = 0;    // range of the words of `met` that are not zero
 
     /// @param words number of words of the vectors that will be added.

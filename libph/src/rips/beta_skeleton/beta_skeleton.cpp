@@ -9,7 +9,7 @@ namespace {
 
 // Measured, see docs/explanation/engines/beta-skeleton.md: with fewer points, listing all edges is
 // faster. In R^4, the limit is set by the memory that the edges take.
-constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // for each number of coordinates
+constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};  // index: coordinates
 // If there are fewer edges per point, listing the edges is faster.
 constexpr double kFewEdges = 1'000;
 

@@ -49,8 +49,8 @@ class EchelonRelations {
   };
 
   static std::size_t words_to(Generator g) { return g / 64 + 1; }
-  /// Adds relations to a row, keeping whichever has fewer terms, until its youngest generator is a
-  /// living one.
+  /// Adds relations to a row until its youngest generator is alive. If the row has fewer terms than
+  /// a relation, the two are swapped first.
   /// @return that generator, or kNone if nothing is left.
   static Generator eliminate(Word* row, std::size_t words, Relation* of);
   /// Stores the content of row_ as a relation.

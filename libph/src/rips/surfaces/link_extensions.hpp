@@ -79,8 +79,10 @@ class LinkExtensions {
   Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
   /// loop += scale * gamma.
   void add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e, Element scale);
-  /// Extends a class to the next vertex of a forest: the first edge to each part decides.
-  /// @return true if another edge requires a different value; then see `mismatch`.
+  /// Extends the potential of a class to the next vertex of a forest, as the first edge to each
+  /// part requires.
+  /// @return true if another edge requires a different value; `mismatch` then holds the
+  /// differences.
   bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
 
  private:

@@ -84,8 +84,8 @@ class LinkPrimitives {
   void search_in_order(OnObstruction&& on_obstruction, OnAdd&& on_add);
 
  private:
-  /// Sets asked_ to the values that psi(z,.) - psi(z,y) must have on a set of neighbours of y and
-  /// z. @return true if any of these is not zero.
+  /// Sets asked_ to the required values of psi(z,.) - psi(z,y), up to a constant, on a set of
+  /// neighbours of y and z. @return true if any of these is not zero.
   bool find_asked(const Search& s, Vertex z, Vertex y, const Word* set, std::size_t words);
   void begin_vertex();
   void end_vertex(Vertex z);
@@ -120,9 +120,9 @@ class LinkPrimitives {
   RowPool<K> rows_;
   std::pmr::deque<Search> searches_;  // kept for reuse
   std::vector<Search*> used_;
-  LinkCover cover_;                       // for the link of a vertex
-  LinkForest parts_, parts_of_star_;      // parts of the link, and parts of the link of a vertex in it
-  std::pmr::vector<Word> before_;         // the link of a vertex in the present complex
+  LinkCover cover_;                   // for the link of a vertex
+  LinkForest parts_, parts_of_star_;  // parts of the link, and parts of the link of a vertex in it
+  std::pmr::vector<Word> before_;     // the link of a vertex in the present complex
   std::pmr::vector<Word> loop_vertices_;  // one row per loop that begins
   std::pmr::vector<Unit> asked_;
 };
