@@ -192,7 +192,7 @@ class CellList {
   Ticker ticker_;
   BoundaryMatrix matrix_;
   std::pmr::vector<bool> is_turned_;  // by row: true if sorting the points took an odd permutation
-  // By site, by edge, and by the usual name of a facet.
+  // The rows of vertices by site, of edges by number, and of facets by usual name.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };
 

@@ -39,8 +39,8 @@ std::string& last_error() {
   return message;
 }
 
-/// Stores a message for ph_error_message and returns `status`. Never throws: the message is left
-/// out if there is too little memory for it.
+/// Stores a message for ph_last_error and returns `status`. Never throws: the message is left out
+/// if there is too little memory for it.
 ph_status fail(ph_status status, const char* message) noexcept {
   try {
     last_error() = message;

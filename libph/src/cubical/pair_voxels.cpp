@@ -116,7 +116,7 @@ bool fits(const CubicalImage& voxels, const RunContext& context) {
   const double left = static_cast<double>(context.memory.left()) - in_file * size;
   if (most * size < left) return true;
   if (least * size > left) return false;
-  constexpr std::uint64_t few = 1 << 12, samples = 8;  // voxels
+  constexpr std::uint64_t few = 1 << 12, samples = 8;  // voxels per sample, samples
   const std::uint64_t height = std::max(few / image.layer_size(), std::uint64_t{1});
   Slabs slabs(image, height, context);
   const std::uint64_t step = std::max(slabs.count() / samples, std::uint64_t{1});

@@ -6,8 +6,8 @@
 
 #include "libph/src/gpu/boruvka.cuh"
 
-// Finds the nearest foreign point among all points, in spaces of so many dimensions that boxes
-// exclude nothing.
+// Finds nearest foreign points by comparing all pairs of points. This is for spaces of so many
+// dimensions that boxes exclude nothing.
 
 namespace ph::gpu {
 namespace {

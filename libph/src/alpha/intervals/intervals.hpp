@@ -132,10 +132,10 @@ void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunC
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 /// Asserts the lemmas behind the pairing in builds with assertions; does nothing in other builds.
-/// Each simplex lies in exactly one interval, by exact signs, and has the value of that interval.
-/// No face has a larger value than a coface. The Euler characteristic is 1, both of all simplices
-/// and of the critical ones. Skipped for more than 20 000 cells, because it takes ten times as long
-/// as everything else.
+/// The lemmas are: each simplex lies in exactly one interval, by exact signs, and has the value of
+/// that interval; no face has a larger value than a coface; the Euler characteristic is 1, both for
+/// all simplices and for the critical simplices. Triangulations of more than 20 000 cells are not
+/// checked, because a check takes ten times as long as everything else.
 void check_lemmas(const AlphaCells& cells);
 
 }  // namespace ph::alpha

@@ -83,7 +83,7 @@ class PlaneRepair {
   bool is_changed_ = false;
 };
 
-/// Repairs dimension 3: after raising an interval, it looks only at the cofaces of that interval.
+/// Repairs dimension 3: after an interval is raised, only its cofaces are checked.
 class SpaceRepair {
  public:
   SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)

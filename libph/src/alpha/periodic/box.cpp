@@ -72,8 +72,8 @@ Folded fold_points(PointsView points, std::span<const double> weights,
     const double length = box.period[axis] = rounded(period[axis], unit);  // mutant: alpha-period
     if (length == 0)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("period of axis {}: found {:g} in a box of size {:g}, expected one "
-                              "that is not rounded to 0",
+                  fmt::format("period of axis {}: found {:g} in a box of size {:g}, expected a "
+                              "period that is not rounded to 0",
                               axis, period[axis], box.size));
     for (Index i = 0; i < points.rows(); ++i) {
       double& x = folded.points(i, static_cast<Index>(axis));

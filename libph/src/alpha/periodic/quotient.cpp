@@ -49,8 +49,8 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// The translation that, when undone, brings a cell into the box: on each axis, the median of the
-  /// translations of its vertices. All translates of a cell are brought to the same cell.
+  /// How far a cell is translated away from the box: on each axis, the median of the translations
+  /// of its vertices. Undoing this translation turns all translates of a cell into the same cell.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
     bool is_same = true;
@@ -148,8 +148,8 @@ class Quotient {
       }
     return !kept_.empty();
   }
-  /// For collinear sites along a closed axis: true if each site has an edge before it and one after
-  /// it.
+  /// For collinear sites along a closed axis: true if each site has one edge before it and one edge
+  /// after it, or (if it is hidden) no edge.
   bool is_closed_line() const {
     std::pmr::vector<uint32_t> before(sites_, 0, &context_.memory), behind = before;
     for (const Cell& places : of_cell_) {

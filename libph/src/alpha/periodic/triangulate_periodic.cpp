@@ -91,7 +91,8 @@ PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,
     if (take_quotient(triangulation, images, box, context))
       return {std::move(triangulation), std::move(images)};
     if (margin.inside() == most)
-      throw Error(ErrorKind::internal, "alpha complex: cells around a periodic box do not fit");
+      throw Error(ErrorKind::internal,
+                  "alpha complex: cells around a periodic box do not fit together");
     margin.set_inside(2 * margin.inside());
   }
 }

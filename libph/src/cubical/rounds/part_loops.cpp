@@ -111,7 +111,7 @@ void PartLoops<K>::check(const Message& message) {
   const std::uint64_t number = message.header.number;
   if (number >= heard.size() + most_ahead) refuse("loops of another part: a message is missing");
   if (number >= heard.size()) heard.resize(number + 1);
-  if (heard[number]) refuse("loops of another part: found a message that has come before");
+  if (heard[number]) refuse("loops of another part: found a message that was received before");
   heard[number] = true;
   for (const auto& layer : message.layers)
     if (layer.stars.size() != grid_.layer_size())

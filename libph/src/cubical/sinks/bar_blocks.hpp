@@ -38,7 +38,7 @@ class BarBlocks {
       bars_.add(copy, birth_, death_);
     }
   }
-  /// Passes on all bars that it still holds.
+  /// Passes on the bars that have not been passed on yet.
   void finish() {
     bars_.add_all(std::span(block_).first(held_));
     held_ = 0;

@@ -26,7 +26,7 @@ class CellSink {
                   if (death) grid_.append_numbers(CellGrid::cell(*death), loops, of_death);
                 });
   }
-  /// Passes on all bars that it still holds.
+  /// Passes on the bars that have not been passed on yet.
   void finish() { blocks_.finish(); }
 
  private:

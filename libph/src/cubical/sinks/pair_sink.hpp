@@ -35,7 +35,7 @@ class PairSink {
     add({grid_.is_t_construction() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth,
         static_cast<const Cell*>(nullptr));
   }
-  /// Passes on all bars that it still holds.
+  /// Passes on the bars that have not been passed on yet.
   void finish() { blocks_.finish(); }
 
  private:

@@ -119,7 +119,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
         const bool leaves = by > 0 ? x + 1 == axis.extent : x == 0;
         outside = outside || (leaves && !axis.periodic);
         const std::uint32_t to = by > 0 ? (leaves ? 0 : x + 1) : (leaves ? axis.extent : x) - 1;
-        row += (to - x) * axis.stride;  // unsigned even when it decreases
+        row += (to - x) * axis.stride;  // modulo 2^32 if it decreases
       };
       move(deep, block.z, dz);
       move(high, block.y, dy);
