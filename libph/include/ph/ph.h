@@ -109,8 +109,8 @@ PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t column
                                 int64_t row_stride, int64_t column_stride,
                                 const ph_options* options, ph_barcode** out);
 
-/** The Vietoris-Rips filtration of distances, given as the strict lower triangle row by row, d(1,0), d(2,0), d(2,1), …;
- * size * (size - 1) / 2 numbers, each >= 0 or +infinity. */
+/** The Vietoris-Rips filtration of distances, given as the strict lower triangle row by row,
+ * d(1,0), d(2,0), d(2,1), …; size * (size - 1) / 2 numbers, each >= 0 or +infinity. */
 PH_API ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
                                    ph_barcode** out);
 
@@ -125,8 +125,8 @@ PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes
 /** ph_rips_points for many clouds, several at a time: for many small inputs this is faster than one
  * call per cloud. ph_options::threads and memory_limit hold for all inputs together.
  * @param clouds clouds[i] is the start of rows[i] points of `columns` numbers each, row after row.
- * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() names the input,
- * counted from 0. */
+ * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() names the
+ * input, counted from 0. */
 PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
                                       int64_t columns, size_t count, const ph_options* options,
                                       ph_barcode** out);

@@ -117,7 +117,8 @@ TEST(Plane, SaysWhyThereIsNone) {
     spot.insert(spot.end(), {0.5F, 0.5F, 0.5F});
   }
   EXPECT_NE(find_plane({line, {}}, all_of(line), 0.006).note.find("line"), std::string::npos);
-  EXPECT_NE(find_plane({spot, {}}, all_of(spot), 0.006).note.find("at one point"), std::string::npos);
+  EXPECT_NE(find_plane({spot, {}}, all_of(spot), 0.006).note.find("at one point"),
+            std::string::npos);
   EXPECT_FALSE(find_plane({{}, {}}, {}, 0.006).plane);
 
   std::mt19937 random(1);
