@@ -277,7 +277,7 @@ TEST(ImageLoops, RefuseDamagedMessages) {
   EXPECT_TRUE(is_refused(begun(image, 2, {.loops = true}, 3).loops[1], bytes)) << "another field";
   EXPECT_TRUE(is_refused(begun(image, 3, {.loops = true}).loops[1], bytes)) << "other parts";
   EXPECT_FALSE(is_refused(all.loops[1], bytes));
-  EXPECT_TRUE(is_refused(all.loops[1], bytes)) << "a message that has come before";
+  EXPECT_TRUE(is_refused(all.loops[1], bytes)) << "a message that was received before";
 }
 
 TEST(ImageLoops, RefuseWhatTheyCannotBeginWith) {

@@ -166,7 +166,7 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
   expect_error(ErrorKind::resource,
                "found 2149580800 voxels, expected fewer than about "
                "2^31; dimension 0 (max_dim 0) and dimension 2 "
-               "(min_dim 2) may have more",
+               "(min_dim 2) allow more",
                [&] { persistence(cubical); });
 }
 

@@ -180,7 +180,7 @@ TEST(PublicStructs, LoopsOfBars) {
   };
   const BarLoops loop{{Loop{{0, 1, 2}, 1}}, Tightness::none};
   expect_errors({
-      {"too many", kUsage, "those of 2 bars", write({loop, loop})},
+      {"too many", kUsage, "loops of 2 bars", write({loop, loop})},
       {"no chain", kUsage, "bar 0 without a chain", write({loop}, CellKind::vertices, false)},
       {"rows of a matrix", kUsage, "rows of a matrix", write({loop}, CellKind::row)},
       {"half a vertex", kUsage, "a loop of 3 numbers", write({loop}, CellKind::grid)},
@@ -196,9 +196,11 @@ TEST(PublicStructs, BranchesOfATree) {
   };
   expect_errors({
       {"an elder that is not there", kBad, "branch 0: found an elder branch 5", tree({{0, 1, 5}})},
-      {"its own elder", kBad, "round", tree({{0, 1, 0}})},
-      {"a circle", kBad, "round", tree({{0, kInfinity, -1}, {0, 1, 2}, {0, 1, 3}, {0, 1, 1}})},
-      {"a circle that others come to", kBad, "round", tree({{0, 1, 1}, {0, 2, 2}, {0, 2, 1}})},
+      {"its own elder", kBad, "a cycle of elder branches", tree({{0, 1, 0}})},
+      {"a circle", kBad, "a cycle of elder branches",
+       tree({{0, kInfinity, -1}, {0, 1, 2}, {0, 1, 3}, {0, 1, 1}})},
+      {"a circle that others come to", kBad, "a cycle of elder branches",
+       tree({{0, 1, 1}, {0, 2, 2}, {0, 2, 1}})},
       {"NaN", kBad, "branch 1", tree({{0, kInfinity, -1}, {kNan, 1, 0}})},
   });
   tree({{0, kInfinity, -1}, {1, 2, 0}, {1, 3, 0}, {1.5, 2, 1}})();
