@@ -106,11 +106,12 @@ class Alpha {
   /// triangulation.
   /// @param context must outlive the filtration.
   /// @throws Error (usage) on points of R^4 or beyond; if there is not one weight per point; on
-  ///         radii or other values of weighted points; on lengths that are negative, not finite or
-  ///         not one per axis; and on other values in a periodic space. Error (bad_data) on numbers
-  ///         that are not finite, on coordinates whose magnitudes differ too much for their squares
-  ///         to be doubles, and, for squared values, on coordinates whose square is not a double.
-  ///         Error (resource, cancelled, not_built_in).
+  ///         Unit::radius, or kinds of value other than `alpha`, for weighted points; on lengths
+  ///         that are negative, not finite or not one per axis; and on kinds of value other than
+  ///         `alpha` in a periodic space. Error (bad_data) on numbers that are not finite, on
+  ///         coordinates whose magnitudes differ too much for their squares to be doubles, and, for
+  ///         squared values, on coordinates whose square is not a double. Error (resource,
+  ///         cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 
@@ -180,7 +181,7 @@ class Alpha {
   int top_dim_ = -1;
 };
 
-/// Triangles on the surface of a set of simplices, each given by its points.
+/// Triangles on the surface of a set of simplices; each triangle is given by its points.
 struct SurfaceMesh {
   std::vector<std::array<Index, 3>> triangles;
   /// The first `regular` triangles have a tetrahedron on exactly one side, and are counterclockwise

@@ -26,7 +26,7 @@ struct CubicalOptions {
   bool superlevel = false;
   /// True for each axis (of the input) that closes up on itself; empty if none does.
   std::vector<bool> periodic = {};
-  /// Cells of larger values never enter; with `superlevel`, a value of -f.
+  /// Cells of larger values never enter. With `superlevel`, the threshold is a value of -f.
   std::optional<double> threshold = std::nullopt;
 };
 

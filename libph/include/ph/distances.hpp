@@ -138,10 +138,10 @@ WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const
 /// The distance is infinite if the diagrams have different numbers of such bars. Bars of length 0
 /// do not count.
 ///
-/// It is equivalent to wasserstein_distance of order 1, not equal to it: it is at most 2 √2 times
-/// as large, whatever the number of directions. exp(-distance) is a positive definite kernel.
-/// Source: Carrière, Cuturi, Oudot, Sliced Wasserstein kernel for persistence diagrams, 2017.
-/// O(directions · n log n). Threads share the directions; the result does not depend on them.
+/// This distance is equivalent to wasserstein_distance of order 1, but not equal: it is at most 2
+/// √2 times as large, whatever the number of directions. exp(-distance) is a positive definite
+/// kernel. Source: Carrière, Cuturi, Oudot, Sliced Wasserstein kernel for persistence diagrams,
+/// 2017. O(directions · n log n). Threads share the directions; the result does not depend on them.
 /// @param directions at least 1.
 /// @throws Error (usage) on fewer directions; otherwise as bottleneck_distance.
 double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> b,
@@ -149,7 +149,7 @@ double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> 
                                    const RunContext& context = default_context());
 
 /// A distance between two diagrams, such as `[](auto a, auto b, auto& context) { return
-/// bottleneck_distance(a, b, context); }`. Several threads call it.
+/// bottleneck_distance(a, b, context); }`. Several threads may call it at once.
 using DiagramDistance =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 

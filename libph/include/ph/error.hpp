@@ -127,7 +127,7 @@ inline constexpr std::array names_of<Setting>{
 
 /// The name of a setting in lower case, its words separated by underscores: "max_dim".
 std::string_view setting_name(Setting setting);
-/// All settings except `none`, by name.
+/// All settings except `none`, in the order of their names.
 std::span<const Setting> all_settings();
 
 /// A change that would help: a setting with a value (engine, "auto"). The value is empty if any
@@ -155,7 +155,7 @@ std::string alternatives(std::string_view values, std::string_view quote = {});
 std::string mark(Setting setting, std::string_view value = {});
 /// Marks the place of an error, see Message::place.
 std::string mark_place(std::string_view place);
-/// Marks the value found at that place, see Message::found.
+/// Marks the value found at the place of an error, see Message::found.
 std::string mark_found(std::string_view found);
 
 /// One line for the user: text in which settings are marked.
@@ -208,7 +208,7 @@ class Error : public std::runtime_error {
   std::string marked() const { return message().marked(); }
   /// The line in the words of a program or a language.
   std::string in_words(const Words& words) const { return message().in_words(words); }
-  /// The settings that would help.
+  /// The settings whose change would help, see Message::remedies.
   std::vector<Remedy> remedies() const { return message().remedies(); }
   /// The place of the error, see Message::place.
   std::string place() const { return message().place(); }

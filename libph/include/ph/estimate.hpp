@@ -11,9 +11,9 @@ namespace ph {
 struct Estimate : RunPlan {
   /// Facts about the complex; empty if its edges were not made.
   RunFacts built;
-  /// Cells by dimension, as far as the engine lists them: the sweep of edge links and union-find
-  /// list only vertices and edges, `gradient` lists none. Counted after the collapse, if there is
-  /// one.
+  /// Cells by dimension, as far as the engine lists them: the engines `edge-links` and `union-find`
+  /// list only vertices and edges, and `gradient` lists no cells. Counted after the collapse, if
+  /// there is one.
   std::vector<double> cells;
   /// Cells of dimensions below this one are counted; the numbers of all other cells are estimated
   /// from a sample, usually within a few per cent.

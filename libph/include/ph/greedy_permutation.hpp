@@ -19,8 +19,8 @@ struct GreedyLimits {
 };
 
 /// Points in the order of farthest-point sampling (Gonzalez, Clustering to minimize the maximum
-/// intercluster distance, 1985): after point 0, each is the point farthest from all points before
-/// it; among equals, the one with the smallest number.
+/// intercluster distance, 1985): after point 0, each point is the farthest from all points before
+/// it; among equals, the point with the smallest number.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
   /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. It never

@@ -119,7 +119,7 @@ struct RunFacts {
   std::optional<Index> vertices;          ///< only for a Rips filtration, as everything below
   std::optional<std::size_t> edges;       ///< empty if only points are held
   std::optional<double> threshold;        ///< empty if there is no limit
-  std::optional<double> covering_radius;  ///< of the subsample; empty if there is none
+  std::optional<double> covering_radius;  ///< of the subsample; empty without a subsample
 };
 /// Builds the data that are still missing. @throws as `build`.
 RunFacts facts(const AnyComplex& complex, const RunPlan& plan,

@@ -38,13 +38,13 @@ struct RipsOptions {
   std::vector<double> births = {};
   /// K: each point is born at twice its distance to the measure of its K nearest points, which
   /// include the point itself (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp).
-  /// K is from 1 to the number of points; it needs all distances and replaces `births`.
+  /// K is from 1 to the number of points; this option requires all distances and replaces `births`.
   std::optional<Index> dtm_neighbours = std::nullopt;
   /// The law by which balls grow after their births; default: WeightExponent::one with
   /// dtm_neighbours, otherwise WeightExponent::infinity.
   std::optional<WeightExponent> weight_exponent = std::nullopt;
   /// Farthest-point sampling chooses the vertices, instead of `vertices`: see greedy_permutation.
-  /// It needs all distances.
+  /// This option requires all distances.
   std::optional<GreedyLimits> subsample = std::nullopt;
   /// Epsilon > 0 selects the sparse Rips filtration instead: it has fewer edges, and its bars are
   /// born and die later by a factor of at most 1 + epsilon, see SparseRips. It needs all distances
@@ -156,7 +156,8 @@ class Rips {
 
   /// Estimates the edges: evaluates about 20 000 distances and, without a threshold, all distances
   /// of 32 points.
-  /// @throws Error (usage) if the input was freed; Error (bad_data) as a metric.
+  /// @throws Error (usage) if the input was freed; Error (bad_data) on a distance that is negative
+  ///        or NaN.
   RipsSample sample(const RunContext& context = default_context()) const;
 
   /// Frees the input, for this object and all copies: only the forms that were made are left. No

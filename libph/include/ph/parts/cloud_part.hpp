@@ -35,7 +35,7 @@ struct CloudPartForecast {
     double low = 0, high = 0;
   };
   Bytes memory;  ///< of one part
-  Bytes file;    ///< of one part, as CloudPart::bytes
+  Bytes file;    ///< of one part's file, see CloudPart::bytes
   Bytes join;    ///< memory to join all parts and compute the bars
   Bytes sent;    ///< sent by all ranks together, one part per rank
 };

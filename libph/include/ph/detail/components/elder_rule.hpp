@@ -13,7 +13,8 @@
 
 namespace ph {
 
-/// The vertices of each component, linked in a ring, which can be walked from any of them.
+/// The vertices of each component, linked as a ring: a walk around the ring may start at any
+/// vertex.
 class ComponentRings {
  public:
   ComponentRings(std::size_t size, std::pmr::memory_resource* memory) : next_(size, memory) {

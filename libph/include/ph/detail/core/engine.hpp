@@ -29,7 +29,7 @@ class Engine {
   static const Engine edge_links;  ///< Rips, H0 to H3: edge by edge
   /// Rips of points with few coordinates, H0 and H1: without listing edges.
   static const Engine beta_skeleton;
-  static const Engine gradient;  ///< images voxel by voxel, alpha complexes by intervals
+  static const Engine gradient;  ///< images voxel by voxel, alpha complexes interval by interval
 
  private:
   std::string_view name_ = "auto";

@@ -37,7 +37,7 @@ struct Status {
 std::optional<Status> status_of(const std::filesystem::path& path);
 std::optional<Status> status_of(int file);
 
-/// @return true if all data written could be kept.
+/// Closes a file. @return true if all data written to it could be kept.
 bool close(int file);
 
 /// @{ For reading.
@@ -49,9 +49,9 @@ int open_to_read(const std::filesystem::path& path);
 void pass_bytes(int standard);
 /// True if nothing has been read from the file yet.
 bool is_at_start(int file);
-/// @return the number of bytes read, 0 at the end, -1 if it failed. EAGAIN means that no bytes
-/// came: wait and ask again. Where the system allows it, the call returns this way after some
-/// milliseconds.
+/// @return the number of bytes read, 0 at the end, -1 if it failed. -1 with EAGAIN means that no
+/// bytes have come yet: ask again. Where the system allows it, the call waits only some
+/// milliseconds for bytes.
 std::ptrdiff_t read_some(int file, char* to, std::size_t most);
 /// Maps the file into memory, to be read from beginning to end. @return nullptr if it failed.
 char* map_to_read(int file, std::size_t bytes);

@@ -18,7 +18,7 @@ struct BarSink {
   std::function<void(std::size_t count)> expect;
 };
 
-/// The bars that are wanted at least.
+/// The bars that are wanted; a sink may receive other bars as well.
 struct BarRequest {
   int min_dim = 0, max_dim = 0;
   bool cells = true;  ///< if false, bars have no cells

@@ -17,8 +17,8 @@ bool can_pair_voxels(const CubicalImage& grid, int max_dim);
 /// The bytes that `pair_voxels` takes in addition to the image, without critical cells and bars.
 /// Precondition: `can_pair_voxels`.
 double bytes_to_pair_voxels(const CubicalImage& grid);
-/// The same bytes if memory is so short that `pair_voxels` processes some layers at a time; the
-/// larger number above if it cannot do so. Precondition: `can_pair_voxels`.
+/// The bytes that `pair_voxels` takes if memory is so short that it processes some layers at a
+/// time. If it cannot do so, the result is bytes_to_pair_voxels. Precondition: `can_pair_voxels`.
 double least_bytes_to_pair_voxels(const CubicalImage& grid);
 /// True if least_bytes_to_pair_voxels, and the bars, are all the memory needed: no bars are wanted
 /// that need all layers at once. Precondition: `can_pair_voxels`.

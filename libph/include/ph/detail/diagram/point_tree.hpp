@@ -60,7 +60,7 @@ class PointTree {
 
  private:
   const KdTree tree_;
-  std::pmr::vector<Point> points_;  // by position
+  std::pmr::vector<Point> points_;  // the points, by position
 };
 
 }  // namespace ph::diagram

@@ -7,8 +7,8 @@
 
 namespace ph::diagram {
 
-/// Contexts for tasks that run on several threads: a context reports to one thread only, and limits
-/// memory.
+/// Contexts for tasks that run on several threads. Each task needs its own context, because a
+/// context reports to one thread only and limits the memory.
 class ThreadContexts {
  public:
   /// @param tasks largest number of tasks at the same time. @param parent must outlive this object.

@@ -16,7 +16,7 @@ template <class Use>
 void for_each_voxel_run(std::span<const std::uint32_t> voxels, Use&& use) {
   if (voxels.empty()) return;
   const auto [low, high] = std::ranges::minmax(voxels);
-  std::uint64_t first = low, end = low;  // of the current run
+  std::uint64_t first = low, end = low;  // bounds of the current run
   const auto meet = [&](std::uint64_t voxel) {
     if (voxel != end) {
       use(first, end - first);

@@ -26,7 +26,7 @@ struct Lens {
     equidistant,  ///< k1 k2 k3 k4 of fisheye lenses (Kannala & Brandt 2006)
   };
   Model model = Model::none;
-  std::array<double, 8> coefficients{};  ///< in the order above; unused ones are 0
+  std::array<double, 8> coefficients{};  ///< in the order given in Model; unused ones are 0
 
   /// The place where the ray (x, y, 1) meets the image, in focal lengths from the principal point.
   std::array<double, 2> bent(double x, double y) const;
@@ -68,7 +68,7 @@ Camera read_camera(const std::filesystem::path& path, const RunContext* context 
 struct CameraPreset {
   std::string_view name;
   Camera camera;            ///< nominal values without lens: each device differs by a few per cent
-  std::string_view images;  ///< the depth images it is for; other modes may differ far more
+  std::string_view images;  ///< the depth images that the preset fits; others may differ far more
 };
 std::span<const CameraPreset> camera_presets();
 

@@ -25,8 +25,8 @@ class JsonCursor {
   /// colon. @return false at the object's '}'.
   /// @param first true for the first member; the cursor sets it to false.
   bool next_member(bool& first, std::string& name);
-  /// Goes to the next element of an array whose '[' was taken; `first` is as above. @return false
-  /// at the array's ']'.
+  /// Goes to the next element of an array whose '[' was taken; `first` is as in next_member.
+  /// @return false at the array's ']'.
   bool next_element(bool& first);
 
   bool boolean();

@@ -62,7 +62,7 @@ class Input {
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
                     Excess excess = Excess::refused);
-  /// A view of bytes that outlive the input. @param context as for `open`.
+  /// An input that only views bytes, which must outlive it. @param context as for `open`.
   static Input view(std::string_view bytes, const std::string& name,
                     const RunContext* context = nullptr);
   /// An input that owns its bytes, such as bytes unpacked from another input.
@@ -187,10 +187,10 @@ struct CellHints {
 };
 
 /// Splits the current line into cells. The first separator of the first line with two cells
-/// (blanks, ',' or ';') is the separator of the file; another one is an error, because otherwise a
-/// decimal comma could pass for two cells. Blanks around ',' and one separator at the end of the
-/// line are accepted. If lines keep their tabs, each tab is a separator as well. A cell may stand
-/// between double quotes; separators inside them belong to the cell.
+/// (blanks, ',' or ';') is the separator of the file; a different separator is an error, because
+/// otherwise a decimal comma could pass for two cells. Blanks around ',' and one separator at the
+/// end of the line are accepted. If lines keep their tabs, each tab is a separator as well. A cell
+/// may stand between double quotes; separators inside them belong to the cell.
 class Cells {
  public:
   /// @param separator the separator after skipped cells, which may hold blanks unless it is a

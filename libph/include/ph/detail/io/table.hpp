@@ -33,8 +33,9 @@ struct TableLayout {
   void tell(const ReadOptions& options) const;
 };
 
-/// Looks at the first lines and, if they do not decide, at the first column. A first column is left
-/// out if it has no name, or if its name is that of an index (id, index, …) and it counts the rows.
+/// Finds the layout of a table from its first lines and, if they do not decide, from its first
+/// column. The first column is left out if it has no name, or if it has a usual name of an index
+/// (id, index, …) and counts the rows.
 /// @throws Error (usage) if options.columns names a missing column.
 TableLayout table_layout(const Input& input, const ReadOptions& options);
 
@@ -101,7 +102,7 @@ struct TableShape {
   /// length.
   std::size_t rows = 0;
   SquareKind square = SquareKind::nothing;  ///< nothing unless the table is square
-  bool same_names = false;                  ///< its rows have the names of its columns
+  bool same_names = false;                  ///< the rows have the names of the columns
 };
 TableShape shape_of(const Input& input, const TableLayout& layout);
 

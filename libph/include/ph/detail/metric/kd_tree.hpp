@@ -54,7 +54,7 @@ class KdTree {
   void split_below(Node node, PointsView points, std::span<Item> items);
 
   int levels_ = 0;
-  MemoryClaim claim_;  // for points_
+  MemoryClaim claim_;  // counts the memory of points_
   Points points_;
   std::pmr::vector<std::uint32_t> rows_;
   std::pmr::vector<double> boxes_;

@@ -23,7 +23,8 @@ concept Metric =
   { m(i, j) } -> std::convertible_to<double>;
 };
 
-/// Any metric behind one type, which lets code that uses it be compiled once. It keeps a reference.
+/// Any metric behind one type, which lets code that uses it be compiled once. It keeps a reference
+/// to the metric.
 class AnyMetric {
  public:
   template <Metric M>
@@ -70,7 +71,7 @@ inline constexpr std::array names_of<PointDistance>{
 /// @param p exponent of PointDistance::minkowski.
 std::string metric_name(PointDistance distance, double p = 2);
 
-/// The device that computes.
+/// The device on which a computation runs.
 enum class Device {
   cpu,
   gpu,  ///< an NVIDIA GPU, if libph was built with PH_WITH_CUDA

@@ -9,7 +9,7 @@ namespace ph {
 
 /// The distances from one point to all points before it, one row of the lower triangle at a time:
 /// the same numbers as from the metric, but faster where many can be computed at once. It keeps a
-/// reference.
+/// reference to the metric.
 template <Metric M>
 class RowDistances {
  public:

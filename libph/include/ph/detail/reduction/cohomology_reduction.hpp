@@ -83,7 +83,7 @@ class CohomologyReduction {
   std::span<const Cell> death_cells() const { return death_cells_; }
   std::span<const Cell> essential() const { return essential_; }
 
-  /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
+  /// Sets the cells that are pivots of the dimension before. To be called before the first call to
   /// `reduce_dimension`, if another engine reduced that dimension.
   void set_cleared(CellMap<F> pivots) { cleared_ = std::move(pivots); }
 

@@ -9,9 +9,9 @@
 
 namespace ph {
 
-/// The entry of a column that is its pivot. Both directions are one algorithm, read forwards or
-/// backwards in the order of the filtration (de Silva, Morozov, Vejdemo-Johansson, Dualities in
-/// persistent (co)homology), and find the same pairs.
+/// The entry of a column that is its pivot. Homology and cohomology are one algorithm, read
+/// forwards or backwards in the order of the filtration (de Silva, Morozov, Vejdemo-Johansson,
+/// Dualities in persistent (co)homology), and find the same pairs.
 enum class Pivot {
   youngest,  ///< for homology: the pivot of a boundary
   oldest,    ///< for cohomology: the pivot of a coboundary

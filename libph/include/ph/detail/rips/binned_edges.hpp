@@ -21,7 +21,7 @@ namespace ph {
 /// caller that stops early does not pay for sorting the rest. Thread-safe.
 class BinnedEdges {
  public:
-  /// @param edges sorted, with ties in any order.
+  /// @param edges sorted by value; edges of equal value may be in any order.
   explicit BinnedEdges(FlagEdges&& edges);
   /// @param ends the end of each bin in `edges`, ascending. @param shared_bits the values of a bin
   /// agree in their bits from this one up.
@@ -87,7 +87,7 @@ class BinnedEdges {
 /// the mantissa. (Non-negative doubles are ordered as their bits.)
 class ValueBins {
  public:
-  /// @param values their approximate number.
+  /// @param values the approximate number of values.
   explicit ValueBins(std::size_t values)
       : shift_(kBits - std::clamp(static_cast<int>(std::bit_width(values)), 1, kMostBinBits)) {}
   std::size_t count() const { return std::size_t{1} << (kBits - shift_); }

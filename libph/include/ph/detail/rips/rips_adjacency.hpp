@@ -48,7 +48,7 @@ class RipsAdjacency {
     return it != list.end() && it->vertex == v ? it->key : kNever;
   }
   /// An upper bound for the number of vertices of a clique: the degeneracy of the graph plus one,
-  /// or its size.
+  /// or the number of vertices of the graph.
   Index clique_bound() const { return clique_bound_; }
 
  private:

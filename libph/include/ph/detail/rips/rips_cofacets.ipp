@@ -10,8 +10,8 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
                                                             Key last, Visit&& visit) const {
   if (cell.key > last) return;
   // The new vertex w ascends, and with it the cofacet's vertices: among cofacets of equal key the
-  // first visited is the oldest. `slot` is w's place among the vertices: those below it are
-  // smaller.
+  // first visited is the oldest. `slot` is w's place among the vertices: the vertices in lower
+  // slots are smaller.
   const int count = dim + 1;
   std::array<std::uint32_t, kMostVertices + 1> vertices;
   for (int slot = 0; slot < count; ++slot)
@@ -79,8 +79,8 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
 
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::horizon(Key key) const -> Key {
-  // Measured: see docs/explanation/engines/cohomology.md. Merging the lists of neighbours once more
-  // takes longer than a limit saves.
+  // The share was chosen by measurement, see docs/explanation/engines/cohomology.md. Merging the
+  // lists of neighbours once more takes longer than a limit saves.
   constexpr Key share = 16;
   constexpr Key no_limit = std::numeric_limits<Key>::max();
   if (!has_matrix()) return no_limit;

@@ -38,12 +38,12 @@ class RipsGraph {
 
   /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN
   /// distance.
-  /// @param weights here and below: the weights of the vertices, which all enter up to the
+  /// @param weights the weights of the vertices, here and below; all vertices enter up to the
   /// threshold.
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context, const VertexWeights& weights = {});
-  /// Uses Euclidean distances up to the threshold, and never computes all n^2.
+  /// Uses Euclidean distances up to the threshold, and never computes all n^2 distances.
   static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
                                     const VertexWeights& weights = {});
   /// Holds the points and no edges.
@@ -159,7 +159,7 @@ class RipsGraph {
   /// Splits the rows of a triangle into ranges of about equally many pairs. @return the row at
   /// which range r begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
-  /// Enough ranges to keep the threads busy.
+  /// The number of ranges: enough to keep the threads busy.
   static std::size_t range_count(Index rows, const RunContext& context);
 
   Index size_ = 0;

@@ -21,11 +21,12 @@ class RipsGroups {
 
   /// O(n^2 / 64 + edges).
   explicit RipsGroups(const RipsGraph& graph);
-  /// True if its n^2 / 8 bytes are little, or little compared with the graph.
+  /// True if n^2 / 8 bytes, the size of this object, are few in themselves or compared with the
+  /// graph.
   static bool are_affordable(const RipsGraph& graph);
 
-  /// Goes to the simplices whose longest edge is `key`, which is fast if they are near the current
-  /// ones.
+  /// Goes to the simplices whose longest edge is `key`, which is fast if `key` is near the current
+  /// key.
   /// @return true if the link is empty: then the edge is the only such simplex.
   bool go_to(Key key);
 
@@ -47,7 +48,7 @@ class RipsGroups {
   Word* set(std::size_t depth) { return sets_.data() + depth * link_words_.size(); }
 
   /// Adds `missing` vertices to the chosen clique, all from the set at `depth`: the vertices of the
-  /// link that are below the clique and joined to all of it. The set fills `words` words.
+  /// link that are below the clique and joined to all its vertices. The set fills `words` words.
   template <class Visit, class OnStep>
   void extend(int missing, std::size_t depth, std::size_t words, Visit& visit, OnStep& on_step);
 

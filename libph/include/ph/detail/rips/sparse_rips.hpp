@@ -28,8 +28,8 @@ class SparseRips {
  public:
   /// @throws Error (usage) unless `epsilon` is a finite number above 0.
   static void check_epsilon(double epsilon);
-  /// @param order a greedy permutation of all points (GreedyLimits{}). @param size number of
-  /// points.
+  /// @param order a greedy permutation of all points, made with GreedyLimits{}. @param size number
+  /// of points.
   /// @param epsilon must satisfy check_epsilon.
   SparseRips(const GreedyPermutation& order, Index size, double epsilon, const RunContext& context);
 

@@ -10,7 +10,7 @@ namespace ph::vectors {
 
 /// The largest allowed number: larger numbers could overflow in squares and sums.
 inline constexpr double kLargest = 1e100;
-/// The limit for frames fitted to such bars.
+/// The largest allowed coordinate of a frame that is fitted to bars.
 inline constexpr double kLargestPixel = 4 * kLargest;
 
 /// @throws Error (bad_data) on a NaN, a death before its birth, or a finite number that is too
