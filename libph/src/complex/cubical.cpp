@@ -124,8 +124,8 @@ const Cubical::Table& Cubical::make_table(const RunContext& context) const {
 Cubical::Table Cubical::new_table(const RunContext& context) const {
   if (voxels_.size() > kNever - 1)
     throw Error(ErrorKind::resource,
-                fmt::format("image: found {} voxels, at most 2^32 - 2 are possible if cells are "
-                            "listed, as by all engines except gradient",
+                fmt::format("image: found {} voxels, at most 2^32 - 2 are possible with an engine "
+                            "that lists cells (any engine except gradient)",
                             voxels_.size()));
   // The table may outlive this run, so its memory comes from the context of the constructor.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),

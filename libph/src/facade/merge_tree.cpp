@@ -148,8 +148,8 @@ MergeTree merge_tree(const Rips& rips, const RunContext& context) {
   const RipsGraph& graph = rips.graph(detail::form_of_tree(rips), context);
   if (graph.has_names())
     throw Error(ErrorKind::usage,
-                "merge tree: found vertices that were chosen, equal points that were merged, or a "
-                "threshold below the births (weights) of some points, expected all points");
+                "merge tree: found a selection of vertices, merged equal points, or a threshold "
+                "below the births (weights) of some points, expected all points as vertices");
   return with_rips_filtration(graph, 0, [&](const auto& f) { return tree_of(f, context); });
 }
 
@@ -159,7 +159,8 @@ MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
 
 MergeTree merge_tree(const Alpha& alpha, const RunContext& context) {
   if (alpha.is_periodic())
-    throw Error(ErrorKind::usage, "merge tree: found a periodic space, expected one that is not");
+    throw Error(ErrorKind::usage,
+                "merge tree: found a periodic space, expected one without periods");
   alpha.prepare(context);
   return tree_of(alpha, context);
 }

@@ -30,7 +30,8 @@ std::string_view obstacle_to_collapse(const Options& options) {
   // mutant: collapse-zero-length
   if (options.min_persistence < 0) return "bars of length zero are asked for";
   if (options.representatives == Representatives::cocycles)
-    return "cocycles are asked for, and those of the remaining edges say nothing about the others";
+    return "cocycles are asked for, and cocycles on the remaining edges have no values on the "
+           "removed ones";
   return {};
 }
 

@@ -112,7 +112,7 @@ void detail::check(const GreedyLimits& limits, Index size) {
   }
   if (limits.points < 1 || !(limits.radius >= 0)) {
     throw Error(ErrorKind::usage, fmt::format("greedy permutation: found {} points and radius {}, "
-                                              "expected at least 1 and 0",
+                                              "expected at least 1 point and a radius >= 0",
                                               limits.points, limits.radius));
   }
 }

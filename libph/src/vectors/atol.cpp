@@ -130,8 +130,7 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count,
-                 {});  // added in the order of pieces, so rounding does not depend on threads
+    sums_.assign(count, {});  // in the order of pieces, for the same rounding on any threads
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }
@@ -196,11 +195,10 @@ void check(const Atol& fitted) {
     for (const double x : centre) is_right = is_right && std::abs(x) <= kLargest;
   for (const double width : fitted.widths) is_right = is_right && width > 0 && width < kInfinity;
   if (!is_right)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("atol_vector: found {} centres and {} widths, expected equal numbers, at "
-                    "least 1, finite; widths > 0",
-                    fitted.centres.size(), fitted.widths.size()));
+    throw Error(ErrorKind::usage,
+                fmt::format("atol_vector: found {} centres and {} widths, expected equal numbers "
+                            "of each, at least 1, all finite, widths > 0",
+                            fitted.centres.size(), fitted.widths.size()));
 }
 
 }  // namespace
@@ -209,9 +207,10 @@ void check(const Atol& fitted) {
 Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions& options,
               const RunContext& context) {
   if (options.centres < 1 || options.most_rounds < 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found {} centres and {} rounds, expected at least 1 and 0",
-                            mark_place("fit_atol"), options.centres, options.most_rounds));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: found {} centres and {} rounds, expected at least 1 centre and 0 rounds",
+                    mark_place("fit_atol"), options.centres, options.most_rounds));
   std::vector<vectors::Heap> heaps = vectors::heaps_of(diagrams);
   if (heaps.size() < options.centres)
     throw Error(

@@ -292,8 +292,7 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
   refused(points, -1, 3, {}, "found number 0 of 3");
   refused(points, 0, 1, {.threshold = -1}, "threshold -1");
   refused(points, 0, 1, {.threshold = std::nan("")}, "threshold nan");
-  refused(points, 0, 1, {.distance = PointDistance::manhattan},
-          "other than the Euclidean distance");
+  refused(points, 0, 1, {.distance = PointDistance::manhattan}, "expected the Euclidean distance");
   refused(points, 0, 1, {.blocks = -1}, "found -1 blocks");
   refused(points, 0, 1, {.sample = 10}, "found a sample of 10, expected at most the 9 points");
   refused(Points(2, 9), 0, 1, {}, "found 9 coordinates, expected at most 8");

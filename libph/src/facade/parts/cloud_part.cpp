@@ -34,7 +34,7 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
     throw Error(ErrorKind::usage, "parts of a cloud: " + what);
   };
   if (options.distance != PointDistance::euclidean)
-    refuse("found a distance other than the Euclidean distance");
+    refuse("found a different distance, expected the Euclidean distance");
   if (!has_fast_spanning_forest(points, options.distance))
     refuse(fmt::format("found {} coordinates, expected at most 8", points.cols()));
   if (options.threshold && !(*options.threshold >= 0))
@@ -42,7 +42,7 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
   if (parts < 1 || parts > 1 << 30) refuse(fmt::format("found {}, expected 1 to 2^30", parts));
   if (part < 0 || part >= parts) refuse(fmt::format("found number {} of {}", part + 1, parts));
   if (options.blocks < 0 || options.blocks > (1 << 30) / parts)
-    refuse(fmt::format("found {} blocks in each of {}, expected 2^30 in all at most",
+    refuse(fmt::format("found {} blocks in each of {} parts, expected at most 2^30 blocks in total",
                        options.blocks, parts));
   if (options.sample < 0 || options.sample > points.rows() || options.sample > Index{1} << 30)
     refuse(fmt::format("found a sample of {}, expected at most the {} points", options.sample,

@@ -63,7 +63,7 @@ ImageLoops::~ImageLoops() = default;
 int ImageLoops::part() const { return state_->part; }
 
 void ImageLoops::begin(std::span<const std::byte> told) {
-  ByteReader from(told, "what is told to loops");
+  ByteReader from(told, "data for the loops of a part");
   if (from.get<std::uint64_t>("image") != state_->whole.hash()) from.refuse("image or option");
   if (from.get<std::int32_t>("part") != state_->part) from.refuse("number of a part");
   FreeCells free(&state_->context.memory);

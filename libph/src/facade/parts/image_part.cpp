@@ -134,8 +134,9 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
                                 : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
-    throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
-                                                 image.values.size(), axis.extent * axis.stride));
+    throw Error(ErrorKind::bad_data,
+                fmt::format("image: found {} voxels, expected {} by its extents",
+                            image.values.size(), axis.extent * axis.stride));
   return whole;
 }
 
@@ -164,7 +165,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   if (state_->whole.loops && !cubical::GridFrame::can_hold(voxels))
     throw Error(ErrorKind::resource,
                 fmt::format("part of an image: found {} voxels, expected fewer than about 2^31 for "
-                            "loops; with more parts, each has fewer",
+                            "loops; use more parts, which are smaller",
                             voxels.size()));
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);

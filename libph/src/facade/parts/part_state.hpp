@@ -85,8 +85,7 @@ struct WholeImage {
            static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;
   }
   PartLayout layout(const GridShape& shape) const { return {shape, parts, first_layers}; }
-  /// A hash of the image's data and the options: different ones have different hashes with high
-  /// probability.
+  /// A hash of these data. If images or options differ, their hashes differ with high probability.
   std::uint64_t hash() const;
 };
 

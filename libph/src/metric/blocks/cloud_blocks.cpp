@@ -153,7 +153,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   if (size >= UINT32_MAX)
     throw Error(ErrorKind::resource,
                 fmt::format("block of a cloud: found {} points in it and near it, expected fewer "
-                            "than 2^32 - 1; with more blocks, each has fewer",
+                            "than 2^32 - 1; use more blocks, which are smaller",
                             size));
   // mutant: cloud-largest
   result.edges = spanning_forest(

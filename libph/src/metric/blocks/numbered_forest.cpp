@@ -40,7 +40,8 @@ Merged merged(const std::pmr::vector<Index>& a, const std::pmr::vector<Index>& b
     }
   }
   if (size >= UINT32_MAX)
-    throw Error(ErrorKind::resource, "parts of a cloud: found 2^32 - 1 points or more together");
+    throw Error(ErrorKind::resource,
+                "parts of a cloud: found 2^32 - 1 points or more in the joined parts");
   all.numbers.reserve(size);
   all.places[0].reserve(a.size());
   all.places[1].reserve(b.size());
