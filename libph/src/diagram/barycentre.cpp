@@ -116,7 +116,7 @@ class Alternation {
     return root_mean_square(distances);
   }
   /// Moves each bar to the mean of its partners in the last `match`. A bar of a diagram that had no
-  /// partner adds a new bar.
+  /// partner gives a new bar.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;

@@ -16,8 +16,8 @@ struct MemoryForecast {
 int listed_rips_dim(Engine engine, int max_dim);
 
 /// The memory that the homology of a Rips complex takes in addition to its edges. The engine
-/// computes three small parts of the complex; the memory that it takes there beyond bit rows or
-/// adjacency is extrapolated.
+/// computes three small parts of the complex; the memory that these take in addition to bit rows or
+/// adjacency lists is extrapolated.
 /// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must
 /// name an engine and a dimension, without a collapse.
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
@@ -41,7 +41,8 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
 /// The same for an alpha complex whose simplices are paired by intervals.
 MemoryForecast forecast_intervals(double stored, bool with_representatives);
 
-/// The same for a complex that numbers or stores its cells, from its size alone.
+/// The forecast for any other complex that numbers or stores its cells, from the number of cells
+/// alone.
 MemoryForecast forecast_cells(double stored, std::span<const double> cells);
 
 }  // namespace ph::detail

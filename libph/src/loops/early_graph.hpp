@@ -84,7 +84,7 @@ class EarlyGraph {
       if (n.vertex == (u_has_fewer ? v : u)) return n.key;
     return std::nullopt;
   }
-  /// The vertex that stands for a point. Precondition: there is one.
+  /// The vertex that represents a point. Precondition: the point has one.
   std::uint32_t vertex_of(Index point) const {
     if (!graph_.has_names())
       return static_cast<std::uint32_t>(std::clamp<Index>(point, 0, graph_.size() - 1));

@@ -34,8 +34,8 @@ class Shortcuts {
       for (std::size_t i = 1; i + 1 < walk.size();) {
         const Change change = change_at(walk, i, around, budget);
         goes_on |= change != Change::none;
-        // After a removal, vertices that were not consecutive before are, so the search goes back
-        // by one.
+        // A removal makes two other vertices adjacent, which may allow another change one step
+        // back.
         i = change == Change::removed ? std::max<std::size_t>(i, 2) - 1 : i + 1;
       }
       if (!keeps_last_step && walk.size() > 3)  // the first vertex was never the middle one

@@ -341,7 +341,7 @@ void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Op
     Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
-  } catch (const Error& error) {  // the loops of each bar are the old or the new ones
+  } catch (const Error& error) {  // each bar has its old or its new loops, both valid
     if (error.kind() != ErrorKind::resource) throw;
   } catch (const std::bad_alloc&) {
   }

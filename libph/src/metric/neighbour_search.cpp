@@ -20,7 +20,7 @@ struct EuclideanGaps {
   // Smaller sums of squares may have lost digits to underflow.
   static constexpr double kSmallestPlainSquare = 1e-280;
   static double add(double sum, double gap) { return sum + gap * gap; }
-  /// An upper bound for the sums of all distances <= d. @param slack the allowance for rounding.
+  /// The largest sum that a distance <= d can have. @param slack a factor that allows for rounding.
   static double reach(double d, double slack) {
     return std::max(d * d * slack, kSmallestPlainSquare);
   }

@@ -51,8 +51,8 @@ double distances_of_row(const double* blocks, Index dims, Index i, double* out) 
   return *std::min_element(least, least + kBlock);
 }
 
-// As integers, the bits of non-negative doubles keep their order; the bits of all other doubles and
-// of NaN are larger than infinity's.
+// As integers, the bits of non-negative doubles are in the same order as the doubles. The bits of
+// negative doubles and of NaN are larger than the bits of infinity.
 PH_FOR_EACH_TARGET
 std::uint64_t take_maxima_as_bits(double* row, Index count, double* of_columns) {
   std::uint64_t largest = 0;

@@ -32,8 +32,8 @@ class LinkLoops {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param graph, active, components the edges so far, the edges with a non-zero annotation, and
-  /// the components of the graph's link; they must outlive this object.
+  /// All references must outlive this object. @param graph the edges so far. @param active the
+  /// edges with a non-zero annotation. @param components the components of the graph's link.
   LinkLoops(LinkGraph& graph, ActiveEdges& active, LinkComponents& components, const K& field,
             SweepRequest wanted, Observer& observer, const RunContext& context)
       : graph_(graph),

@@ -87,7 +87,7 @@ struct VertexChoice {
 
 /// A form and a context of its own, because the context of the call may end before the form does.
 struct MadeForm {
-  /// @param counts the context that counts the memory of the form, which it must outlive. @param
+  /// @param counts the context that counts the memory of the form; it must outlive the form. @param
   /// call the context of the call that makes the form.
   MadeForm(const RunContext& counts, const RunContext& call) : context(counts.memory) {
     if (&counts != &call) context.memory.set_limit(call.memory.left());

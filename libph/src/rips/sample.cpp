@@ -14,7 +14,7 @@ double pairs_of(Index points) {
   return static_cast<double>(points) * static_cast<double>(points - 1) / 2;
 }
 
-/// Random numbers of points, 0 … size - 1, in the same sequence on every platform.
+/// A sequence of random points, given by numbers 0 … size - 1. It is the same on every platform.
 class RandomPoints {
  public:
   explicit RandomPoints(Index size) : size_(static_cast<std::uint64_t>(size)) {}

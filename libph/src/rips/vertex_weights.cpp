@@ -16,7 +16,7 @@ double VertexWeights::meeting(double b, double c, double distance) const {
       value = std::max(born, distance + (b / 2 + c / 2));  // mutant: weights-ball
       break;
     case WeightExponent::two:
-      // If 4 d^2 < |b^2 - c^2|, the younger point is born inside the elder's ball.
+      // If 4 d^2 < |b^2 - c^2|, the younger point is born inside the ball of the older one.
       if (2 * distance > std::sqrt(std::abs(b - c)) * std::sqrt(b + c))
         value = std::max(value, std::hypot(distance, b / 2 + c / 2) *
                                     (std::hypot(distance, b / 2 - c / 2) / distance));

@@ -49,7 +49,8 @@ class TwoSides {
   diagram::OneSidedMatching there_, back_;
 };
 
-// Without the trees and the sets of their remaining points, which count their own memory.
+// Bytes per bar, without the trees and the sets of their remaining points, which count their own
+// memory.
 constexpr std::size_t kBytesABar = 160;
 
 }  // namespace

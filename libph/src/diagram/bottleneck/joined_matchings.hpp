@@ -9,10 +9,10 @@
 
 namespace ph::diagram {
 
-/// Merges two matchings, one that covers all long bars of the first diagram and one that covers all
-/// long bars of the second, into one that covers the long bars of both. The pairs of the two
-/// matchings form paths and cycles on which the matchings alternate. On each path, one of the two
-/// matchings covers all long bars (Mendelsohn and Dulmage).
+/// Merges two matchings into one that covers the long bars of both diagrams. The first of the two
+/// must cover all long bars of the first diagram, the other all long bars of the second. The pairs
+/// of the two matchings form paths and cycles on which the matchings alternate. On each path, one
+/// of the two matchings covers all long bars (Mendelsohn and Dulmage).
 class JoinedMatchings {
  public:
   using Mates = std::span<const std::uint32_t>;

@@ -11,9 +11,9 @@
 
 namespace ph::diagram {
 
-/// Pairs bars of one diagram with bars of another, such that every long bar of the first diagram,
-/// which is one farther than the radius from the diagonal, has a partner. The matching for one
-/// radius is the start of the search for the next radius.
+/// Pairs bars of one diagram with bars of another diagram within a radius. Every long bar of the
+/// first diagram, that is, every bar farther than the radius from the diagonal, gets a partner. The
+/// matching for one radius is the start of the search for the next radius.
 class OneSidedMatching {
  public:
   /// @param from the finite bars of the first diagram, longest first. @param to the finite bars of

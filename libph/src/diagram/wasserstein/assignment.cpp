@@ -44,8 +44,8 @@ Assignment::Costs Assignment::costs() const {
         cost += pair_cost(0, x, mine.partner[x]);
     }
   }
-  // Each price is a rounded difference of two numbers, whose error is at most twice the rounding
-  // unit.
+  // Each price is a rounded difference of two numbers. An allowance of twice the rounding unit is
+  // enough.
   constexpr long double unit = 2.3e-16L;
   sizes += cost;
   return {static_cast<double>(cost),

@@ -37,7 +37,7 @@ constexpr double kFiner = 16;
 // about 2 to 20.
 constexpr std::uint64_t kMostBids = 400;
 
-// Without the trees and their weights, which count their own memory.
+// Bytes per bar, without the trees and their weights, which count their own memory.
 constexpr std::size_t kBytesAPricedBar = 200;
 
 void check(const WassersteinOptions& options, std::string_view function) {

@@ -61,7 +61,7 @@ class SampleTree {
   std::uint32_t axis(Node node) const { return splits_[node].axis; }
   double value(Node node) const { return splits_[node].value; }
 
-  /// The child of an inner node in which a point lies.
+  /// The child of an inner node that contains the point x.
   Node child(Node node, const double* x) const {
     const Split& split = splits_[node];
     const double at = x[split.axis];

@@ -182,7 +182,7 @@ class Annotations {
   void update(std::uint32_t id);
   /// Removes a class that has become zero.
   void erase(std::uint32_t id);
-  /// Merges a class that has become equal to another one, up to sign.
+  /// Merges a class into another class to which it has become equal up to sign.
   void join(std::uint32_t id, std::uint32_t other);
   /// Updates occurrences_ after the terms of a class have changed. @param before its former terms.
   void change_occurrences(std::uint32_t id, const Vector& before);

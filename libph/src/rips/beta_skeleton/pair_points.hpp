@@ -37,9 +37,9 @@ struct PointPairRequest {
   bool apexes = true;
 };
 
-/// The pairs of positive length in H0 and H1 of the Rips filtration of points in the plane or in
-/// space, equal to the pairs of the standard algorithm, cell by cell. Memory is proportional to the
-/// number of points. See docs/explanation/engines/beta-skeleton.md.
+/// The pairs of positive length in H0 and H1 of the Rips filtration of points with few coordinates.
+/// The cells of each pair are the same as with the standard algorithm. Memory is proportional to
+/// the number of points. See docs/explanation/engines/beta-skeleton.md.
 /// @param points must have 1 to 4 coordinates for which has_plain_coordinates is true.
 template <Field K>
 void pair_points(PointsView points, const K& field, const PointPairRequest& wanted,

@@ -18,7 +18,7 @@ class Finder {
   Finder(const PointTree<D>& tree, double limit, const RunContext& context)
       : tree_(tree), lenses_(tree), limit_(limit), context_(context) {}
 
-  /// Replaces a pair by pairs of children, examines its points, or drops it.
+  /// Handles a pair of nodes: drops it, examines its points, or replaces it by pairs of children.
   template <class Push>
   void open(NodePair pair, Push&& push, std::pmr::vector<FoundEdge>& found) {
     const auto [a, b] = pair;
@@ -94,7 +94,8 @@ class Finder {
       if (is_in_lens(p)) return witnesses.add(p);
     const Edge e = lenses_.edge(x, y, square);
     if (e.value > limit_) return;
-    // Every point whose distance to the middle is at most half the length is in the lens.
+    // Every point whose distance to the middle is at most half the length of the edge is in the
+    // lens.
     const Position w = lenses_.middle(e, holder, 0.2 * square);
     if (w != kNone) return witnesses.add(w);
     found.push_back({e.value, x, y});

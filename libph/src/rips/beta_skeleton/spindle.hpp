@@ -38,8 +38,8 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
 
 /// True if p is certainly in the spindle of all pairs of a point in one ball and a point in
 /// another. In the proof |up| |vp| >= 1e-7 |uv|^2 follows from the first test, and a margin of 1e-6
-/// in the angle is then worth 5e-14 |uv|^2, more than 3 e; it also is more than the rounding of
-/// acos.
+/// in the angle is then worth 5e-14 |uv|^2, more than 3 e. This margin also exceeds the rounding
+/// error of acos.
 template <int D>
 bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
                     const double* centre_v, double radius_v, double distance) {

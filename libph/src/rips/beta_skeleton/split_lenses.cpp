@@ -21,7 +21,7 @@ class SplitLenses<D>::Opener {
         classes_(of.classes_),
         context_(of.context_) {}
 
-  /// Replaces a pair by pairs of children, examines its points, or drops it.
+  /// Handles a pair of nodes: drops it, examines its points, or replaces it by pairs of children.
   void open(NodePair pair, Found& found) {
     const auto [a, b] = pair;
     if (a == b) {

@@ -131,8 +131,8 @@ class ListGraph {
     }
   }
 
-  std::pmr::vector<std::size_t> begins_;   // by vertex
-  std::pmr::vector<std::uint32_t> sizes_;  // for each vertex: number of neighbours left
+  std::pmr::vector<std::size_t> begins_;   // start of each vertex's list
+  std::pmr::vector<std::uint32_t> sizes_;  // number of neighbours left at each vertex
   std::pmr::vector<Neighbour> neighbours_;
 };
 

@@ -12,9 +12,10 @@ namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
 /// each relation kills: the youngest generator that is left after substitution of the generators
-/// that died before. No two stored relations have the same youngest generator. When two relations
-/// have it, the one with fewer terms is stored and added to the other (Bauer, Masood, Giunti,
-/// Houry, Kerber, Rathod, Keeping it sparse: computing persistent homology revisited).
+/// that died before. No two stored relations have the same youngest generator. If two relations
+/// have the same one, the relation with fewer terms is stored and added to the other (Bauer,
+/// Masood, Giunti, Houry, Kerber, Rathod, Keeping it sparse: computing persistent homology
+/// revisited).
 class EchelonRelations {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number

@@ -73,7 +73,7 @@ class RelationMatrix {
 
   std::size_t lines_ = 0;  // cache lines per row
   std::pmr::vector<Line> cells_;
-  std::pmr::vector<Row> row_of_;  // row that each column is the first of
+  std::pmr::vector<Row> row_of_;  // for each column: the row that begins there, if any
   std::pmr::vector<std::uint8_t> is_dead_;
   std::size_t living_;
   std::pmr::vector<Step> steps_;

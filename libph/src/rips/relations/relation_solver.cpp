@@ -135,8 +135,7 @@ bool RelationSolver::solve() {
   for (std::size_t i = 0; i < killed.size(); ++i)
     if (killed[i] != RelationMatrix::kNone) report_death(killed[i], deaths_[i]);
   deaths_.clear();
-  constexpr std::size_t many =
-      4;  // additions per row, beyond which dead generators should be substituted
+  constexpr std::size_t many = 4;  // additions per row; with more, substitution pays
   if (rows_->matrix().additions() > many * births_.size()) make_rows();
   return living_ != before;
 }

@@ -91,8 +91,8 @@ class LinkSurfaces {
   /// @param is_extended true if only pairs of length zero are left to find.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
-  /// The difference between the value for the last vertex that the edge to w requires of an
-  /// extension and the value that the extension has there.
+  /// The value that the edge to w requires for the last vertex, minus the value that the extension
+  /// has there.
   Element mismatch_of(const Extension& x, Vertex w);
   /// Adds younger classes to the classes that are mismatched at w. After that, only the youngest of
   /// these, the dying class, is mismatched. @param words the number of words in use per row.

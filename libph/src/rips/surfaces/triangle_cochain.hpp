@@ -32,7 +32,7 @@ class TriangleCochain {
   using Terms = typename Lists::Terms;
   using ListId = typename Lists::ListId;
 
-  /// Pairs ascend by the larger vertex, then by the smaller one.
+  /// Encodes a pair as a number. Pairs are ordered by the larger vertex, then by the smaller one.
   static std::uint32_t pair(Vertex larger, Vertex smaller) { return larger << 16 | smaller; }
   static Vertex larger(const Term& t) { return t.cell >> 16; }
   static Vertex smaller(const Term& t) { return t.cell & 0xFFFF; }

@@ -57,7 +57,7 @@ class ActiveEdges {
   void erase_at(Vertex u, Vertex v);
 
   // The list of each vertex. With rows, lists may still contain removed edges, because searching
-  // for each of these would take longer than halving a list now and then.
+  // for each of these would take longer than cleaning up a list now and then.
   std::pmr::vector<Ends> at_;
   // The number of edges at each vertex. This is the most frequent query, and mostly the answer is
   // 0.

@@ -161,7 +161,7 @@ bool LinkGraph::touches_active_in_rows(const FlagEdge& e) const {
 
 LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph) {
   const bool touches = touches_active_in_rows(e);
-  // If nothing can happen, a single common neighbour is enough information.
+  // If nothing can happen, it is enough to know if there is any common neighbour.
   if (!touches && !wants_graph) return {!has_link(e.u, e.v), false};
   return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), link_.data(), words_), touches};
 }

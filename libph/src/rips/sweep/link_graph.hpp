@@ -16,7 +16,7 @@
 
 namespace ph {
 
-/// The storage of the edges so far in a sweep of edge links.
+/// How a sweep of edge links stores the edges so far.
 enum class LinkLayout {
   automatic,  ///< the fastest affordable layout
   rows,       ///< two bits per pair of vertices, one bit for each order
@@ -115,7 +115,7 @@ class LinkGraph {
   bool has_link_anywhere(Vertex u, Vertex v) const;
   Link find_link_in_rows(const FlagEdge& e, bool wants_graph);
   Link find_link_in_lists(const FlagEdge& e, bool wants_graph);
-  /// True if `in_link(v, w)` holds for an active edge from u to w, or the other way round.
+  /// True if `in_link(v, w)` holds for an active edge uw, or `in_link(u, w)` for an active edge vw.
   template <class InLink>
   bool touches_active(const FlagEdge& e, InLink&& in_link) const;
   bool touches_active_in_rows(const FlagEdge& e) const;

@@ -39,7 +39,7 @@ class NeighbourLists {
   std::span<const Vertex> operator[](std::size_t v) const {
     return {vertices_.data() + begins_[v], sizes_[v]};
   }
-  /// Adds one of these edges, which must not be present yet.
+  /// Adds one of the known edges, which must not be present yet.
   void add(const FlagEdge& e) {
     insert(e.u, static_cast<Vertex>(e.v));
     insert(e.v, static_cast<Vertex>(e.u));

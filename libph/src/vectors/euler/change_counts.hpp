@@ -14,8 +14,7 @@
 #include "ph/euler_curve.hpp"
 
 // Classes that collect the changes of the Euler characteristic at voxels. Each class has one Part
-// per thread. A Part takes rows of keys and changes, and adds them to the whole when it is
-// destroyed.
+// per thread. A Part takes rows of keys and changes, and adds them to the whole in add_to_all.
 namespace ph::vectors {
 
 /// Calls use(i) for all voxels with a change that is not zero, and possibly for others.

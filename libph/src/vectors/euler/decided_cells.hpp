@@ -94,8 +94,7 @@ class DecidedCells {
 
   std::size_t axes_, length_;
   bool is_circle_;
-  Mask outside_;  // mask of a neighbour outside the image: it precedes nothing (V), or comes after
-                  // all (T)
+  Mask outside_;  // a neighbour outside precedes nothing (V), or comes after all (T)
   bool has_own_;  // true if the cell of the zero direction counts 1, otherwise it counts -1
   std::vector<Direction> directions_;
   RawVector<Mask> masks_;

@@ -51,8 +51,7 @@ class RowNeighbours {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  /// Finds the rows in all directions position of the row along the axes between the first and the
-  /// last one.
+  /// Finds the rows in all directions along the axes between the first and the last one.
   void find_steps() {
     std::size_t count = 1;
     steps_[0] = 0;
