@@ -191,7 +191,8 @@ TEST(RipsPlans, AreSettled) {
 TEST(RipsPlans, AreOfOneKindOfComplex) {
   const Rips rips(Points{{0}, {1}});
   const Cubical cubical(Image{{2}, {0, 1}});
-  expect_error(ErrorKind::usage, "a complex other than a Rips filtration", [&] { run(rips, plan(cubical)); });
+  expect_error(ErrorKind::usage, "a complex other than a Rips filtration",
+               [&] { run(rips, plan(cubical)); });
   EXPECT_FALSE(facts(cubical, plan(cubical)).vertices);
 }
 
