@@ -104,7 +104,9 @@ void require_inputs(const Arguments& a) {
   }
   if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
     reject("INPUT: standard input can be read once only");
-  if (several && depth) reject("--depth: several frames need INPUT, a folder or --frames-from");
+  if (several && depth)
+    reject(
+        "--depth: it takes one frame; give several as INPUT, as a folder, or with --frames-from");
   if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
   if (several && a.explain) reject("--explain takes one input only");
   if (!several && a.stable_labels) reject("--stable-labels: expected several frames");

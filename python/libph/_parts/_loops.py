@@ -83,8 +83,8 @@ class ImageLoops:
         if held is None:
             found = "one that has lent its voxels, or was sent or joined" if part.has_loops else \
                 "one without loops"
-            raise UsageError(f"part: found {found}, expected one right from "
-                             "image_part(…, loops=True) whose has_loops is true")
+            raise UsageError(f"part: found {found}, expected an unused result of "
+                             "image_part(…, loops=True) that has loops")
         try:
             self._loops = _run.run(_core.RunningLoops, held, self._field, options=dict(run))
         except UsageError:

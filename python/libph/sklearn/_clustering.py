@@ -140,7 +140,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
             wrong = ~((density > 0) & np.isfinite(density))
             if wrong.any():
                 i = int(np.argmax(wrong))
-                raise UsageError(f"density: of row {i}: found {density[i]}, expected a finite "
+                raise UsageError(f"density: row {i}: found {density[i]}, expected a finite "
                                  "number above 0")
             return np.asarray(-np.log(density))
         _options.choice("density", self.density, ["dtm"])

@@ -123,7 +123,7 @@ Bars RunningLoops::bars(const RunOptions& options) {
     const std::lock_guard lock(mutex_);
     require_sound();
     if (!has_begun_)
-      refuse("found that they have not begun, expected a call when all work is done");
+      refuse("found loops that have not begun, expected a call when all work is done");
     if (!loops_->is_idle()) refuse("found work to do, expected a call when all work is done");
     if (has_news_)
       refuse("found messages that were not taken, expected a call when all work is done");

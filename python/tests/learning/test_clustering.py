@@ -279,7 +279,7 @@ def test_points_that_lie_on_each_other():
     ({"min_persistence": -1}, "min_persistence: found -1"),
     ({"n_clusters": 2, "min_persistence": 1}, "n_clusters: excludes min_persistence"),
     ({"density": "kde"}, "density: found 'kde'"), ({"metric": "hamming"}, "metric: found 'hamming'"),
-    ({"density": lambda X: np.zeros(len(X))}, "density: of row 0: found 0.0"),
+    ({"density": lambda X: np.zeros(len(X))}, "density: row 0: found 0.0"),
     ({"density": lambda X: np.ones(3)}, r"density: found an array of shape \(3,\), expected 20")])
 def test_parameters_of_clusters(rng, how, words):
     with pytest.raises(ph.UsageError, match=words):

@@ -190,7 +190,7 @@ def test_calls_out_of_order():
     for sent in (copy.copy(part), pickle.loads(pickle.dumps(part)),
                  ph.ImagePart.from_bytes(part.to_bytes()), ph.image_part(VOLUME, 0, 2, max_dim=0),
                  ph.image_part(VOLUME[0], 0, 2, loops=True)):
-        with pytest.raises(ph.UsageError, match="expected one right from"):
+        with pytest.raises(ph.UsageError, match="expected an unused result of"):
             ph.ImageLoops(sent)
     with pytest.raises(ph.UsageError, match="expected ImagePart"):
         ph.ImageLoops(b"part")
