@@ -53,7 +53,8 @@ constexpr std::array kMagics{
 };
 
 constexpr std::size_t kProbe = 4096;
-// Any text may begin with a few letters; longer magic numbers are safe.
+// Any text may begin with a few letters. A magic number of at most this length is therefore ignored
+// if the input may be a table of numbers.
 constexpr std::size_t kFewLetters = 4;
 
 // True for two letters such as P6, then comments and a line with two sizes. The letters alone are

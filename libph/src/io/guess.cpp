@@ -17,10 +17,11 @@ namespace ph::detail {
 namespace {
 
 constexpr Index kMostCoordinates = 16;  // coordinates per point in an array that may be an image
-// Such an array has points if it has this many times as many rows as columns.
+// Such an array is read as points if it has at least this many times as many rows as columns.
 constexpr Index kSlender = 4;
 
-// Decides by the lengths of the first rows: only a triangle of a matrix may be ragged.
+// Recognises a triangle of a matrix by the lengths of the first rows, because no other table may
+// have rows of different lengths. A colon means a list of simplices.
 std::optional<Format> triangle_of(const Input& input) {
   TextLines lines(input);
   std::vector<std::size_t> lengths;
@@ -126,7 +127,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                           is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
-    // Pictures may be black and label maps empty; points and distances are not all zero.
+    // A picture may be black and a label map empty, but points and distances are never all zero.
     const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
                                      (kind == SquareKind::distances || npy.kind == 'f'));
     if (has_zeros && is_sure) {  // mutant: guess-damaged

@@ -44,8 +44,9 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   // mutant: guess-matrix-option
   if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
-    // Points have no diagonal. An option that accepts any diagonal asks for nothing, and later code
-    // refuses births with points.
+    // A table that is not square is read as points if the option concerns only the diagonal. Points
+    // have no diagonal: an option that accepts any diagonal is always fulfilled, and an option that
+    // takes births from the diagonal is refused later.
     const bool has_diagonal = !options.from_correlation && options.diagonal != Diagonal::zero;
     const bool is_by_diagonal =
         options.diagonal == Diagonal::births || options.symmetrise == Symmetrise::none;

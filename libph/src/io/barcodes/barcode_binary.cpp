@@ -28,7 +28,8 @@ constexpr std::int64_t kDiphaDiagram = 2;
 
 void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
                          const std::optional<double>& threshold) {
-  // An essential class of dimension k is stored as -k-1, with the largest value as its death.
+  // An essential class of dimension k is stored with the dimension -k-1; its death is the largest
+  // of the threshold and all finite values.
   double largest = threshold && std::isfinite(*threshold) ? *threshold : -kInfinity;
   for (const Bar& bar : barcode)
     largest = std::max({largest, bar.birth, bar.is_infinite() ? bar.birth : bar.death});

@@ -82,7 +82,7 @@ StoredBarcode read_npy(const Input& input) {
   return stored;
 }
 
-// The content decides, then the extension; the default is csv.
+// The content decides. If it does not identify the format, the extension does; the default is csv.
 BarcodeFormat format_of(const Input& input) {
   if (detail::is_npy(input) || detail::is_npz(input)) return BarcodeFormat::npy;
   if (detail::is_dipha(input)) return BarcodeFormat::dipha;
@@ -99,8 +99,8 @@ BarcodeFormat format_of(const Input& input) {
 
 bool is_barcode(const Input& input) {
   if (detail::is_dipha(input)) return detail::dipha_type(input) == detail::DiphaType::diagram;
-  // An input that another format claims, by its magic number or its extension, is no barcode, nor
-  // are bytes that are not text.
+  // An input is not a barcode if its magic number or its extension belongs to another format, or if
+  // its bytes are not text.
   if (detail::format_by_content(input)) return false;
   switch (format_of(input)) {
     case BarcodeFormat::json:

@@ -10,7 +10,7 @@ namespace ph {
 /// The highest dimension that a barcode file may name.
 inline constexpr std::int64_t kMostBarDimension = 1 << 20;
 
-/// The problem with a bar; `what` is empty if there is none.
+/// Describes the problem with a bar; Fault::what is empty if there is none.
 Fault fault_of_bar(const Bar& bar);
 
 /// The line before the intervals of each dimension, in Ripser's output.
@@ -18,7 +18,7 @@ inline constexpr std::string_view kRipserHeading = "persistence intervals in dim
 
 StoredBarcode read_barcode_json(const Input& input);
 Barcode read_barcode_ripser(const Input& input);
-/// A table of bars: csv, pers, and similar output of other programs.
+/// Reads a table of bars: csv, pers, or similar output of other programs.
 /// @param may_be_empty true if an empty file is an empty barcode.
 StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty);
 /// True if the first line names the columns of a table of bars.

@@ -34,7 +34,8 @@ class InfoReader {
  public:
   InfoReader(JsonCursor& json, BarcodeInfo& info) : json_(json), info_(info) {}
 
-  /// Reads the value of a member that describes the origin. @return false for any other member.
+  /// If member `name` describes the origin of the barcode, reads its value. @return false for any
+  /// other member.
   bool read(const std::string& name) {
     if (name == "program") {
       info_.program = text();
@@ -215,8 +216,8 @@ class Reader {
     const std::string value = json_.string();
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
-    // Sets of voxels are left out: only segmentation programs need them, and a few numbers may
-    // stand for an entire image.
+    // Sets of voxels are not read: only segmentation programs need them, and a few numbers in the
+    // file may stand for an entire image.
     if (value != "none" && value != "voxels") {
       json_.fail(place,
                  {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
@@ -322,8 +323,9 @@ class Reader {
     }
   }
 
-  // If the member holds the numbers of a cell, reads them into `numbers` from index `begin` on.
-  // @return false if it is another member.
+  // If member `name` holds the numbers of a cell, stores them in `numbers`, starting at index
+  // `begin`.
+  // @return false for any other member.
   bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t begin,
                     std::size_t place) {
     constexpr Index kMost = std::numeric_limits<Index>::max();

@@ -59,9 +59,9 @@ bool is_line_of_names(const TextLines& lines) {
          std::ranges::any_of(detail::header_cells(lines.line(), false), column_of);
 }
 
-/// Finds the columns by the names in the current line, which may have any order. Returns nothing
-/// unless the line names dimension, birth and death once each, and no column that is unknown here.
-/// A first column without a name is an index, as pandas and R write it.
+/// Finds the columns by the names in the current line; the columns may be in any order. Returns
+/// nothing unless the line names dimension, birth and death once each and all other names are
+/// known. A first column without a name is an index, as pandas and R write it.
 std::optional<Columns> columns_by_name(const TextLines& lines) {
   const std::vector<std::string> names = detail::header_cells(lines.line(), false);
   Columns columns;

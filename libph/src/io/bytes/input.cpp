@@ -58,8 +58,8 @@ std::size_t printable_length(std::string_view s) {
   const std::size_t length = utf8_length(s);
   if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) return 0;
   if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
-  // Line separators and marks that reorder text would allow a name to rewrite the message around
-  // it.
+  // With line separators and marks that reorder text, a name could change how the message around it
+  // reads.
   if (length == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE)
     return 0;
   return length;
@@ -147,7 +147,8 @@ struct Input::Storage {
   std::size_t used = 0;
   bool mapped = false;
   std::optional<MemoryClaim> claim;  // the memory of a mapped file's pages
-  bool exceeds = false;              // exceeds the budget: stays in a file and is not counted
+  // True if the input exceeds the budget: it then stays in a file and is not counted.
+  bool exceeds = false;
 };
 
 Input::Input() = default;

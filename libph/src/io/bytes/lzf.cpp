@@ -17,11 +17,13 @@ constexpr std::size_t kMaxDistance = 1 << 13;
 constexpr std::size_t kMaxMatch = 264;
 constexpr unsigned kHashBits = 14;
 
-// Copies `length` bytes to `to` from `distance` bytes before it. If the two ranges overlap, the
-// first `distance` bytes are repeated; the piece that is copied then doubles with every step.
+// Copies `length` bytes to `to` from the position `distance` bytes before it. If the two ranges
+// overlap, the first `distance` bytes are repeated; the piece that is copied then doubles with
+// every step.
 void copy_match(std::byte* to, std::size_t distance, std::size_t length) {
   const std::byte* from = to - distance;
-  // `to` has kSlack bytes of room; entire blocks are faster than exact lengths.
+  // Copies entire blocks, which is faster than copying the exact length; up to kSlack bytes after
+  // the copy are overwritten.
   if (distance >= 16) {
     for (std::size_t k = 0; k < length; k += 16) std::memcpy(to + k, from + k, 16);
     return;
@@ -54,7 +56,8 @@ void put_literals(std::vector<std::byte>& out, std::span<const std::byte> bytes)
 }  // namespace
 
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink) {
-  // Recent output stays in front of the next output; both fit the second-level cache.
+  // The window holds the recent output, to which matches refer, followed by the next output. Both
+  // fit into the second-level cache.
   std::vector<std::byte> window(kMaxDistance + kPiece + kMaxMatch + kSlack);
   std::byte* const out = window.data();
   const std::size_t full = kMaxDistance + kPiece;

@@ -37,9 +37,9 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// The descriptor to write to if a name stands for an open descriptor, or for a file to which
-/// standard output or standard error goes: opening such a file again or replacing it would lose its
-/// content.
+/// The descriptor to write to if `path` names an open descriptor, or the file to which standard
+/// output or standard error goes. Opening such a file again, or replacing it, would lose its
+/// content. Empty for any other path.
 std::optional<int> descriptor_of(const std::string& path) {
   if (path == "-") return files::kStandardOutput;
   if (const auto named = files::descriptor_named(files::path_of(path))) return named;
@@ -131,7 +131,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 
 void OutputFile::discard() noexcept {
   if (owned_ && descriptor_ >= 0) files::close(descriptor_);
-  // Some systems cannot remove open files.
+  // The file is closed first, because some systems cannot remove open files.
   if (!temporary_.empty()) files::remove(temporary_);
   temporary_.clear();
   descriptor_ = -1;
@@ -174,7 +174,8 @@ void OutputFile::commit() {
     temporary_ = files::name_in(descriptor_, folder);
     if (temporary_.empty()) fail_creating(path_, files::reason(errno));
   }
-  // Some systems cannot rename open files. The content is already on the disk.
+  // The file is closed first, because some systems cannot rename open files. Its content is already
+  // on the disk.
   static_cast<void>(files::close(std::exchange(descriptor_, -1)));
   if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();

@@ -31,7 +31,7 @@ Image read_grid(const Input& input, const ReadOptions& options);
 /// @param holes true if rows with a NaN are holes of a point cloud: they are always left out.
 Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes);
 
-/// A square array as distances; see read_distances.
+/// Converts a square array to distances; see read_distances.
 DistanceMatrix square_to_distances(const Image& array, const Input& input,
                                    const ReadOptions& options);
 
@@ -45,7 +45,7 @@ struct LocatedEdge {
 std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
                                        const std::function<void(std::size_t, const Fault&)>& fail);
 
-/// Each is true if the input has the magic number of the format.
+/// Each of these functions returns true if the input has the magic number of the format.
 bool is_npy(const Input& input);
 bool is_pcd(const Input& input);
 bool is_ply(const Input& input);
@@ -56,8 +56,9 @@ bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
-/// True if the first bytes have no control characters but tabs and line ends. Binary formats begin
-/// with a count of eight bytes; below 2^40, it contains NUL bytes, which text does not.
+/// True if the first bytes contain no control characters except tabs and line ends. Binary formats
+/// begin with a count of eight bytes; a count below 2^40 contains NUL bytes, which do not occur in
+/// text.
 bool is_text(std::string_view bytes);
 
 /// True if the first line of a set of points is their number, as in PTS.
@@ -87,7 +88,8 @@ constexpr std::int64_t kDiphaMagic = 8067171840;
 /// @throws Error (bad_data) on another magic number or an unknown type.
 DiphaType dipha_type(const Input& input);
 
-// Each reads a DIPHA file of its type. @throws Error (bad_data), also on another type.
+// Each of these functions reads a DIPHA file of one type. @throws Error (bad_data) if the file is
+// damaged or has another type.
 Image read_dipha_image(const Input& input, const ReadOptions& options);
 DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& options);
 SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);

@@ -71,7 +71,7 @@ class Inflater {
   z_stream stream_{};
 };
 
-// A buffer in a temporary file; written pages leave the memory.
+// A buffer in a temporary file; its pages leave memory once they are written.
 class FileBuffer {
  public:
   explicit FileBuffer(std::size_t bytes) : file_(bytes) {}
@@ -123,8 +123,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    // If the stated size is too large, and the data unpacked so far confirm such an expansion, the
-    // rest is not unpacked to check the statement.
+    // If the stated size is too large and the data so far have expanded as much, the rest is not
+    // unpacked: it could only confirm the stated size.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
       input.fail_at_byte(inflater.used(),

@@ -8,8 +8,8 @@
 
 namespace ph::detail {
 
-/// Limits for the expansion of compressed data, whatever the budget: a file of a few kilobytes that
-/// claims gigabytes is a bomb.
+/// Limits for the expansion of compressed data. They apply whatever the memory budget is, because a
+/// file of a few kilobytes that expands to gigabytes is a decompression bomb.
 constexpr std::size_t kMostFree = std::size_t{128} << 20;  ///< bytes that are always allowed
 /// The limit for larger results, as a multiple of the packed size.
 constexpr std::size_t kMostExpansion = 256;
@@ -22,18 +22,18 @@ std::size_t stated_size(std::string_view packed);
 
 /// Unpacks all members of a gzip file, one after another.
 /// @param most the largest unpacked size that is allowed, even for a small file.
-/// @throws Error (bad_data) if it is damaged, truncated, has trailing data or expands too much;
-///         Error (resource) beyond `most`.
+/// @throws Error (bad_data) if the file is damaged or truncated, has trailing data or expands too
+/// much; Error (resource) if the unpacked data are larger than `most`.
 std::pmr::vector<char> gunzip(const Input& packed, std::size_t most);
 
 /// Like gunzip, but unpacks into a temporary file, without a limit `most`. @throws as gunzip; Error
 /// (io).
 ScratchFile gunzip_to_file(const Input& packed);
 
-/// Unpacks a raw deflate stream, which must take exactly `packed_size` bytes and give exactly
-/// `size` bytes.
+/// Unpacks a raw deflate stream, which must consist of exactly `packed_size` bytes and expand to
+/// exactly `size` bytes.
 /// @param offset start of the stream in the input.
-/// @throws Error (bad_data).
+/// @throws Error (bad_data) if it does not.
 std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,
                                    std::size_t size);
 

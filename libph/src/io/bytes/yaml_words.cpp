@@ -82,7 +82,7 @@ void YamlWords::take_line(std::string_view line) {
   if (content[indent] == '\t')
     fail(indent + 1, {"a tab before a key", {}, "blanks", "YAML is indented with blanks"});
   const std::string_view rest = content.substr(indent);
-  if (rest == "-" || rest.starts_with("- ")) {  // belongs to the last key that is not deeper
+  if (rest == "-" || rest.starts_with("- ")) {  // an item of the last key that is not indented more
     while (!open_.empty() && open_.back().indent > indent) open_.pop_back();
     if (open_.empty()) fail(indent + 1, {"list", quoted(rest), "a key before it", {}});
     const std::size_t first = std::min(rest.find_first_not_of(' ', 1), rest.size());

@@ -9,10 +9,10 @@
 
 namespace ph::detail {
 
-/// The first document of a YAML file, in the part of YAML that programs use for calibrations:
-/// mappings by indentation, plain and quoted words, lists as `[a, b]` or as one `- a` per line,
-/// comments, and tags (which are ignored). Any other form is an error, or is left out if it stands
-/// for a single value.
+/// The words in the first document of a YAML file. It reads the part of YAML that calibration files
+/// use: mappings by indentation, plain and quoted words, lists as `[a, b]` or as one `- a` per
+/// line, comments, and tags (which are ignored). Mappings in braces and blocks of text are skipped;
+/// any other form is an error.
 class YamlWords {
  public:
   struct Word {
@@ -44,11 +44,11 @@ class YamlWords {
 
   const Input& input_;
   std::map<std::string, Value, std::less<>> values_;
-  // Keys whose content may continue, each deeper than the one before.
+  // The keys whose values may continue in the next line, each indented more than the one before.
   std::vector<Open> open_;
   std::size_t number_ = 0;        // number of the current line, from 1
   Value* list_ = nullptr;         // a list whose ']' is still to come
-  std::size_t block_indent_ = 0;  // indentation of the key of a text with several lines
+  std::size_t block_indent_ = 0;  // indentation of the key whose value is a block of text
   bool in_block_ = false;
 };
 

@@ -13,8 +13,7 @@
 namespace ph {
 namespace {
 
-/// The point where a ray meets the image, and its derivative with respect to the ray: d(u, v) /
-/// d(x, y).
+/// The image point (u, v) of a ray (x, y), and the derivative d(u, v) / d(x, y).
 struct Bent {
   double u, v, ux, uy, vx, vy;
 };
@@ -35,8 +34,8 @@ Bent bent_polynomial(const std::array<double, 8>& c, double x, double y) {
           radial + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x};
 }
 
-/// The angle between a ray and the optical axis after the distortion of the lens, and its
-/// derivative.
+/// The angle between a ray and the optical axis after the distortion of the lens, and the
+/// derivative of this angle with respect to `angle`.
 std::array<double, 2> shown_angle(const std::array<double, 8>& k, double angle) {
   const double s = angle * angle;
   return {angle * (1 + s * (k[0] + s * (k[1] + s * (k[2] + s * k[3])))),
@@ -70,7 +69,8 @@ double Lens::reach() const {
     const double radius = std::tan(std::numbers::pi / 2 * i / angles);
     const bool rises = bent_polynomial(axial.coefficients, radius, 0).ux > 0;
     if (!rises && fold == kInfinity) fold = radius;
-    // Beyond a second fold, the image rises again; the limit lies between the two folds.
+    // Beyond a second fold, distances from the centre of the image increase again; the limit is set
+    // midway between the two folds.
     if (rises && fold != kInfinity) return (fold + radius) / 2;
   }
   return kInfinity;
@@ -140,7 +140,8 @@ std::span<const CameraPreset> camera_presets() {
   static constexpr Camera primesense{{525, 525, 319.5, 239.5}, 640, 480};
   // The depth camera of the second Kinect; the default of libfreenect2 and Open3D.
   static constexpr Camera kinect_v2{{365.456, 365.456, 254.878, 205.395}, 512, 424};
-  // Depth aligned to the colour camera, for which the data sheet gives 69 x 42 degrees at 16:9.
+  // Depth aligned to the colour camera, whose field of view is 69 x 42 degrees at 16:9 according to
+  // the data sheet.
   static constexpr Camera realsense{{924, 924, 639.5, 359.5}, 1280, 720, {}, true};
   static constexpr std::string_view registered = "depth registered to the colour camera";
   static constexpr std::array<CameraPreset, 5> presets{

@@ -125,8 +125,8 @@ class CameraYaml {
     return std::ranges::find(kKnown, model) != kKnown.end();
   }
 
-  /// Refuses coefficients under one of these names, which are not read; zeros are accepted, because
-  /// they need no lens.
+  /// Refuses lens coefficients under names that are not read. Coefficients that are all zero are
+  /// accepted, because they mean a lens without distortion.
   void refuse_other_names() const {
     for (const std::string_view name :
          {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
@@ -191,7 +191,8 @@ class CameraYaml {
     return lens;
   }
 
-  /// The image may be a part of the calibrated image, with several pixels merged into one.
+  /// Adapts the camera to an image that is only a part of the calibrated image, or in which several
+  /// pixels are merged into one.
   void take_part(Camera& camera) const {
     const Index left = whole_or("roi.x_offset", 0, camera.width);
     const Index top = whole_or("roi.y_offset", 0, camera.height);
@@ -211,8 +212,8 @@ class CameraYaml {
   YamlWords yaml_;
 };
 
-/// Reads the members of an Open3D object after its '{'. @param inside true for the object
-/// "intrinsic" inside another one.
+/// Reads the members of an Open3D object after its '{'. @param inside true for the members of the
+/// nested object "intrinsic".
 void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bool inside = false) {
   bool first = true;
   for (std::string name; json.next_member(first, name);) {
@@ -237,8 +238,8 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
     } else if (name == "depth_scale" && json.peek() != 'n') {  // null means that there is no scale
       const std::size_t place = json.place();
       const double found = json.number();
-      // A number below 1 is metres per unit, as in librealsense, because no unit is longer than a
-      // metre.
+      // A number below 1 must be metres per unit, as in librealsense: no unit is longer than a
+      // metre, and the number of units per metre is therefore at least 1.
       camera.depth_scale = found < 1 ? 1 / found : found;
       if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
         json.fail(place, {"depth_scale",

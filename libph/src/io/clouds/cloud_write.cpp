@@ -179,7 +179,8 @@ std::string_view ply_type(FieldType type) {
   throw Error(ErrorKind::bad_data, "cloud: PLY has no 64-bit integers; write PCD");
 }
 
-// The cloud as PLY can express it: single numbers, and separate colours.
+// The cloud in the form that PLY can express: each field is a single number, and colours are
+// separate channels.
 Cloud ply_cloud(const Cloud& cloud) {
   Cloud result = cloud;
   result.fields.clear();

@@ -17,7 +17,7 @@ namespace {
 
 using detail::PcdHeader;
 
-// PCL maps the files that it writes, and leaves zeros after the data up to a page boundary.
+// PCL writes files through a memory mapping, and leaves zeros after the data up to a page boundary.
 void expect_padding(BinaryCursor& cursor) {
   constexpr std::size_t kLargestPage = std::size_t{1} << 16;
   if (cursor.remaining() >= kLargestPage) cursor.expect_end();  // mutant: pcd-padding
@@ -80,7 +80,7 @@ class Interleaver {
       record += cloud_.stride;
     }
     const std::size_t stride = cloud_.stride;
-    if (width_ == 4) {  // the usual case; a constant length is a single move
+    if (width_ == 4) {  // the usual case; a copy of constant length is a single move
       for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
     } else {
       const auto width = static_cast<std::ptrdiff_t>(width_);

@@ -14,7 +14,8 @@ struct PcdHeader {
   PcdData data = PcdData::ascii;
 };
 
-/// @throws Error (bad_data), also if the promised points do not fit the file.
+/// Reads the header of a PCD file. @throws Error (bad_data) if it is invalid, or if the file is too
+/// small for the points that it promises.
 PcdHeader read_pcd_header(const Input& input);
 
 }  // namespace ph::detail

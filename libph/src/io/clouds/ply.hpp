@@ -32,7 +32,7 @@ struct PlyHeader {
   std::size_t lines = 0;   ///< lines before the data
 };
 
-/// @throws Error (bad_data).
+/// Reads the header of a PLY file. @throws Error (bad_data) if it is invalid.
 PlyHeader read_ply_header(const Input& input);
 
 /// Reads the values after a header, one after the other, as text or binary.
@@ -52,9 +52,9 @@ class PlyBody {
   std::size_t list_length(const PlyProperty& property);
   void skip_list(const PlyProperty& property);
   void skip_element();
-  /// Bytes of several rows at once; binary files only.
+  /// Returns the bytes of several rows at once; for binary files only.
   std::span<const std::byte> raw_rows(std::size_t bytes);
-  /// @throws Error (bad_data) on trailing data.
+  /// Must be called after the last element. @throws Error (bad_data) if more data follow.
   void expect_end();
 
  private:

@@ -37,7 +37,7 @@ const char* name_of(DiphaType type) {
   return "";
 }
 
-// A cursor after the header of a file, which must have the type `expected`.
+// A cursor that stands after the header of a file; the type of the file must be `expected`.
 BinaryCursor body_of(const Input& input, DiphaType expected) {
   const DiphaType type = dipha_type(input);
   if (type != expected) {
@@ -73,7 +73,8 @@ std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) 
   return count;
 }
 
-// Reads the facets of all cells: their offsets come first, then their number, then the facets.
+// Reads the facets of all cells. The offsets of the cells come first, then the number of all
+// facets, then the facets.
 void read_facets(BinaryCursor& cursor, std::size_t cells, BoundaryMatrix& matrix) {
   const Input& input = cursor.input();
   const std::size_t offsets_at = cursor.offset();

@@ -167,7 +167,8 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
       });
       return stored;
     }
-    // Both arrays exist for a while, and stored numbers are not counted in any budget.
+    // The stored numbers and the scaled ones exist at the same time, and the stored ones are not
+    // counted in any budget.
     input.require_memory(count * (sizeof(T) + sizeof(double)));
     std::vector<double> scaled(count);
     scale_into(from, scaled.data());

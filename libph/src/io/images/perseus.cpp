@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::int64_t kMostAxes = 16;
 constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
-// The grid that a list of cubes spans may have this many voxels per cube, or kFreeVoxels in all.
+// The cubes of a list may span a grid of at most this many voxels per cube, or of at most
+// kFreeVoxels voxels, whichever is more.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
 // Marks a voxel as absent, see Image::masked.
@@ -49,9 +50,9 @@ class CellStream {
               {}});
 }
 
-// Decides the meaning of -1. Perseus takes positive integers, and -1 for a cube that never enters;
-// GUDHI takes any number, and -1 is an ordinary value there. A file that Perseus could read is
-// understood as in Perseus.
+// Decides the meaning of the value -1. In Perseus, values are positive integers, and -1 means a
+// cube that never enters. In GUDHI, a value may be any number, and -1 is an ordinary one. The
+// meaning of Perseus applies if all other values are positive integers.
 void take_missing_cubes(std::vector<double>& values, const ReadOptions& options) {
   std::ranges::replace(values, kInfinity, kAbsent);
   const auto count = std::count(values.begin(), values.end(), -1.0);
@@ -106,7 +107,7 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   return result;
 }
 
-// Reads one cube per line, coordinates and value; the current line is the first one.
+// Reads one cube per line: its coordinates, then its value. The current line is the first cube.
 PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
   struct Cubes {
     std::vector<Index> at;  // one coordinate per axis and cube

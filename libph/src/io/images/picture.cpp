@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kKinds{"", "grey", "grey + alpha", "RGB", "RGB + alpha"};
 
-// Luma of ITU-R BT.601, to the nearest integer, halves up.
+// Luma as in ITU-R BT.601, rounded to the nearest integer, halves up.
 std::uint16_t luma(const std::uint16_t* pixel) {
   // mutant: picture-luma
   return static_cast<std::uint16_t>((299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2] + 500U) /
                                     1000U);
 }
 
-// True if colours and opacity add nothing to grey.
+// True if all pixels are grey and opaque: colours and opacity then add nothing.
 bool is_grey(const Raster& raster) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_alpha = channels % 2 == 0;

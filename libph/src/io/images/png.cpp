@@ -44,7 +44,8 @@ extern "C" {
   png_longjmp(png, 1);
 }
 
-// libpng reports lack of memory with the same messages as damage.
+// libpng reports a lack of memory with the same messages as damaged data; `out_of_memory` tells
+// them apart.
 static void* png_allocate(png_structp png, std::size_t size) {
   void* const memory = std::malloc(size);
   if (memory == nullptr) static_cast<Report*>(png_get_mem_ptr(png))->out_of_memory = true;
@@ -102,8 +103,8 @@ void require_chunks(const Input& input) {
   }
 }
 
-// Each of the steps below calls libpng between setjmp and longjmp and owns nothing that needs a
-// destructor; false means failure.
+// Each of the following functions calls libpng between setjmp and longjmp, and therefore owns
+// nothing that needs a destructor. It returns false on failure.
 
 bool read_header(Reader& reader) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;

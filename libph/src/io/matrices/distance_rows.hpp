@@ -14,12 +14,16 @@ constexpr std::size_t triangle(std::size_t n) {
 /// A matrix without points, or an error, depending on options.allow_empty.
 DistanceMatrix no_points(const Input& input, const ReadOptions& options);
 
-/// Allocates memory for all pairs of n points, after checking that the input has enough bytes for
-/// `cells` cells; empty cells take one byte. @param first number of cells in the first row.
+/// Allocates memory for the distances of all pairs of n points, after checking that the input is
+/// long enough for `cells` cells; a cell may be empty, but takes at least one byte with its
+/// separator.
+/// @param first number of cells in the first row. @param cells absent if the number exceeds 64
+/// bits.
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options);
 
-/// The option that asked for a square matrix, and a possible cause of the problem.
+/// Text for a message: the option that asked for a square matrix, and a possible cause of the
+/// problem.
 std::string why_square(const ReadOptions& options);
 
 [[noreturn]] void fail_row(const TextLines& lines, std::size_t row, std::size_t found,
@@ -28,7 +32,7 @@ std::string why_square(const ReadOptions& options);
 /// Reads entries of a text matrix, checking each one at its place.
 class TextEntries {
  public:
-  /// @param separator see Cells.
+  /// @param separator the character between two cells, as for Cells.
   TextEntries(const TextLines& lines, const ReadOptions& options, char separator = ' ');
 
   void start() { cells_.start(); }
@@ -40,12 +44,12 @@ class TextEntries {
   double next(const EntryPlace& place);
   /// Reads an entry that is not on the diagonal.
   double next() { return next(place(1, 0)); }
-  /// Handles an empty last cell that means NaN.
+  /// Returns the distance for an empty last cell, which means NaN.
   double missing(const EntryPlace& place);
   double merged(double upper, double lower, const EntryPlace& place) {
     return entries_.merged(upper, lower, place);
   }
-  /// To be called after the last entry; see MatrixEntries.
+  /// Must be called after the last entry; see MatrixEntries::finish.
   void finish() const;
 
  private:

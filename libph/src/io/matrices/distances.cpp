@@ -15,8 +15,8 @@ namespace {
 using detail::EntryPlace;
 using detail::triangle;
 
-// Checks that the names of the rows have the order of the columns; otherwise the matrix would have
-// a different meaning.
+// Checks that the rows are named in the same order as the columns; otherwise the entries would
+// belong to other pairs.
 class RowNames {
  public:
   explicit RowNames(const detail::TableLayout& layout) : header_(layout.header) {

@@ -39,8 +39,8 @@ class MatrixEntries {
   /// entry.
   double merged(double upper, double lower, const EntryPlace& place);
 
-  /// To be called after the last number: calls `fail(place, fault)`, which throws, if an error
-  /// exceeds rounding; otherwise notes the numbers that were taken as 0.
+  /// Must be called after the last number. If a number is wrong by more than rounding explains,
+  /// calls `fail(place, fault)`, which throws; otherwise notes the numbers that were taken as 0.
   void finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const;
 
  private:

@@ -25,7 +25,8 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   return std::nullopt;
 }
 
-// Skips a header, which is a row of names here. @return true if the input has data.
+// Moves to the first row of the triangle, and skips a header, which is a row of names here. @return
+// false if the input has no data.
 bool first_row(TextLines& lines, const ReadOptions& options) {
   if (!lines.next()) return false;
   if (header_names(lines.line()).empty()) return true;

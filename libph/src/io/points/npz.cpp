@@ -45,7 +45,8 @@ void expect_signature(BinaryCursor& cursor, std::string_view signature, const ch
   }
 }
 
-// Reads the sizes that need more than 32 bits; the record has only these, in this order.
+// Reads the sizes and the offset that need more than 32 bits. The record contains only these, in
+// the order of the loop below.
 void read_zip64(BinaryCursor extra, std::size_t end, Member& member) {
   while (extra.offset() + 4 <= end) {
     const auto id = extra.read<std::uint16_t>("extra field");

@@ -28,8 +28,8 @@ bool names_coordinate(std::string_view name) {
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
-// True if the first row may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. One or two integers
-// count only if fractions follow.
+// True if the first row may be a header that numbers the columns: 0, 1, 2, … or 1, 2, 3, …. A row
+// of one or two integers may be a header only if one of the next rows contains a fraction.
 bool may_be_header(PointsView rows) {
   const Index columns = rows.cols();
   if (rows.rows() < 2 || columns == 0 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
@@ -42,14 +42,16 @@ bool may_be_header(PointsView rows) {
   return false;
 }
 
-// True if the first row has only digits, as a header of numbers does: 0.0 is a value.
+// True if the first row consists of digits and separators, as a header that numbers the columns
+// does. A cell such as 0.0 is always a value.
 bool begins_with_digits(const Input& input) {
   TextLines lines(input);
   return lines.next() &&
          lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
 }
 
-// Notes numbers that may not be data: an index that was not left out, or a header.
+// Adds a note if the first column may be an index, or the first row a header, that was read as
+// data.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
   constexpr Index kFewest = 8;  // this many rows hardly count by chance
@@ -145,9 +147,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
-  // There are no more rows than lines. As cells may be empty, a row takes at least one byte per
-  // cell, its separator or the line end. Whatever the file contains, the table takes at most eight
-  // times its size.
+  // There are at most as many rows as lines. A cell may be empty, but it takes one byte with its
+  // separator or the line end; a row therefore takes at least one byte per cell. Whatever the file
+  // contains, the table takes at most eight times the size of the file.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
@@ -255,7 +257,8 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   "at least one column",
                   {}});
     }
-    // Both arrays exist for a while, and the stored array is not counted in any budget.
+    // The stored array and the points exist at the same time, and the array is not counted in any
+    // budget.
     input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
     points = Points(array.extents[0], array.extents[1]);
     with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {

@@ -49,7 +49,7 @@ std::vector<double> of_text(const Input& input, std::size_t count, const ReadOpt
   return values;
 }
 
-// An array of one axis, or of a single row or column.
+// Reads an array that has one axis, or a single row or column.
 std::vector<double> of_array(const Input& input, std::string_view owner) {
   const Image array = detail::read_npy_array(input);
   std::size_t long_axes = 0;

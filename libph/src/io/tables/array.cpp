@@ -32,7 +32,8 @@ double element(const std::byte* from, std::endian order, bool& exact) {
   const T value = load<T>(from, order);
   const auto result = static_cast<double>(value);
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-    // 2^63 and 2^64 round up out of the type's range: such values are never exact.
+    // The largest values of int64 and uint64 become 2^63 and 2^64, which lie outside the range of
+    // the type: such a value is never exact.
     const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
     exact = in_range && static_cast<T>(result) == value;
   }
@@ -82,16 +83,16 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 
 namespace {
 
-// Polls the stop token now and then. If numbers are read from one file and written to another, it
-// also removes the pages of both from memory: if the order of the axes changes, pages anywhere may
-// be in use.
+// Polls the stop token from time to time. If numbers are read from one file and written to another,
+// it also removes all pages of both files from memory: if the order of the axes changes, the pages
+// in use may be anywhere.
 class Watch {
  public:
   Watch(const Input& input, std::span<const std::byte> to, bool in_file)
       : input_(input), to_(to), in_file_(in_file) {}
 
   void passed(std::size_t elements) {
-    // Each element may have brought in a page and the pages around it.
+    // Each element may have loaded a page and the pages around it.
     constexpr std::size_t some = 0x7FFF;
     if ((elements & (in_file_ ? some : kPollMask)) != 0) return;
     input_.poll();
@@ -106,7 +107,7 @@ class Watch {
   bool in_file_;
 };
 
-// True if the numbers have the same layout as an image in memory.
+// True if the stored numbers need no conversion to be an image in memory.
 template <class T>
 bool is_as_in_memory(const ArrayLayout& layout, const std::vector<Index>& extents) {
   return layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1) &&

@@ -21,7 +21,8 @@ struct ElementType {
   bool is_native = false;  ///< true if `stored` is this type itself, apart from byte order
 };
 
-/// The type with NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
+/// The type with this name, which is NumPy's letter and the size in bytes: b1 u1 u2 u4 u8 i1 i2 i4
+/// i8 f2 f4 f8. Empty for any other name.
 std::optional<ElementType> element_type(std::string_view kind);
 
 /// The layout of an array in a file.
@@ -53,8 +54,8 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);
 
 /// Reads an array whose elements are present (see count_elements); the result is in C order.
-/// @param excess with stays_in_file, voxels for which `stays_in_file` is true stay in the input's
-///        file, or in a temporary file if their stored form differs.
+/// @param excess with Excess::stays_in_file, voxels for which the function stays_in_file() returns
+/// true stay in the input's file, or in a temporary file if they must be converted.
 /// @throws Error (bad_data) on an integer that double cannot hold; Error (resource); Error (io).
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess = Input::Excess::refused);
@@ -68,7 +69,8 @@ Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
   return Voxels(BorrowedVoxels{type, file->data(), count, file, true});
 }
 
-/// Positions, in C order, of the elements of an array that is visited with the first axis fastest.
+/// Visits the elements of an array with the first axis fastest, and gives the position of each
+/// element in C order.
 class FirstAxisFastest {
  public:
   explicit FirstAxisFastest(const std::vector<Index>& extents);

@@ -22,8 +22,8 @@ bool is_whole(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// The cells of a header whose first cell is empty, as in tables whose rows have names; nothing if
-// the line is no header. Integers count as names if they count the columns, or if the next line
+// The cells of a header whose first cell is empty, as in a table with named rows; empty if the line
+// is not such a header. The names may be integers if these number the columns, or if the next line
 // begins with a name or with the first of these integers.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
@@ -49,7 +49,7 @@ bool is_name_of_index(std::string_view name) {
   return std::ranges::find(kNames, lower_case(name)) != kNames.end();
 }
 
-// What the first column may be.
+// Describes the first column of a table.
 struct FirstColumn {
   std::size_t rows = 0;
   bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
@@ -142,8 +142,8 @@ std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   return count + (cells == count + 1 ? 1 : 0);
 }
 
-// Advice to read the first column as well; nothing for a square matrix, which would no longer be
-// square.
+// Advice to read the first column as well. Empty for a square matrix, which would not be square
+// with it.
 std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   TableLayout rest = layout;
   rest.columns = range(1, layout.width);
@@ -191,9 +191,9 @@ bool has_tabs_between_cells(const Input& input) {
   return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
-// True if --columns has a name in this line that is not the number of a column. 0 may be a mistake
-// of a user who counts columns from 0; it is a name only if the line counts from 0 and the next
-// line has fractions.
+// True if --columns contains a cell of this line that is not the number of a column: the line is
+// then a header. A user who counts columns from 0 may have written 0 by mistake; it is taken as a
+// name only if the line is 0, 1, 2, … and the next line has a cell that is not a whole number.
 bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
                     const std::vector<std::string>& next) {
   bool may_be_0 = !std::ranges::all_of(next, is_whole);
@@ -207,9 +207,9 @@ bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& 
   });
 }
 
-// True if the first line may be a header whose names are integers, such as years: it has a name in
-// a column that is not read, and integers in the columns that are read, where the next line has
-// fractions.
+// True if the first line may be a header whose names are integers, such as years. In such a header,
+// the columns that are read have integers, while a column that is not read has a name; the next
+// line has fractions in the columns that are read.
 bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
   const std::vector<bool> taken = layout.taken();
   const auto looks = [&](const TextLines& line) {
@@ -320,8 +320,8 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   const TextLines& row = has_header ? next : lines;
   layout.separator = separator(row);
   layout.width = width_of(row, layout);
-  // In points and pictures, numbers that count may be data, even if the rest happens to be
-  // symmetric.
+  // In points and pictures, a row or a column that counts may be data, even if the rest happens to
+  // be symmetric.
   if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {

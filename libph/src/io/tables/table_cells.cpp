@@ -90,7 +90,7 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
                     fmt::join(names, ", "), header.size() > names.size() ? ", ..." : "",
                     names.empty() ? "numbers" : ", or numbers", width));
   };
-  // 0 if the text is not the number of a column.
+  // The number of a column, as written in the text; 0 if it is none.
   const auto number = [&](std::string_view text) -> std::size_t {
     std::size_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -79,7 +79,8 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
-// The end of a quoted text, in which a quote is written twice; `begin` if the quotes do not end.
+// The end of a quoted text, in which each quote is written twice; `begin` if there is no closing
+// quote.
 const char* end_of_quotes(const char* begin, const char* end) {
   for (const char* close = begin;;) {
     close = std::find(close + 1, end, '"');
