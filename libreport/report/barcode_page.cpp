@@ -29,7 +29,8 @@ const Complex* complex_as(const BarcodePage& page) {
   return page.complex ? std::get_if<Complex>(page.complex) : nullptr;
 }
 
-/// The image that the page shows: one with two or three axes that is not too large.
+/// The image that the page shows; empty unless the input is an image with two or three axes that is
+/// not too large.
 std::optional<CubicalImage> image_of(const BarcodePage& page) {
   const auto* cubical = complex_as<Cubical>(page);
   if (!cubical) return std::nullopt;
@@ -60,7 +61,7 @@ CloudMeta cloud_meta(const BarcodePage& page) {
 Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>& image) {
   Metadata meta;
   meta.title = page.title;
-  // Files of barcodes hold -f for superlevel sets; a reader of the page sees f.
+  // For superlevel sets of f, barcode files hold the values of -f, but the page shows those of f.
   const auto* cubical = complex_as<Cubical>(page);
   meta.negated = cubical ? cubical->cubical_image().superlevel : page.negated;
   const bool of_values = page.complex ? image.has_value() : meta.negated;
@@ -142,7 +143,8 @@ void write_page(const Sink& sink, const BarcodePage& page, const RunContext& con
     leaf_of = shown.contracted.leaf_of;
   }
   if (image) add_image(report, *image, leaf_of);
-  // The vertices of a listed complex have the order of its list.
+  // Leaves are known by the order in which the complex lists its vertices, which is not the order
+  // of the points.
   if (complex_as<ExplicitComplex>(page)) leaf_of = {};
   if (page.points) add_points(report, *page.points, page.point_ids, leaf_of);
   add_complex(report, cells_shown);

@@ -19,13 +19,13 @@ namespace {
 
 using segment::Method, segment::SceneTree, segment::Segmentation;
 
-// A voxel divided by this is the largest error of stored positions.
+// The largest error of stored positions is the edge of a voxel divided by this number.
 constexpr double kStepsAVoxel = 8;
 
 /// The points that are shown: all points of a cloud except its holes.
 struct ShownPoints {
   std::vector<std::uint32_t> index;   ///< index in the cloud
-  std::vector<std::uint32_t> vertex;  ///< vertex of the tree; kNone: none
+  std::vector<std::uint32_t> vertex;  ///< vertex of the tree; kNone if there is none
   std::vector<float> xyz;
 };
 
@@ -119,8 +119,8 @@ void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
     add_labels(report, "points/truth", truth, false);
 }
 
-/// The bars of positive length, in the order of the barcode file. Their cells are points, one of
-/// each voxel, because the page shows no voxels.
+/// The bars of positive length, in the order of the barcode file. Because the page shows no voxels,
+/// each vertex of a cell is replaced by a point of its voxel.
 Barcode bars_of(const Segmentation& s) {
   std::vector<Index> point(s.tree.cells.size(), -1);
   for (std::size_t k = 0; k < s.tree.points.size(); ++k) {
@@ -140,7 +140,7 @@ Barcode bars_of(const Segmentation& s) {
   return bars;
 }
 
-/// The birth vertex of each of these bars.
+/// The birth vertex of each bar of positive length.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   std::vector<std::uint32_t> vertices;
   for (std::size_t i = 0; i < barcode.size(); ++i)
@@ -149,8 +149,8 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   return vertices;
 }
 
-/// The segments and surfaces of the segmentation: the label and the surface of each leaf, and, for
-/// other cuts, how many voxels of a leaf lie on each surface that was found.
+/// Writes the segments and surfaces of the segmentation: the label and the surface of each leaf.
+/// Other cuts also need the number of voxels of each leaf that lie on each surface that was found.
 void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree& contracted) {
   const std::size_t leaves = contracted.leaf_birth.size();
   std::vector<std::uint32_t> labels(leaves);

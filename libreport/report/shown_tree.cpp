@@ -23,7 +23,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
     options.merge_equal_points.reset();
     return tree_of(rips.with(std::move(options), context), context);
   }
-  // Some points may not be vertices.
+  // A graph with names may lack some points as vertices.
   if (rips.graph(RipsForm::forest, context).has_names()) return std::nullopt;
   return merge_tree(rips, context);
 }
@@ -44,7 +44,7 @@ std::optional<MergeTree> tree_of(const Alpha& alpha, const RunContext& context) 
   return merge_tree(alpha, context);
 }
 
-/// The birth vertex of each bar of H0 in the tree, as far as it is known.
+/// The birth vertex of each bar of H0, as a vertex of the tree; empty if the barcode has no cells.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
   std::vector<std::uint32_t> vertices;
   std::vector<Index> extents;
@@ -60,17 +60,17 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical*
   return vertices;
 }
 
-/// The same number, rounded to three digits.
+/// A number rounded to three significant digits.
 double rounded(double x) {
   const std::string digits = fmt::format("{:.3g}", x);
   floating_from_chars(digits.data(), digits.data() + digits.size(), x);
   return x;
 }
 
-/// The middle of the widest gap between neighbours in a list of ascending levels, if the gap is
-/// wider than `least`. The upper level is at least a tenth of the largest, because gaps far below
-/// it occur by chance.
-/// @param width distance between two levels.
+/// The middle of the widest gap between neighbouring levels in an ascending list; empty if no gap
+/// is wider than `least`. A gap counts only if its upper level is at least a tenth of the largest
+/// level, because gaps far below occur by chance.
+/// @param width returns the distance between two levels.
 template <class Width>
 std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
                                        Width width) {
@@ -86,10 +86,10 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
   return middle;
 }
 
-/// A cut at the widest ratio between neighbouring levels of the largest merges: levels above it are
-/// much more persistent than levels below. If no ratio is wide, the cut lies, for basins, in the
-/// widest difference; otherwise, it is the largest level, which leaves the fewest parts. Without
-/// merges, it is `from`.
+/// A cut in the gap where neighbouring levels of the largest merges have the largest ratio: levels
+/// above it are much more persistent than levels below. If no ratio is large, the cut of basins
+/// lies in the gap with the largest difference; the cut of components is the largest level, which
+/// leaves the fewest parts. Without merges, the cut is `from`.
 double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRule rule,
                   double from) {
   constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64 levels
@@ -110,8 +110,8 @@ double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRu
   return cut.value_or(levels.back());
 }
 
-/// The meaning of the values of a complex whose points enter together, and which therefore has
-/// clusters at a value. Otherwise empty, because minima lie at different depths.
+/// The meaning of the values of a complex whose points enter together; such a complex has clusters
+/// at each value. Empty for any other complex, because its minima lie at different depths.
 std::string_view label_of_values(const AnyComplex& complex) {
   if (std::holds_alternative<Rips>(complex)) return "distance";
   const auto* alpha = std::get_if<Alpha>(&complex);

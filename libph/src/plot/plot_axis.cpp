@@ -16,7 +16,7 @@ namespace {
 int magnitude(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 double in_units(double value, int exponent) {
-  // Scales in two steps: a power of ten beyond 10^±308 is not a double, but its root is.
+  // Divides in two steps, because a power of ten beyond 10^±308 is not a double, but its root is.
   const int half = exponent / 2;
   return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
 }
@@ -28,7 +28,8 @@ std::string superscript(int number) {
   return text;
 }
 
-/// Rounds up to a number that is 1, 2 or 5 times a power of ten; excess of up to 1 % is ignored.
+/// Rounds up to 1, 2 or 5 times a power of ten; a number at most 1 % above such a value is rounded
+/// down to it.
 double round_step(double rough) {
   const double power = std::pow(10.0, magnitude(rough));
   double step = 10 * power;
@@ -73,8 +74,8 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   }
   low_ = in_units(low, exponent_);
   high_ = in_units(high, exponent_);
-  // If the ends are equal, or so close that few doubles lie between them, the axis is widened to
-  // the right: a class then begins at the left end and has room to go on.
+  // If the ends are equal, or so close that few doubles lie between them, the right end is moved to
+  // the right. A class that begins at the left end then has room for its bar.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
   // mutant: plot-one-class
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
@@ -98,7 +99,7 @@ std::string Axis::label_of(double value, int decimals) const {
   return label;
 }
 
-/// Ticks at 1, 2 and 5 times powers of ten, or at powers only, depending on the room.
+/// Ticks at 1, 2 and 5 times the powers of ten, or only at powers of ten if there is little room.
 std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   std::vector<Tick> ticks;
   const auto add = [&](double factor, int power) {

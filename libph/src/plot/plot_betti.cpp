@@ -13,7 +13,7 @@ constexpr double kLeft = 38, kRight = 242;
 constexpr double kHeight = 52, kGap = 9;  // height of one curve, and the gap between curves
 constexpr double kColumn = 0.25;  // width of a column, inside which steps are indistinguishable
 
-/// A step of a curve: from x on, its value is `living`.
+/// A step of a curve: `living` bars are alive between position x and the next step.
 struct Step {
   double x = 0;
   long living = 0;
@@ -57,7 +57,7 @@ std::vector<Step> thinned(const std::vector<Step>& steps) {
   return kept;
 }
 
-/// The step between the ticks of the vertical axis, at most three of which are above 0.
+/// The step between the ticks of the vertical axis, chosen so that at most three ticks lie above 0.
 long count_step(long most) {
   long step = 1;
   for (long power = 1; power <= most; power *= 10)

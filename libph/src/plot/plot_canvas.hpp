@@ -151,8 +151,8 @@ class Canvas {
   std::vector<Element> elements_;
 };
 
-/// The smallest and the largest finite value; if there is none, 0 and 1, or 1 and 10 for
-/// logarithms.
+/// The smallest and the largest finite value. If there is none, these are 0 and 1, or, on a
+/// logarithmic axis, 1 and 10.
 struct Range {
   double low = 0;
   double high = 1;
@@ -162,7 +162,8 @@ struct Range {
 /// any size, because it computes in units of a power of ten.
 class Axis {
  public:
-  /// @param range the values at the ends, which the options may replace; equal values are widened.
+  /// @param range the values at the ends of the axis; the options may replace them, and if both are
+  /// equal, the range is widened.
   /// @throws Error (usage) if the options leave an empty range.
   Axis(const Range& range, const PlotOptions& options, double from, double to);
 
@@ -187,8 +188,8 @@ class Axis {
   std::vector<Tick> powers_of_ten(int count) const;
   std::vector<Tick> round_values(int count) const;
   std::string label_of(double value, int decimals) const;
-  /// A value in the units of low_ and high_. For negated data, the logarithm is taken of the data's
-  /// own values.
+  /// A value in the units of low_ and high_. On a logarithmic axis of negated data, it is minus the
+  /// logarithm of the original value.
   double in_scale(double value) const;
 
   double low_ = 0, high_ = 1;  // in units of 10^exponent_; logarithms on a logarithmic axis
@@ -208,9 +209,9 @@ bool is_shown(double birth, double death, const PlotAxis& limits);
 /// The bars that are drawn, without cells. @param beyond receives the number of bars that are
 /// beyond the axis.
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
-/// Writes how many bars are beyond the axis, on the left of the name of the axis.
+/// Writes how many bars are beyond the axis, to the left of the axis's name.
 void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
-/// Puts the drawing into the middle of a picture of the size that the options ask for.
+/// Centres the drawing in a picture of the size that the options ask for.
 Drawing fitted(Drawing drawing, const PlotOptions& options);
 /// The dimensions that have bars, ascending.
 std::vector<int> dims_of(const Barcode& barcode);

@@ -40,8 +40,8 @@ void Coverage::add(Place from, Place to) {
 }
 
 void Coverage::add_within_row(std::size_t row, Place from, Place to) {
-  // If the edge is left of the picture, all pixels of the row are on its right; if it is right of
-  // the picture, none is.
+  // All pixels of the row are to the right of an edge that is left of the picture; no pixel is to
+  // the right of an edge that is right of the picture.
   const auto right = static_cast<double>(width_);
   if (std::max(from.x, to.x) <= 0 || std::min(from.x, to.x) >= right || from.x == to.x) {
     from.x = to.x = std::clamp(from.x, 0.0, right);
@@ -65,7 +65,8 @@ void Coverage::add_within_pixel(std::size_t row, Place from, Place to) {
   const auto column =
       std::min(width_, static_cast<std::size_t>(std::max(0.0, std::min(from.x, to.x))));
   if (column == width_) return;
-  // Adds the part of the pixel on the right of the edge, and all pixels after it.
+  // Adds the part of this pixel that is to the right of the edge, and all pixels after it in the
+  // row.
   const double height = to.y - from.y;
   const double middle = (from.x + to.x) / 2 - static_cast<double>(column);
   float* const change = change_.data() + row * (width_ + 1) + column;

@@ -38,7 +38,8 @@ class Coverage {
   void add_within_pixel(std::size_t row, Place from, Place to);
 
   std::size_t width_, height_;
-  // Row by row, with one extra column: the change of the coverage from the pixel on the left.
+  // The change of the coverage from each pixel to the next one on its right, row by row. Each row
+  // has one extra column.
   std::vector<float> change_;
   std::size_t first_row_, end_row_;  // range of rows that were touched
 };

@@ -26,8 +26,8 @@ struct Marker {
 
 using Places = std::map<std::tuple<int, long, long>, Marker>;
 
-/// Merges bars that lie in one square with a side of a quarter of a point; their marker is at their
-/// mean position.
+/// Merges the bars of a dimension that lie in the same square of a quarter of a point; the marker
+/// is drawn at their mean position.
 template <class PlaceOf>
 Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
   constexpr double cell = 0.25;
@@ -97,7 +97,7 @@ std::string lower_first(std::string text) {
 /// Counts the bars in each square of a picture.
 class Squares {
  public:
-  /// @param side in pixels of a PNG, which avoids seams between adjacent squares.
+  /// @param side of a square, in whole pixels of a PNG; adjacent squares then show no seam.
   explicit Squares(int side) : side_(side * kWidth / static_cast<double>(kPixels)) {}
 
   void add(int dim, double x, double y) { ++counts_[{dim, number(y), number(x)}]; }
@@ -211,7 +211,7 @@ void draw_markers(Canvas& canvas, const Places& places, double left) {
   for (const auto& [where, marker] : places)
     add_shape(shapes[std::get<0>(where)], std::get<0>(where), marker.x, marker.y,
               radius_of(marker.count));
-  // White edges separate single markers; if there are many, the edges would hide them.
+  // White edges separate the markers. If there are many markers, the edges would hide them.
   const auto edge = places.size() <= 60 ? std::optional(kWhite) : std::nullopt;
   for (auto& [dim, outline] : shapes)
     canvas.shape(

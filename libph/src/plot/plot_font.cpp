@@ -66,8 +66,9 @@ char32_t code_point(const std::string& character) {
   return code;
 }
 
-/// One outline of a glyph in font units: corners, and control points of quadratic Bézier curves
-/// between them. Two consecutive control points have a corner in their middle.
+/// Turns one outline of a glyph into a polygon. The points, in font units, are corners, and control
+/// points of quadratic Bézier curves between the corners. Two consecutive control points imply a
+/// corner midway between them.
 /// @param tags the tags of the points: char or, since FreeType 2.13.3, unsigned char.
 std::vector<Place> flattened(std::span<const FT_Vector> points, const auto* tags, double unit) {
   const std::size_t count = points.size();

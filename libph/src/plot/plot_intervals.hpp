@@ -15,12 +15,14 @@ inline constexpr double kTriangle = 4.5;                     // room for a trian
 inline constexpr std::size_t kRows = 96;      // largest number of lines in one picture
 inline constexpr double kDensityHeight = 16;  // height of a density with its caption
 
-/// Positions in a list, ascending: of the longest classes, and of all others.
+/// Positions in a list of classes: those of the longest classes, ascending, and those of all
+/// others.
 struct Longest {
   std::vector<std::size_t> crisp, rest;
 };
-/// @param most largest number of classes drawn one by one; if only a handful would remain, all are.
-/// @param length of the class at a position.
+/// @param most the number of classes that are drawn one by one; if at most `handful` classes would
+/// remain, all are drawn this way.
+/// @param length returns the length of the class at a position.
 template <class Length>
 Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
   constexpr std::size_t handful = 8;  // this many lines take less space than a density
@@ -57,7 +59,8 @@ class Lines {
   Outline lines_, triangles_;
 };
 
-/// The number of the remaining classes alive at each value, shown as the darkness of a strip.
+/// The number of classes alive at each value, without those drawn as lines; it is shown as the
+/// darkness of a strip.
 class Density {
  public:
   explicit Density(const Axis& axis);

@@ -12,7 +12,7 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kBold = 0.045;  // thickening by bold type, as a share of the size
+constexpr double kBold = 0.045;  // share of the size by which bold type thickens outlines
 
 /// Width of a picture in pixels.
 Index pixels_across(const Drawing& drawing) {
@@ -119,7 +119,7 @@ class Painter {
     paint(line.colour, 1);
   }
 
-  /// Rounds to entire pixels: adjacent rectangles show no seam.
+  /// Rounds the sides to whole pixels, so that adjacent rectangles show no seam.
   void operator()(const Rectangle& rect) {
     const auto whole = [this](double points) { return std::round(scale_ * points); };
     const double left = whole(rect.x), right = whole(rect.x + rect.width);

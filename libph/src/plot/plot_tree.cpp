@@ -35,7 +35,8 @@ class Layout {
   std::size_t elder(std::size_t k) const { return shown_elder(shown_[k]); }
 
  private:
-  /// The nearest elder that is drawn: an elder that is only as long as the branch may be left out.
+  /// The nearest elder that is drawn. The elder itself may be left out if it is only as long as the
+  /// branch.
   std::size_t shown_elder(std::size_t branch) const {
     while (!tree_[branch].is_infinite()) {
       branch = static_cast<std::size_t>(tree_[branch].elder);
@@ -52,8 +53,8 @@ class Layout {
     return rows;
   }
 
-  /// Places a branch between the branches that join it. A branch that joins earlier is nearer,
-  /// which avoids crossings; each goes to the side with fewer rows.
+  /// Places a branch between the branches that join it. Branches that join earlier are placed
+  /// nearer to it, which avoids crossings; each is placed on the side that has fewer rows.
   void place(std::size_t k) {
     std::vector<std::size_t> above, below;
     std::size_t rows_above = 0, rows_below = 0;
@@ -74,7 +75,8 @@ class Layout {
   std::size_t next_ = 0;
 };
 
-/// @throws Error (bad_data) on NaN, or unless each branch leads to one that never dies.
+/// Checks a merge tree. @throws Error (bad_data) if a value is NaN, or if the elders of a branch do
+/// not lead to one that never dies.
 void check(std::span<const Branch> tree) {
   const auto refuse = [](std::size_t i, const std::string& found, const std::string& expected) {
     throw Error(ErrorKind::bad_data,

@@ -19,14 +19,15 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
-/// The number of a point in the input. @param ids the numbers of the remaining points; empty: all
-/// remain.
+/// The number that a point has in the input. @param ids the input numbers of the points that
+/// remain; empty if all remain.
 std::uint32_t number_of(Index point, std::span<const Index> ids) {
   return static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]);
 }
 
-/// Adds the first cells of a dimension of a complex that lists its cells.
-/// @return the value from which on some cells are missing.
+/// Adds the first cells of one dimension, in the order of their values, of a complex that lists its
+/// cells.
+/// @return the least value of a cell that was left out; empty if all cells were added.
 template <class Listed>
 std::optional<double> add_first(const Listed& complex, int dim, std::size_t most,
                                 std::span<const Index> ids, const RunContext& context,
@@ -108,7 +109,7 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> 
     return arrays_of(rips->graph(form.value_or(RipsForm::edges), context), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, ids, context);
-  // Edges around a periodic space would be drawn across it.
+  // An edge that crosses the boundary of a periodic space would be drawn across the whole space.
   if (const auto* alpha = std::get_if<Alpha>(&complex); alpha && !alpha->is_periodic()) {
     alpha->prepare(context);
     return arrays_of(*alpha, count, ids, context);

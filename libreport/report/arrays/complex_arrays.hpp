@@ -11,22 +11,23 @@
 
 namespace ph::report {
 
-/// The data that a page cannot derive from the positions of points: when points enter, and the
-/// cells that come first. Vertices have the numbers of the input.
+/// The data that a page cannot derive from the positions of points: the values at which the points
+/// enter, and the first cells. Vertices have the numbers of the input.
 struct ComplexArrays {
-  /// Births of the points; NaN: not a vertex. Empty: all enter together.
+  /// The birth of each point; NaN if the point is not a vertex. Empty if all points enter together.
   std::vector<float> births;
   std::vector<std::uint32_t> edges, triangles;
   std::vector<float> edge_values, triangle_values;  ///< in ascending order
-  /// Edges and triangles from these values on are left out.
+  /// The least value of an edge, and of a triangle, that is left out; empty if none is left out.
   std::optional<double> missing_from, triangles_missing_from;
 };
 
-/// For a Rips complex, its first edges (from which the page finds the triangles), unless it holds
-/// only a forest; for a mesh with values or an alpha complex, its first edges and all triangles, or
-/// the first 2 000 000 if there are more.
-/// @param form of a Rips filtration. @param count number of points. @param ids their numbers in the
-/// input; empty: all are there.
+/// The cells of a complex that a page shows. For a Rips complex, these are its first edges, from
+/// which the page finds the triangles; a Rips complex that holds only a forest has none. For a mesh
+/// with values or an alpha complex, they are its first edges and its first 2 000 000 triangles.
+/// @param form the form of the Rips filtration; ignored for other complexes.
+/// @param count number of points. @param ids the numbers of the points in the input; empty if the
+/// input has no other points.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> form,
                              std::size_t count, std::span<const Index> ids,

@@ -14,7 +14,7 @@ constexpr std::uint32_t kNoLabel = UINT32_MAX;
 template <class T>
 void add_as(ReportFile& report, std::string_view name, std::span<const std::uint32_t> labels) {
   const MemoryClaim copy(report.context().memory, labels.size() * sizeof(T));
-  // The largest number becomes the largest value of the type.
+  // UINT32_MAX, which means no label, becomes the largest value of the type.
   std::vector<T> numbers;
   numbers.reserve(labels.size());
   for (const std::uint32_t label : labels) numbers.push_back(static_cast<T>(label));

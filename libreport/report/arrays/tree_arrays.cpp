@@ -14,7 +14,8 @@ bool is_kept(const Merge& m, CutRule rule, double from, Index min_part) {
   return rule == CutRule::value ? m.value > from : m.separates(from, min_part);
 }
 
-/// The level of a merge, with which the page compares a cut: exactly the program's double.
+/// The level of a merge, which the page compares with the cut. It is exactly the double with which
+/// the program compares.
 double level(const Merge& m, CutRule rule) {
   return rule == CutRule::value ? m.value : m.persistence();
 }

@@ -10,18 +10,21 @@
 
 namespace ph::report {
 
-/// @param rule, from the page cuts by this rule, at `from` or more.
-/// @param min_part for rule persistence: fewest vertices of both components of a merge that is
-///     kept.
-/// @param points number of points of each vertex; empty: one each. O(vertices).
+/// Contracts the merges that every cut of the page performs; the vertices that they join form a
+/// leaf.
+/// @param rule, from the page cuts by this rule, at `from` or above.
+/// @param min_part for rule persistence: a merge is kept only if each of its components has at
+/// least this many vertices.
+/// @param points number of points of each vertex; empty if each vertex is one point. O(vertices).
 ContractedTree contracted(const MergeTree& tree, CutRule rule, double from, Index min_part,
                           std::span<const std::uint32_t> points, const RunContext& context);
 
-/// The least cut for which at most `most` merges are kept: it lies above the levels of all others.
+/// The least cut at which contracted() keeps at most `most` merges.
 double least_cut(const MergeTree& tree, CutRule rule, std::size_t most);
 
-/// The bar of H0 that dies in each merge: bars and merges are matched by value, and equal ones by
-/// the order of their birth vertices. @param birth_vertices the birth vertex of each bar.
+/// Finds the bar of H0 that dies in each merge. Bars and merges are matched by birth and death; if
+/// several have the same values, they are matched in the order of their birth vertices.
+/// @param birth_vertices the birth vertex of each bar.
 LinkedBars linked_bars(const MergeTree& tree, const Barcode& barcode,
                        std::span<const std::uint32_t> birth_vertices);
 
@@ -30,12 +33,12 @@ void add_tree(ReportFile& report, const MergeTree& tree, const ContractedTree& c
               const LinkedBars& bars, CutRule rule);
 
 /// Pairs of leaves that are adjacent in the picture that a camera took, each pair once with the
-/// smaller leaf first. One leaf is to the right of the other or below it, with at most a few pixels
-/// without a leaf in between, as occur where one thing hides another. In space, such leaves may be
-/// far apart.
-/// @param index the pixel of each point, counted row by row, ascending. @param leaf the leaf of
-///     each point; kNone: none.
-/// @param width of the picture, > 0. O(n log n).
+/// smaller leaf first. One leaf is to the right of the other or below it, and at most a few pixels
+/// without a leaf lie between them. Such gaps occur where one thing hides another; in space, the
+/// leaves may be far apart.
+/// @param index the pixel of each point, counted row by row, ascending.
+/// @param leaf the leaf of each point; kNone if it has none. @param width of the picture, > 0. O(n
+/// log n).
 std::vector<std::uint32_t> touching_in_picture(std::span<const std::uint32_t> index,
                                                std::span<const std::uint32_t> leaf,
                                                std::size_t width);

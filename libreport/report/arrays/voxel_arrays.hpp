@@ -22,13 +22,14 @@ struct VoxelSets {
   std::vector<std::uint32_t> bars;
   std::vector<std::uint32_t> start{0};  ///< set i has the runs start[i] ... start[i + 1] - 1
   std::vector<std::uint32_t> runs;      ///< first voxel and length of each run
-  std::size_t left_out = 0;             ///< number of bars whose sets exceed the rest of the budget
+  std::size_t left_out = 0;             ///< number of bars whose sets do not fit the budget
 
-  /// A note for the reader about missing sets; empty if all are there.
+  /// A note for the reader about missing sets; empty if none is missing.
   std::string note() const;
 };
 
-/// For a barcode with Representatives::voxels: the sets of the most persistent bars that fit.
+/// For a barcode with Representatives::voxels: the sets of the most persistent bars, as far as the
+/// budget allows. Empty for any other barcode.
 /// @throws Error (resource, cancelled).
 VoxelSets voxel_sets(const Barcode& barcode, const RunContext& context, VoxelBudget budget = {});
 

@@ -66,9 +66,11 @@ class DeflatedText {
   std::string text_;
 };
 
-/// The bytes in the order in which they are compressed: little endian, differences between rows if
-/// `delta`, and the first bytes of all numbers, then the second bytes, and so on. @param Word the
-/// unsigned integer as wide as a number; differences modulo its width also work for signed numbers.
+/// Writes the numbers byte by byte in the order in which they are compressed: the lowest bytes of
+/// all numbers, then their second bytes, and so on. If `delta`, each number is first replaced by
+/// its difference from the same column of the row before.
+/// @param Word the unsigned integer as wide as a number; differences modulo its range also work for
+/// signed numbers.
 template <class Word>
 void put_numbers(const RawArray& array, std::size_t columns, bool delta, DeflatedText& text) {
   constexpr std::size_t block = 1 << 17;

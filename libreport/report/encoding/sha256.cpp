@@ -56,7 +56,8 @@ void add_block(State& state, const std::byte* block) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] += added[i];
 }
 
-/// @param done_with called with (begin, size) of each part that was read, about a MiB.
+/// @param done_with is called as done_with(begin, size) after each part of about a MiB has been
+/// read.
 template <class DoneWith>
 std::string hex_of(std::span<const std::byte> bytes, const RunContext& context,
                    DoneWith&& done_with) {

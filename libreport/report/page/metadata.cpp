@@ -11,7 +11,7 @@ namespace {
 
 using json::integer, json::number, json::object;
 
-// Values that are left out if they are empty.
+// These functions return an empty text for an empty value, which is then left out.
 std::string text(std::string_view value) { return value.empty() ? "" : json::string(value); }
 std::string number_if(const std::optional<double>& value) { return value ? number(*value) : ""; }
 std::string point_if(const std::optional<std::array<double, 3>>& values) {

@@ -52,7 +52,7 @@ segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
   return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
 }
 
-/// The cloud as the pipeline reads it, with its rows and columns if they hold all points.
+/// The cloud as the pipeline reads it; it keeps its rows and columns if all its points lie in them.
 /// @param xyz the `coordinates` of the cloud; they must outlive the view.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<const float> xyz) {
@@ -64,8 +64,8 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<
   return view;
 }
 
-/// The same view without a copy; the cloud must outlive it. In each of PCL's own types, x, y, z lie
-/// side by side. @throws Error (usage) if they do not in this type.
+/// The same view without a copy; the cloud must outlive it. All point types of PCL store x, y and z
+/// side by side. @throws Error (usage) if another type does not.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
   static_assert(sizeof(PointT) % sizeof(float) == 0, "points lie at whole numbers of floats");
@@ -104,8 +104,8 @@ inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& s
   return clusters;
 }
 
-/// The points on each surface that bounds the scene (ph::segment::SceneTree::surfaces), in their
-/// order.
+/// The points on each surface that bounds the scene, in the order of
+/// ph::segment::SceneTree::surfaces.
 inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentation& segmentation,
                                                         const ::pcl::PCLHeader& header = {}) {
   std::vector<::pcl::PointIndices> surfaces(segmentation.tree.surfaces.size());
@@ -117,8 +117,8 @@ inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentat
   return surfaces;
 }
 
-/// The same points in the same order and organisation, as another type: x, y, z, and whatever
-/// `paint` adds to point i.
+/// Copies a cloud to another type of points, with the same order and organisation: x, y, z of each
+/// point, and whatever `paint(i, point)` adds.
 template <class To, class PointT, class Paint>
 ::pcl::PointCloud<To> converted(const ::pcl::PointCloud<PointT>& cloud,
                                 const std::vector<std::uint32_t>& labels, Paint&& paint) {
@@ -206,16 +206,17 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Half the thickness of the plane, metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
-  /// The least half of the plane's thickness at a range of one metre, in metres; it grows with the
-  /// square of the range.
+  /// Half the thickness of the plane is at least this at a range of one metre, in metres; the limit
+  /// grows with the square of the range.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
   /// The supporting plane of the frame before; unsetPlaneGuess forgets it.
   void setPlaneGuess(const segment::Plane& plane) { options_.plane_guess = plane; }
   void unsetPlaneGuess() { options_.plane_guess.reset(); }
   const std::optional<segment::Plane>& getPlaneGuess() const { return options_.plane_guess; }
-  /// The position of the sensor. By default it is where the rays of the pixels of an organised
-  /// cloud meet, if this can be told, else the origin that the cloud states.
+  /// The position of the sensor. The default is the point at which the rays of the pixels of an
+  /// organised cloud meet. If this point cannot be determined, the default is the origin that the
+  /// cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
   void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
   /// The sensor position that was set, or else the one that the input cloud states.
@@ -232,7 +233,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
   Index getMinClusterSize() const { return options_.cut().min_size; }
-  /// Methods surface and supervoxels: least persistence of a part, in units of the noise or metres.
+  /// Methods surface and supervoxels: least persistence of a part, in units of the noise (surface)
+  /// or in metres (supervoxels).
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const { return options_.part_persistence(); }
   /// Method supervoxels: the largest distance of the surface from a seed, metres.
@@ -274,9 +276,9 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_.cut, this->input_->header);
     this->deinitCompute();
   }
-  /// A coarser or finer cut, within milliseconds, of the tree that the last call of `segment`
-  /// found; the getters below then describe this cut. @param value see segment::CutOptions. @throws
-  /// ph::Error (usage) on a value out of its range.
+  /// Cuts the tree of the last call of `segment` more coarsely or more finely, within milliseconds;
+  /// the getters below then describe this cut.
+  /// @param value see segment::CutOptions. @throws ph::Error (usage) on a value out of its range.
   void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
     segment::CutOptions options = result_.tree.first_cut;
     options.value = value;
